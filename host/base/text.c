@@ -40,10 +40,10 @@ void ec_text_clean(char *text)
     *to = 0;
 }
 
-void ec_text_print(FILE *to, const char *name)
+void ec_text_print(FILE *to, const char *before, const char *name, const char *behind)
 {
     EC_FREED char *copy = strdup(name);
     if (!copy) return;
     ec_text_clean(copy);
-    fputs(copy, to);
+    fprintf(to, "%s%s%s", before, copy, behind);
 }

@@ -45,7 +45,7 @@ static void platform_text(cl_platform_id platform, cl_platform_info what, char t
         (to) = number;                                                                             \
     } while (0)
 
-/* Of all devices, where it is forced: what is done on cards is tried on processors so. 0: each has its own. */
+/* The type that ECLAT_DEVICE_TYPE gives to all devices, so that what is done on cards can be tried on processors; 0: each has its own. */
 static ec_result forced_type(cl_device_type *type, ec_error *err)
 {
     static const struct { const char *name; cl_device_type type; } types[] = {

@@ -53,7 +53,10 @@ ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t
     const size_t items = (size_t)((global + local - 1) / local * local);
     cl_event event;
     cl_int code = enqueue(cl, kernel, items, local, &event);
-    if (code == CL_INVALID_WORK_GROUP_SIZE && group_most(cl, kernel) < local) code = enqueue(cl, kernel, items, group_most(cl, kernel), &event);
+    if (code == CL_INVALID_WORK_GROUP_SIZE) {
+        const size_t most = group_most(cl, kernel);
+        if (most < local) code = enqueue(cl, kernel, items, most, &event);
+    }
     EC_TRY(ec_cl_check(code, "clEnqueueNDRangeKernel", label, err));
     return ec_cl_launched(cl, event, label, err);
 }

@@ -28,7 +28,7 @@ static const ec_workaround workarounds[] = {
 
 enum { ROWS = sizeof workarounds / sizeof *workarounds };
 
-/* What is to be taken whatever the driver: drivers that are not at hand are tried so. NULL: nothing is. */
+/* The row that ECLAT_WORKAROUND names, so that drivers that are not at hand can be tried; NULL: each driver has its own. */
 static const char *forced(void)
 {
     const char *name = getenv("ECLAT_WORKAROUND");

@@ -53,7 +53,7 @@ static ec_result run_passes(work *w, ec_error *err)
 static ec_result filter_half(work *w, const ec_film *film, uint32_t half, float scale, float *colours, float *rgb, ec_error *err)
 {
     const uint64_t bytes = w->pixels * 4 * sizeof(float);
-    ec_half_with_variance(film, half, scale, colours);
+    ec_half(film, half, scale, 4, colours);
     EC_TRY(ec_buffer_write(&w->cl, w->colours[0], 0, bytes, colours, err));
     EC_TRY(run_passes(w, err));
     EC_TRY(ec_buffer_read(&w->cl, w->colours[PASSES % 2], 0, bytes, colours, err));

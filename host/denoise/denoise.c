@@ -30,15 +30,21 @@ typedef struct work {
 
 static uint64_t pixels_of(const work *w) { return (uint64_t)w->film->width * w->film->height; }
 
+/* The library, or NULL where the filter of eclat's own takes its place. */
+static ec_result open_oidn(ec_denoiser asked, ec_oidn **oidn, ec_error *err)
+{
+    const bool is_named = asked == EC_DENOISER_OIDN || ec_oidn_is_named();
+    *oidn = NULL;
+    if (asked == EC_DENOISER_ATROUS) return EC_OK;
+    return ec_oidn_open(oidn, is_named ? err : NULL) == EC_OK || !is_named ? EC_OK : EC_FAILED;
+}
+
 ec_result ec_denoiser_find(ec_denoiser asked, ec_denoiser *found, ec_error *err)
 {
     ec_oidn *oidn;
-    const bool is_named = asked == EC_DENOISER_OIDN || ec_oidn_is_named();
-    *found = EC_DENOISER_ATROUS;
-    if (asked == EC_DENOISER_ATROUS) return EC_OK;
-    if (ec_oidn_open(&oidn, is_named ? err : NULL) != EC_OK) return is_named ? EC_FAILED : EC_OK;
+    EC_TRY(open_oidn(asked, &oidn, err));
+    *found = oidn ? EC_DENOISER_OIDN : EC_DENOISER_ATROUS;
     ec_oidn_close(oidn);
-    *found = EC_DENOISER_OIDN;
     return EC_OK;
 }
 
@@ -95,7 +101,7 @@ static ec_result filter_by_oidn(work *w, ec_oidn *oidn, ec_error *err)
     if (is_smoothed) EC_TRY(ec_oidn_filter(oidn, &image, err));
     image.albedo = w->albedo;
     for (uint32_t h = 0; h < 2; h++) {
-        ec_half(film, h, w->scale, w->half[h]);
+        ec_half(film, h, w->scale, 3, w->half[h]);
         image.color = w->half[h];
         EC_TRY(ec_oidn_filter(oidn, &image, err));
     }
@@ -105,12 +111,11 @@ static ec_result filter_by_oidn(work *w, ec_oidn *oidn, ec_error *err)
 static ec_result filter(work *w, ec_denoiser denoiser, const ec_device_info *device, ec_denoised *out, ec_error *err)
 {
     ec_oidn *oidn;
-    EC_TRY(ec_denoiser_find(denoiser, &denoiser, err));
-    if (denoiser == EC_DENOISER_ATROUS) {
+    EC_TRY(open_oidn(denoiser, &oidn, err));
+    if (!oidn) {
         snprintf(out->library, sizeof out->library, "a-trous filter");
         return ec_atrous(device, w->film, w->scale, w->half, err);
     }
-    EC_TRY(ec_oidn_open(&oidn, err));
     snprintf(out->library, sizeof out->library, "Open Image Denoise %s", ec_oidn_version(oidn));
     const ec_result result = filter_by_oidn(w, oidn, err);
     ec_oidn_close(oidn);

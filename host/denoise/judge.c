@@ -37,57 +37,37 @@ static uint32_t list_replicates(const ec_film *film, uint32_t list[EC_REPLICATES
     return count;
 }
 
-/* Each replicate by its samples: those of a picture whose last batch was cut short differ. */
-static void half_of_piece(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, double scale, float *rgb)
-{
-    uint32_t list[EC_REPLICATES_MOST];
-    const uint32_t n = list_replicates(film, list);
-    double mean[3 * EC_PIXELS] = {0}, one[3 * EC_PIXELS], samples = 0;
-    for (uint32_t k = half; k < n; k += 2) {
-        samples += film->samples[list[k]];
-        ec_film_replicate(film, first, count, list[k], one);
-        for (uint64_t i = 0; i < 3 * count; i++) mean[i] += (one[i] - mean[i]) * film->samples[list[k]] / samples;
-    }
-    for (uint64_t i = 0; i < 3 * count; i++) rgb[i] = (float)(scale * mean[i]);
-}
-
-/* Into the last of 4 floats a pixel; rgb: the half's mean, times `scale`. */
-static void variance_of_piece(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, double scale, const float *rgb, float *rgbv)
+/* Each replicate by its samples: those of a picture whose last batch was cut short differ. fields: floats a pixel, 3 or 4. */
+static void half_of_piece(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, double scale, uint32_t fields, float *out)
 {
     uint32_t list[EC_REPLICATES_MOST], used = 0;
     const uint32_t n = list_replicates(film, list);
-    double one[3 * EC_PIXELS], squares[EC_PIXELS] = {0};
+    double mean[3 * EC_PIXELS] = {0}, one[3 * EC_PIXELS], y[EC_REPLICATES_MOST / 2 + 1][EC_PIXELS], samples = 0;
     for (uint32_t k = half; k < n; k += 2, used++) {
+        samples += film->samples[list[k]];
         ec_film_replicate(film, first, count, list[k], one);
-        for (uint64_t i = 0; i < count; i++) {
-            const double y = scale * ec_luminance(&one[3 * i]) - ec_luminance_of_floats(&rgb[3 * i]);
-            squares[i] += y * y;
-        }
+        for (uint64_t i = 0; i < 3 * count; i++) mean[i] += (one[i] - mean[i]) * film->samples[list[k]] / samples;
+        for (uint64_t i = 0; i < count; i++) y[used][i] = scale * ec_luminance(&one[3 * i]);
     }
     for (uint64_t i = 0; i < count; i++) {
-        memcpy(&rgbv[4 * i], &rgb[3 * i], 3 * sizeof(float));
-        rgbv[4 * i + 3] = used > 1 ? (float)(squares[i] / (used * (used - 1.0))) : 0;
+        float *to = out + fields * i;
+        double squares = 0;
+        for (uint64_t c = 0; c < 3; c++) to[c] = (float)(scale * mean[3 * i + c]);
+        if (fields == 3) continue;
+        for (uint32_t k = 0; k < used; k++) {
+            const double apart = y[k][i] - ec_luminance_of_floats(to);
+            squares += apart * apart;
+        }
+        to[3] = used > 1 ? (float)(squares / (used * (used - 1.0))) : 0;
     }
 }
 
-void ec_half_with_variance(const ec_film *film, uint32_t half, float scale, float *rgbv)
-{
-    const uint64_t pixels = (uint64_t)film->width * film->height;
-#pragma omp parallel for if (pixels > EC_FILM_MANY)
-    for (uint64_t first = 0; first < pixels; first += EC_PIXELS) {
-        const uint64_t count = pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS;
-        float rgb[3 * EC_PIXELS];
-        half_of_piece(film, half, first, count, (double)scale, rgb);
-        variance_of_piece(film, half, first, count, (double)scale, rgb, rgbv + 4 * first);
-    }
-}
-
-void ec_half(const ec_film *film, uint32_t half, float scale, float *rgb)
+void ec_half(const ec_film *film, uint32_t half, float scale, uint32_t fields, float *out)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
 #pragma omp parallel for if (pixels > EC_FILM_MANY)
     for (uint64_t first = 0; first < pixels; first += EC_PIXELS)
-        half_of_piece(film, half, first, pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS, (double)scale, rgb + 3 * first);
+        half_of_piece(film, half, first, pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS, (double)scale, fields, out + fields * first);
 }
 
 /* U and v of a half's replicates about a value, and the variance of their mean. */

@@ -6,12 +6,9 @@
 
 enum { EC_JUDGE_REPLICATES = 4 }; /* that it takes: two in each half */
 
-/* Replicates with an even or an odd number among those that have samples: halves of the film that know nothing of one another. half 0 or 1; rgb: 3
- * floats a pixel, each times `scale`. */
-void ec_half(const ec_film *film, uint32_t half, float scale, float *rgb);
-
-/* 4 floats a pixel: the same, and the variance of its luminance by the half's own replicates. */
-void ec_half_with_variance(const ec_film *film, uint32_t half, float scale, float *rgbv);
+/* Replicates with an even or an odd number among those that have samples: halves of the film that know nothing of one another. half 0 or 1; out:
+ * 3 floats a pixel, the colour, each times `scale`; or with fields 4 the variance of its luminance too, by the half's own replicates. */
+void ec_half(const ec_film *film, uint32_t half, float scale, uint32_t fields, float *out);
 
 /* Of a pixel's luminance. Estimates are without bias, so that those of single pixels may be negative. */
 typedef struct ec_judged {

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "device/camera.h"
 #include "device/pipeline.h"
 
 /* glTF says nothing of lenses. This one stands before a sensor 24 mm high, that of small-picture film, so that its focal length
@@ -26,19 +27,26 @@ static ec_result set_lens(const ec_camera *c, const ec_render_options *o, ec_par
     return EC_OK;
 }
 
+void ec_camera_half_sizes(const ec_camera *c, const ec_render_options *o, double half[2])
+{
+    const double aspect = ec_has_screen_window(o) ? 1 : (double)o->width / o->height;
+    const bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
+    half[1] = is_flat ? c->ymag : tan(0.5 * c->yfov);
+    half[0] = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f && !ec_has_screen_window(o) ? c->xmag : half[1] * aspect;
+}
+
 void ec_pipeline_set_view(const ec_camera *c, const ec_render_options *o, ec_params *params)
 {
-    const double *window = o->screen_window, aspect = ec_has_screen_window(o) ? 1 : (double)o->width / o->height;
-    bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
-    double half_height = is_flat ? c->ymag : tan(0.5 * c->yfov);
-    double half_width = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f && !ec_has_screen_window(o) ? c->xmag : half_height * aspect;
+    const double *window = o->screen_window;
+    double half[2];
+    ec_camera_half_sizes(c, o, half);
     for (int k = 0; k < 3; k++) {
         params->camera_origin[k] = c->position[k];
-        params->camera_right[k] = (float)(c->right[k] * half_width);
-        params->camera_up[k] = (float)(c->up[k] * half_height);
+        params->camera_right[k] = (float)(c->right[k] * half[0]);
+        params->camera_up[k] = (float)(c->up[k] * half[1]);
         params->camera_forward[k] = c->forward[k];
     }
-    params->orthographic = is_flat;
+    params->orthographic = c->type == EC_CAMERA_ORTHOGRAPHIC;
     const float whole[] = {-1, 1, 2.0f / (float)o->width, -2.0f / (float)o->height};
     const float part[] = {(float)window[0], (float)window[3], (float)((window[1] - window[0]) / o->width), (float)((window[2] - window[3]) / o->height)};
     memcpy(params->screen, ec_has_screen_window(o) ? part : whole, sizeof whole);

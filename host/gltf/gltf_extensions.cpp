@@ -67,7 +67,7 @@ static const struct {
     const char *name, *package;
     const bool &built;
 } optional_extensions[] = {{"EXT_meshopt_compression", "libmeshoptimizer-dev", ec_has_meshopt},
-                           {"EXT_texture_avif", "libavif-dev", ec_has_avif},
+                           {"EXT_texture_avif", "libavif-dev, configure with -DECLAT_AVIF=ON", ec_has_avif},
                            {"EXT_texture_webp", "libwebp-dev", ec_has_webp},
                            {"KHR_draco_mesh_compression", "libdraco-dev", ec_has_draco},
                            {"KHR_meshopt_compression", "libmeshoptimizer-dev", ec_has_meshopt},

@@ -81,18 +81,21 @@ static bool place_camera(const ec_placement *at, const double center[3], ec_came
     return finite;
 }
 
-/* The area of fronts, both-sided surfaces among them, as an orthographic camera sees it along `forward`, if nothing hides anything. */
-static double front_area(const ec_scene *s, const double forward[3])
+enum { WAYS = 8 };
+
+/* The area of fronts, both-sided surfaces among them, as orthographic cameras see it along each way, if nothing hides anything. */
+static void add_front_areas(const ec_scene *s, double ways[WAYS][3], double areas[WAYS])
 {
-    double area = 0;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         const uint32_t *v = s->indices + 3 * (size_t)t;
+        const bool double_sided = s->materials[s->triangle_material[t]].double_sided;
         double normal[3];
         ec_triangle_normal(s->positions + 3 * (size_t)v[0], s->positions + 3 * (size_t)v[1], s->positions + 3 * (size_t)v[2], normal);
-        const double turned = -ec_dot(normal, forward);
-        area += s->materials[s->triangle_material[t]].double_sided ? fabs(turned) : fmax(turned, 0);
+        for (int k = 0; k < WAYS; k++) {
+            const double turned = -ec_dot(normal, ways[k]);
+            areas[k] += double_sided ? fabs(turned) : fmax(turned, 0);
+        }
     }
-    return area;
 }
 
 /* From the upper right of the front, unless more than twice the area faces one of the seven other corners: of what is closed as much does
@@ -100,16 +103,16 @@ static double front_area(const ec_scene *s, const double forward[3])
 static void choose_way(const ec_scene *s, double forward[3])
 {
     static const double first[3] = {-0.5, -0.35, -1};
-    double most = 0;
-    for (int corner = 0; corner < 8; corner++) {
-        double way[3];
-        for (int k = 0; k < 3; k++) way[k] = corner >> (k == 2 ? 0 : k + 1) & 1 ? -first[k] : first[k]; /* the back comes second */
-        ec_normalize(way);
-        const double area = front_area(s, way);
-        if (corner && area <= 2 * most) continue;
-        most = area;
-        memcpy(forward, way, sizeof way);
+    double ways[WAYS][3], areas[WAYS] = {0};
+    int best = 0;
+    for (int corner = 0; corner < WAYS; corner++) {
+        for (int k = 0; k < 3; k++) ways[corner][k] = corner >> (k == 2 ? 0 : k + 1) & 1 ? -first[k] : first[k]; /* the back comes second */
+        ec_normalize(ways[corner]);
     }
+    add_front_areas(s, ways, areas);
+    for (int corner = 1; corner < WAYS; corner++)
+        if (areas[corner] > 2 * areas[best]) best = corner;
+    memcpy(forward, ways[best], sizeof ways[best]);
 }
 
 /* 45 degrees high in view, near enough that the bounding sphere just fits. */

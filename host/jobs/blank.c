@@ -1,18 +1,14 @@
 #include "jobs/blank.h"
 
-#include <math.h>
-#include <string.h>
-
+#include "device/camera.h"
 #include "scene/in_sight.h"
 
-/* As device/camera.c has it. */
 static void find_window(const ec_camera *c, const ec_render_options *o, double window[4])
 {
-    const bool is_part = ec_has_screen_window(o), is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC;
-    const double high = is_flat ? c->ymag : tan(0.5 * c->yfov);
-    const double wide = is_flat && c->aspect <= 0.0f && c->xmag > 0.0f && !is_part ? c->xmag : is_part ? high : high * o->width / o->height;
-    const double whole[4] = {-1, 1, -1, 1}, *shown = is_part ? o->screen_window : whole;
-    for (int k = 0; k < 4; k++) window[k] = shown[k] * (k < 2 ? wide : high);
+    const double whole[4] = {-1, 1, -1, 1}, *shown = ec_has_screen_window(o) ? o->screen_window : whole;
+    double half[2];
+    ec_camera_half_sizes(c, o, half);
+    for (int k = 0; k < 4; k++) window[k] = shown[k] * half[k / 2];
 }
 
 static bool is_within(const ec_scene *s, const float point[3])

@@ -254,7 +254,8 @@ static ec_result find_denoiser(const ec_render_job *job, ec_error *err)
     if (asked == EC_DENOISER_NONE) return EC_OK;
     EC_TRY(ec_denoiser_find(asked, &found, err));
     if (asked == EC_DENOISER_AUTO && found == EC_DENOISER_ATROUS)
-        ec_note(&job->listener->log, "Intel's Open Image Denoise is not installed ('pip install pyoidn'); --denoise filters by itself, which leaves more of the noise");
+        ec_note(&job->listener->log,
+                "Intel's Open Image Denoise is not installed ('pip install pyoidn'); --denoise filters by itself, which leaves more of the noise");
     return EC_OK;
 }
 

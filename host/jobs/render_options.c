@@ -50,8 +50,8 @@ const ec_option ec_render_rows[] = {
      .integrators = PATHS, .uses = EC_OPTION_WINDOW,
      .help = "denoise the picture, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "
              "the noisy one by which is nearer to the truth. The PNG shows the blend, best; the EXR keeps R, G and B as they are and has denoised, "
-             "best and denoised.stderr beside them. --error is then that of best. oidn takes Intel's Open Image Denoise, atrous a filter of eclat's own on the OpenCL device, auto, like --denoise alone, the first where it is "
-             "installed and else the second",
+             "best and denoised.stderr beside them. --error is then that of best. oidn takes Intel's Open Image Denoise, atrous a filter of eclat's own "
+             "on the OpenCL device, auto, like --denoise alone, the first where it is installed and else the second",
      .otherwise = "off"},
     {.name = "env", .metavar = "FILE|R,G,B", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,

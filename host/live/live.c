@@ -17,8 +17,8 @@ static void start(ec_live *live)
 {
     ec_render_request *request = &live->request;
     const ec_render_options *o = &request->options;
-    live->asked.wish = (eclat_wish){.camera = -1, .env_degrees = request->env_degrees, .exposure = request->exposure, .without = o->without, .is_denoised = o->denoise != EC_DENOISER_NONE,
-                                    .tonemap = (eclat_tonemap)request->tonemap, .integrator = (eclat_integrator)o->integrator,
+    live->asked.wish = (eclat_wish){.camera = -1, .env_degrees = request->env_degrees, .exposure = request->exposure, .without = o->without,
+                                    .is_denoised = o->denoise != EC_DENOISER_NONE, .tonemap = (eclat_tonemap)request->tonemap, .integrator = (eclat_integrator)o->integrator,
                                     .second_integrator = ECLAT_RASTER, .x = UINT32_MAX, .y = UINT32_MAX};
     live->asked.serial = 1;
     live->facts = (eclat_facts){.width = o->width, .height = o->height, .scene = request->scene, .device = live->device.name};

@@ -89,21 +89,13 @@ static void print_unbound(char name, const char *why, FILE *to)
     if (why) fprintf(to, "no bound  %c may lack light that shows in no standard error: %s\n", name, why);
 }
 
-static void print_name(const char *before, const char *name, FILE *to)
-{
-    fputs(before, to);
-    ec_text_print(to, name);
-}
-
 void ec_compare_report_text(const ec_compare_report *report, FILE *to)
 {
-    print_name("A         ", report->path_a, to);
-    print_name("\nB         ", report->path_b, to);
-    fprintf(to, ", the reference; %ux%u pixels\n", report->a->width, report->a->height);
-    if (report->diff_path) {
-        print_name("map       ", report->diff_path, to);
-        fputs(": error relative to B, from 0.1 % (black) to 100 % (pale yellow), logarithmic\n", to);
-    }
+    ec_text_print(to, "A         ", report->path_a, "\n");
+    ec_text_print(to, "B         ", report->path_b, ", the reference; ");
+    fprintf(to, "%ux%u pixels\n", report->a->width, report->a->height);
+    if (report->diff_path)
+        ec_text_print(to, "map       ", report->diff_path, ": error relative to B, from 0.1 % (black) to 100 % (pale yellow), logarithmic\n");
     print_figures(report, to);
     print_noise(report, to);
     if (report->tested && report->difference.unequal > 0) print_test(&report->test, to);

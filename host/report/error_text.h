@@ -22,8 +22,8 @@ void ec_error_help(const ec_film_error *error, char *text, size_t size);
 /* error_bound_why, null where there is a bound, and the figures that it goes by. */
 void ec_error_json(cJSON *root, const ec_film_error *error, const ec_clamp_error *clamp);
 
-/* A clamp's: "3.1 % of the light is missing (standard error 0.2 %); noise 1.2 %, bias 4.0 %, together 4.2 %"; "bias up to 4.0 %" where noise decides. is_open: more may be missing
- * (film/rare.h). */
+/* A clamp's: "3.1 % of the light is missing (standard error 0.2 %); noise 1.2 %, bias 4.0 %, together 4.2 %"; "bias up to 4.0 %" where noise decides.
+ * is_open: more may be missing (film/rare.h). */
 void ec_clamp_text(const ec_clamp_error *clamp, bool is_open, char *text, size_t size);
 
 /* limit: as the option has it, in mean luminances; luminance: the limit itself. */

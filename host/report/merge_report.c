@@ -20,10 +20,7 @@ void ec_merge_report_text(const ec_merge_report *r, FILE *to)
         ec_clamp_text(&r->clamp, r->error.is_open, clamped, sizeof clamped);
         fprintf(to, "clamped: %s\n", clamped);
     }
-    for (int i = 0; i < r->output_count; i++) {
-        ec_text_print(to, r->outputs[i]);
-        fputc('\n', to);
-    }
+    for (int i = 0; i < r->output_count; i++) ec_text_print(to, "", r->outputs[i], "\n");
 }
 
 ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err)

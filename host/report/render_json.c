@@ -48,7 +48,7 @@ static void add_result(cJSON *root, const ec_render_report *report)
     EC_JSON(root, EC_WHOLE("samples_per_pixel", stats->samples_per_pixel), EC_WHOLE("samples", stats->samples), EC_WHOLE("rays", stats->rays),
             EC_REAL("samples_per_second", stats->samples_per_second), EC_REAL("rays_per_second", stats->rays_per_second),
             EC_REAL("error", stats->film.error), EC_REAL("error_bound", stats->film.error_bound));
-    ec_error_json(root, &stats->film, report->options->clamp > 0 ? &report->clamp : NULL);
+    ec_error_json(root, &stats->film, ec_render_report_clamp(report));
     EC_JSON(root, EC_REAL("relmse", stats->film.relmse), EC_REAL("heavy_pixels", report->replicates >= 2 ? (double)report->heavy_pixels : NAN),
             EC_REAL("mean_luminance", report->mean_luminance), EC_STRING("stopped_by", stats->stopped_by),
             EC_STRING("image_sha256", report->image_sha256), EC_WHOLE("invalid_samples", stats->invalid_samples));

@@ -46,6 +46,12 @@ typedef struct ec_render_report {
     int output_count;
 } ec_render_report;
 
+/* NULL: its options have none. */
+static inline const ec_clamp_error *ec_render_report_clamp(const ec_render_report *report)
+{
+    return report->options->clamp > 0 ? &report->clamp : NULL;
+}
+
 void ec_render_report_text(const ec_render_report *report, FILE *to);
 /* One line for a frame. */
 void ec_frame_report_text(const ec_render_report *report, FILE *to);

@@ -17,7 +17,7 @@ void ec_render_report_summary(const ec_render_report *report, char *text, size_t
     char error[EC_ERROR_TEXT];
     ec_error_text(&stats->film, error, sizeof error);
     if (report->replicates < 2) snprintf(error, sizeof error, "error unknown (it takes two samples a pixel)");
-    snprintf(text, size, "%s: %s at %" PRIu64 " samples a pixel in %s, %s samples/s", ec_error_grade(&stats->film, report->options->clamp > 0 ? &report->clamp : NULL), error,
+    snprintf(text, size, "%s: %s at %" PRIu64 " samples a pixel in %s, %s samples/s", ec_error_grade(&stats->film, ec_render_report_clamp(report)), error,
              stats->samples_per_pixel, ec_seconds(stats->seconds).text, ec_count(stats->samples_per_second).text);
 }
 
@@ -32,16 +32,9 @@ static void print_shared(const ec_render_stats *stats, FILE *to)
 static void print_clamped(const ec_render_report *report, FILE *to)
 {
     char text[256];
-    if (!(report->options->clamp > 0)) return;
+    if (!ec_render_report_clamp(report)) return;
     ec_clamp_text(&report->clamp, report->stats->film.is_open, text, sizeof text);
     fprintf(to, "clamped  %s\n", text);
-}
-
-static void print_name(const char *before, const char *name, const char *behind, FILE *to)
-{
-    fputs(before, to);
-    ec_text_print(to, name);
-    fputs(behind, to);
 }
 
 void ec_frame_report_text(const ec_render_report *report, FILE *to)
@@ -49,7 +42,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     char summary[EC_ERROR_TEXT + 128];
     ec_render_report_summary(report, summary, sizeof summary);
     fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
-    for (int i = 0; i < report->output_count; i++) print_name(i ? ", " : " → ", report->outputs[i], "", to);
+    for (int i = 0; i < report->output_count; i++) ec_text_print(to, i ? ", " : " → ", report->outputs[i], "");
     fputc('\n', to);
     print_clamped(report, to);
     ec_denoised_text(report->denoised, to);
@@ -115,7 +108,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
 {
     const ec_render_stats *stats = report->stats;
     char summary[EC_ERROR_TEXT + 128];
-    for (int i = 0; i < report->output_count; i++) print_name("picture  ", report->outputs[i], "\n", to);
+    for (int i = 0; i < report->output_count; i++) ec_text_print(to, "picture  ", report->outputs[i], "\n");
     ec_render_report_summary(report, summary, sizeof summary);
     fprintf(to, "result   %s, %s rays/s\n", summary, ec_count(stats->rays_per_second).text);
     print_help(&stats->film, to);

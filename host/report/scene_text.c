@@ -127,9 +127,7 @@ static void print_accels(const ec_scene_report *report, FILE *to)
 void ec_scene_report_text(const ec_scene_report *report, FILE *to)
 {
     const ec_scene *scene = report->scene;
-    fputs("scene       ", to);
-    ec_text_print(to, report->path);
-    fputc('\n', to);
+    ec_text_print(to, "scene       ", report->path, "\n");
     print_geometry(scene, to);
     print_lights(report, to);
     print_cameras(scene, to);

@@ -30,7 +30,7 @@ EC_FN float square_between(global const float *a, global const float *b)
     return x * x + y * y + z * z;
 }
 
-/* Of 3 x 3 pixels: an estimate of few replicates is noisy itself. */
+/* The variance, smoothed over 3 x 3 pixels: an estimate from few replicates is noisy itself. */
 EC_FN float smooth_variance(global const float4 *from, int2 at, int2 size)
 {
     const float tap[2] = {0.5f, 0.25f};
@@ -43,7 +43,7 @@ EC_FN float smooth_variance(global const float4 *from, int2 at, int2 size)
     return sum;
 }
 
-/* Of the depth, from pixel to pixel. */
+/* By how much the depth changes from pixel to pixel. */
 EC_FN float depth_slope(global const float *features, int2 at, int2 size)
 {
     int left = max(at.x - 1, 0), right = min(at.x + 1, size.x - 1), up = max(at.y - 1, 0), down = min(at.y + 1, size.y - 1);

@@ -85,6 +85,16 @@ def quad_scene(uri=None, material=None):
     return scene, buffer
 
 
+def move_node(scene, node, start, end):
+    """In a scene of one buffer, as quad_scene's, the node goes from one place to another within a second."""
+    data = struct.pack("<2f3f3f", 0, 1, *start, *end)
+    scene["buffers"].append({"byteLength": len(data), "uri": data_uri(data)})
+    scene["bufferViews"] += [{"buffer": 1, "byteLength": 8}, {"buffer": 1, "byteOffset": 8, "byteLength": 24}]
+    scene["accessors"] += [{"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                           {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}]
+    scene["animations"] = [{"samplers": [{"input": 2, "output": 3}], "channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}}]}]
+
+
 def data_uri(buffer):
     return "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()
 

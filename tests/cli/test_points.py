@@ -2,10 +2,9 @@
 """Points and lines are drawn as wide as --point-size says, with the same bits by every structure, alone and as frames."""
 import json
 import math
-import struct
 import unittest
 
-from support import QUICK, Case, data_uri, eclat, quad_scene, read_exr, write_gltf
+from support import QUICK, Case, eclat, move_node, quad_scene, read_exr, write_gltf
 
 SQUARE = 512  # pixels of the picture in which a point of one pixel is one wide
 
@@ -54,14 +53,7 @@ class Points(Case):
 
     def test_frames_of_a_camera_that_comes_nearer(self):
         """Each is what it is alone: as wide a point, however near the camera."""
-        def move(scene):
-            data = struct.pack("<2f6f", 0, 1, 0, 0, 6, 0, 0, 3)
-            scene["buffers"].append({"byteLength": len(data), "uri": data_uri(data)})
-            scene["bufferViews"] += [{"buffer": 1, "byteLength": 8}, {"buffer": 1, "byteOffset": 8, "byteLength": 24}]
-            scene["accessors"] += [{"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
-                                   {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}]
-            scene["animations"] = [{"samplers": [{"input": 2, "output": 3}], "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}]
-        scene = self.scene(0, move)
+        scene = self.scene(0, lambda scene: move_node(scene, 1, (0, 0, 6), (0, 0, 3)))
         options = ["--size", "32x32", "--spp", "4", "--env", "0,0,0", "--point-size", "40", *QUICK, "-q"]
         self.assert_ok(eclat("render", scene, *options, "--frames", "0:2", "--fps", "2", "-o", self.path("f%d.exr")))
         shares = []

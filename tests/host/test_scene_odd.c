@@ -1,5 +1,5 @@
 /* tier: quick */
-/* What is wrong in a file but leaves a picture: each is told of once, in words that name the place. */
+/* Mistakes in a file that leave a picture are told once each, in words that name the place. */
 #include <float.h>
 
 #include "test_scene_files.h"

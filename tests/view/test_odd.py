@@ -3,12 +3,11 @@
 import json
 import os
 import shutil
-import struct
 import subprocess
 
 from desk import ViewCase, mean_difference
 from polling import GUARD
-from support import ECLAT, data_uri, eclat, quad_scene, read_exr, write_exr, write_gltf
+from support import ECLAT, eclat, move_node, quad_scene, read_exr, write_exr, write_gltf
 
 SIZE = ["--size", "200x150"]
 SMALL = ["--size", "16x16", "--spp", "1", "--integrator", "raster"]
@@ -17,12 +16,7 @@ SMALL = ["--size", "16x16", "--spp", "1", "--integrator", "raster"]
 def moving_quad():
     """It goes a unit to the right and half a one up within a second."""
     scene, _ = quad_scene()
-    times = struct.pack("<2f3f3f", 0, 1, 0, 0, 0, 1, 0.5, 0)
-    scene["buffers"].append({"byteLength": len(times), "uri": data_uri(times)})
-    scene["bufferViews"] += [{"buffer": 1, "byteLength": 8}, {"buffer": 1, "byteOffset": 8, "byteLength": 24}]
-    scene["accessors"] += [{"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
-                           {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}]
-    scene["animations"] = [{"samplers": [{"input": 2, "output": 3}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]
+    move_node(scene, 0, (0, 0, 0), (1, 0.5, 0))
     return scene
 
 

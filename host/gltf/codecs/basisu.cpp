@@ -15,7 +15,7 @@ extern "C" const bool ec_has_basisu = true;
 
 namespace {
 
-/* Of its largest level; what it has of others, layers and faces is not looked at. */
+/* Decodes the largest level of the first layer and face; a message where that fails. */
 const char *transcode(const uint8_t *bytes, size_t length, ec_image *image, uint8_t *&pixels)
 {
     static const bool is_ready = (basist::basisu_transcoder_init(), true);
