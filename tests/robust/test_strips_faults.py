@@ -11,7 +11,7 @@ from support import eclat, read_exr
 from tiers import full
 
 ENOSPC, SIGINT, SIGKILL = 28, int(signal.SIGINT), int(signal.SIGKILL)
-SIDE = 256
+SIDE = 448  # so large that strips are more than two, however much the process takes beside them
 TALL = ["--channels", "all", "--size", f"{SIDE}x{SIDE}"]
 
 
@@ -100,7 +100,7 @@ class Strips(FaultCase):
         run, folder = self.in_strips("device", call="clEnqueueMapBuffer", at=counts["clEnqueueMapBuffer"] * 2 // 3, code=-5)
         self.assertEqual(run.returncode, 1)
         self.assertRegex(run.stderr, r"\Aeclat: warning: the strips from row \d+ on are not complete.*\n"
-                         r"eclat: error: the render failed after \d+ of 256 rows: .*; the picture so far is written\n\Z")
+                         rf"eclat: error: the render failed after \d+ of {SIDE} rows: .*; the picture so far is written\n\Z")
         self.assertEqual(self.check_files(folder), {"a.exr": "new", "a.png": "new"})
         attributes, planes = read_exr(os.path.join(folder, "a.exr"))
         self.assertEqual(attributes["eclat.stoppedBy"], "device")
