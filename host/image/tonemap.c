@@ -31,7 +31,7 @@ double ec_srgb_to_linear(double encoded)
 }
 
 /* Non-finite to 0 and negative to 0; the upper limit keeps infinity out when the exposure is absurd. */
-static double expose(float value, double scale)
+static double expose(double value, double scale)
 {
     if (!isfinite(value) || value <= 0) return 0;
     return fmin(value * scale, 1e30);
@@ -51,15 +51,20 @@ const double *ec_srgb_bytes(void)
     return srgb_bytes;
 }
 
+void ec_tonemap_pixel(double rgb[3], double scale, ec_tonemap tonemap)
+{
+    for (int c = 0; c < 3; c++) rgb[c] = expose(rgb[c], scale);
+    if (tonemap == EC_TONEMAP_NEUTRAL) pbr_neutral(rgb);
+    for (int c = 0; c < 3; c++) rgb[c] = srgb_encode(fmin(fmax(rgb[c], 0), 1));
+}
+
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap)
 {
     const double scale = exp2(exposure_ev);
 #pragma omp parallel for schedule(static) if (pixel_count > 1 << 14)
     for (uint64_t i = 0; i < pixel_count; i++) {
-        double rgb[3];
-        for (int c = 0; c < 3; c++) rgb[c] = expose(in[3 * i + c], scale);
-        if (tonemap == EC_TONEMAP_NEUTRAL) pbr_neutral(rgb);
-        for (int c = 0; c < 3; c++)
-            out[3 * i + c] = (uint8_t)lrint(255 * srgb_encode(fmin(fmax(rgb[c], 0), 1)));
+        double rgb[3] = {in[3 * i], in[3 * i + 1], in[3 * i + 2]};
+        ec_tonemap_pixel(rgb, scale, tonemap);
+        for (int c = 0; c < 3; c++) out[3 * i + c] = (uint8_t)lrint(255 * rgb[c]);
     }
 }
