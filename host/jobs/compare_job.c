@@ -18,15 +18,20 @@ static ec_result out_of_memory(const ec_compare_job *job, ec_error *err)
     return ec_fail(err, "out of memory for comparing '%s' with '%s'", job->a.path, job->b.path);
 }
 
-static ec_result write_map(const char *path, const ec_measured *a, const ec_measured *b, ec_error *err)
+void ec_compare_map(const ec_compare_job *job, uint8_t *rgb)
 {
-    uint64_t pixels = (uint64_t)a->width * a->height;
-    uint8_t *map = malloc(3 * pixels);
+    const ec_measured *a = job->report.a, *b = job->report.b;
+    ec_error_map(a->rgb, b->rgb, pixels_of(job), rgb);
+    for (uint64_t p = 0; p < pixels_of(job); p++)
+        if (!ec_counts(a, b, p)) memset(rgb + 3 * p, 128, 3);
+}
+
+static ec_result write_map(const char *path, const ec_compare_job *job, ec_error *err)
+{
+    uint8_t *map = malloc(3 * pixels_of(job));
     if (!map) return ec_fail(err, "out of memory for '%s'", path);
-    ec_error_map(a->rgb, b->rgb, pixels, map);
-    for (uint64_t p = 0; p < pixels; p++)
-        if (!ec_counts(a, b, p)) memset(map + 3 * p, 128, 3);
-    ec_result result = ec_png_write(path, a->width, a->height, map, err);
+    ec_compare_map(job, map);
+    ec_result result = ec_png_write(path, job->a.measured.width, job->a.measured.height, map, err);
     free(map);
     return result;
 }
@@ -86,7 +91,7 @@ static ec_result estimate(ec_compare_job *job, const ec_look *look, const float 
     return EC_OK;
 }
 
-/* As they are seen: what is not compared is B's in both. */
+/* As they are seen. What does not count is B's in both while they are compared, and A's own again after it. */
 static ec_result see(ec_compare_job *job, const ec_look *look, ec_error *err)
 {
     ec_compare_report *report = &job->report;
@@ -106,6 +111,11 @@ static ec_result see(ec_compare_job *job, const ec_look *look, ec_error *err)
     for (uint64_t p = 0; p < pixels; p++) sum += ec_counts(a, b, p) ? job->flip[p] : 0;
     report->flip = sum / (double)report->difference.pixels;
     report->ssim = ec_ssim(job->seen[0], job->seen[1], a->width, a->height, job->mask);
+    for (uint64_t p = 0; p < pixels; p++) {
+        if (ec_counts(a, b, p)) continue;
+        if (report->is_shown) memcpy(job->seen[0] + 3 * p, job->a.rgb + 3 * p, 3 * sizeof(float));
+        else ec_show(look, job->a.rgb + 3 * p, 1, job->seen[0] + 3 * p);
+    }
     return EC_OK;
 }
 
@@ -178,7 +188,7 @@ ec_result ec_compare_measure(ec_compare_job *job, const ec_compare_options *opti
     report->differ = report->tested ? report->test.p < EC_NOISE_SIGNIFICANCE : report->difference.unequal > 0;
     EC_TRY_CLEANUP(see(job, &look, err));
     report->diff_path = options->diff;
-    if (options->diff) EC_TRY_CLEANUP(write_map(options->diff, a, b, err));
+    if (options->diff) EC_TRY_CLEANUP(write_map(options->diff, job, err));
 cleanup:
     free(linear);
     return result;

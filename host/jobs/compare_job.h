@@ -31,4 +31,7 @@ ec_result ec_compare_load(const char *path_a, const char *path_b, ec_compare_job
 ec_result ec_compare_measure(ec_compare_job *job, const ec_compare_options *options, ec_error *err);
 void ec_compare_free(ec_compare_job *job);
 
+/* Where they differ, once measured, 3 bytes a pixel: the map of --diff. */
+void ec_compare_map(const ec_compare_job *job, uint8_t *rgb);
+
 #endif

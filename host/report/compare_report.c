@@ -163,7 +163,7 @@ static void add_test(cJSON *root, const ec_noise_test *test)
     ec_json_whole(root, "exact_unequal", test->exact_unequal);
 }
 
-ec_result ec_compare_report_json(const ec_compare_report *report, FILE *to, ec_error *err)
+cJSON *ec_compare_report_json(const ec_compare_report *report)
 {
     const ec_difference *d = &report->difference;
     cJSON *root = cJSON_CreateObject();
@@ -181,5 +181,5 @@ ec_result ec_compare_report_json(const ec_compare_report *report, FILE *to, ec_e
     else
         cJSON_AddNullToObject(root, "noise_test");
     ec_json_text(root, "diff", report->diff_path);
-    return ec_json_print(root, to, err);
+    return root;
 }

@@ -2,6 +2,7 @@
 #ifndef EC_REPORT_COMPARE_REPORT_H
 #define EC_REPORT_COMPARE_REPORT_H
 
+#include <cjson/cJSON.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -29,6 +30,6 @@ typedef struct ec_compare_report {
 } ec_compare_report;
 
 void ec_compare_report_text(const ec_compare_report *report, FILE *to);
-ec_result ec_compare_report_json(const ec_compare_report *report, FILE *to, ec_error *err);
+cJSON *ec_compare_report_json(const ec_compare_report *report); /* the caller deletes it */
 
 #endif

@@ -3,7 +3,9 @@
 import base64
 import json
 import math
+import os
 import random
+import re
 import struct
 import unittest
 import zlib
@@ -177,6 +179,39 @@ class Parts(Pictures):
         self.assertLess(linear["error"], 1e-3)
 
 
+class Several(Pictures):
+    def fill(self):
+        os.makedirs(self.path("mine"))
+        os.makedirs(self.path("theirs"))
+        for name, factor in ("one", 1), ("two", 0.5), ("alone", 1):
+            self.png(f"mine/{name}.png", self.ramp(factor))
+        for name in "one", "two":
+            self.exr(f"theirs/{name}.exr", self.ramp())
+            self.png(f"theirs/{name}.png", self.ramp(0.1))  # EXR is preferred
+
+    def test_each_with_the_last_or_folder_with_folder(self):
+        self.fill()
+        run = eclat("compare", "mine", "theirs", "--tonemap", "none", "--json", cwd=self.folder)
+        self.assertEqual([(r["a"]["path"], r["b"]["path"], r["differ"]) for r in json.loads(run.stdout)],
+                         [("mine/one.png", "theirs/one.exr", False), ("mine/two.png", "theirs/two.exr", True)])
+        self.assertIn("1 picture of 'mine' has none of that name in 'theirs'", run.stderr)
+        self.assertEqual(run.returncode, 1)
+        run = eclat("compare", "mine/one.png", "mine/alone.png", "theirs/one.exr", "--tonemap", "none", cwd=self.folder)
+        self.assertEqual([run.returncode, len(re.findall("(?m)^verdict ", run.stdout)), run.stdout.splitlines()[-1]], [0, 2, "all       0 of 2 differ"])
+
+    def test_a_page_is_written_whole_or_not_at_all(self):
+        self.fill()
+        run = eclat("compare", "mine/one.png", "mine/two.png", "theirs/one.exr", "--html", "out.html", cwd=self.folder)
+        self.assertEqual([run.returncode, run.stdout.splitlines()[-1]], [1, "page      out.html"])
+        with open(self.path("out.html"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertEqual([len(re.findall("data:image/png;base64,", text)), re.findall(r"@[A-Z]+@|https?://", text)], [8, []])
+        with open(self.path("mine/broken.png"), "w") as file:
+            file.write("none")
+        eclat("compare", "mine/one.png", "mine/broken.png", "theirs/one.exr", "--html", "other.html", cwd=self.folder)
+        self.assertFalse(os.path.exists(self.path("other.html")))
+
+
 class Unusable(Pictures):
     def refused(self, *arguments, says):
         self.assertIn(says, self.assert_one_error(eclat("compare", *arguments, cwd=self.folder), 1))
@@ -192,6 +227,13 @@ class Unusable(Pictures):
         self.refused(png, exr, "--mask", self.png("black.png", [[0] * 3] * (W * H)), says="no pixel is left by the mask (white is compared)")
         self.refused(self.png("glass.png", self.ramp(), alpha=[0] * (W * H)), exr, says="no pixel is left that is opaque")
         self.refused(png, exr, "--mask", "black.png", "--diff", "black.png", says="one of the pictures compared")
+        self.refused(png, exr, "--html", "no/out.html", says="cannot write 'no/out.html'")
+        os.link(png, self.path("out.html"))
+        self.refused(png, exr, "--html", "out.html", says="one of the pictures compared; give --html another name")
+        os.makedirs(self.path("empty"))
+        self.refused("empty", "empty", says="nothing to compare: no picture in 'empty' is called like one in 'empty'")
+        self.refused(png, "empty", says="cannot read 'empty': it is a folder")
+        self.assertIn("--diff is the map of one pair; --html shows those of 2", self.assert_one_error(eclat("compare", png, png, exr, "--diff", "d.png", cwd=self.folder), 2))
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ class YourRenderer(Case):
         os.chmod(file.name, stat.S_IRWXU)
         shutil.copy(CORNELL, self.path("scene.gltf"))
         shutil.copy(CORNELL.replace(".gltf", ".bin"), self.folder)
-        reference, quiet, noisy = recipe()[:3]
+        reference, quiet, noisy, many = recipe()
         self.assert_ok(self.sh(reference))
         right = "--spp 64 --seed 1"
         for script, how, found in (
@@ -48,6 +48,11 @@ class YourRenderer(Case):
                 self.assertEqual(run.returncode, found, run.stdout + run.stderr)
                 self.assertIn("they differ" if found else "no more different than noise" if script == noisy else "equal in every pixel", run.stdout)
                 self.assertEqual(png_size(self.path("difference.png")), (96, 96))
+        for folder, file in ("mine", "mine.png"), ("reference", "reference.exr"):
+            os.mkdir(self.path(folder))
+            shutil.copy(self.path(file), self.path(folder, f"scene{file[-4:]}"))
+        self.assertEqual(self.sh(many).returncode, 1)
+        self.assertTrue(os.path.exists(self.path("report.html")))
 
 
 if __name__ == "__main__":
