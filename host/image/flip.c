@@ -2,7 +2,9 @@
 #include "image/flip.h"
 
 #include <math.h>
+#include <omp.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "image/image.h"
 
@@ -17,7 +19,6 @@ static const double to_rgb[3][3] = {{3.241003275, -1.537398934, -0.498615861}, {
 
 /* One-dimensional kernels, each with the sum of its positive weights 1, as is that of its negative ones. */
 enum { SMOOTH_Y, SMOOTH_RG, SMOOTH_BY, SMOOTH_BY2, SMOOTH_FEATURE, EDGE, POINT, KERNELS };
-enum { ROWS = 4 + 3 };           /* what a picture is across: the four smoothed channels, and Y' by the three of features */
 typedef struct filters {
     int radius, feature_radius;
     double kernel[KERNELS][TAPS];
@@ -89,61 +90,75 @@ static void make_filters(filters *f)
     f->colour_most = pow(hyab(green, blue), qc);
 }
 
-/* Weighted values at steps of `stride` round a place on a line of `count`, whose ends go on. */
-static double weighted(const float *line, uint64_t stride, uint32_t count, uint32_t at, const double *kernel, int radius)
+/* Of one row the weighted values are added to another, or of a row's places to their neighbours'. */
+static void add_row(const float *in, double weight, uint32_t width, float *out)
 {
-    double sum = 0;
-    for (int i = -radius; i <= radius; i++) {
-        int64_t k = (int64_t)at + i;
-        sum += kernel[i + radius] * line[stride * (uint64_t)(k < 0 ? 0 : k < count ? k : count - 1)];
-    }
-    return sum;
+    const float by = (float)weight;
+    for (uint32_t x = 0; x < width; x++) out[x] += by * in[x];
 }
 
-/* A row in the opponent colours YCxCz. */
+static int radius_of(const filters *f, int kernel) { return kernel < SMOOTH_FEATURE ? f->radius : f->feature_radius; }
+
+/* A row in the opponent colours YCxCz, each with room for the widest filter, where its ends go on. */
 static void to_opponent(const float *in, uint32_t width, float *out)
 {
-    for (uint32_t x = 0; x < width; x++) {
+    const uint32_t row = width + 2 * RADIUS_MOST;
+    for (uint32_t i = 0; i < row; i++) {
+        const uint32_t x = i < RADIUS_MOST ? 0 : i - RADIUS_MOST < width ? i - RADIUS_MOST : width - 1;
         double rgb[3], t[3];
-        for (int c = 0; c < 3; c++) rgb[c] = ec_srgb_to_linear(in[3 * x + (uint32_t)c]);
+        for (uint32_t c = 0; c < 3; c++) rgb[c] = ec_srgb_to_linear(in[3 * x + c]);
         transform(to_xyz, rgb, t);
         for (int c = 0; c < 3; c++) t[c] /= white[c];
-        out[3 * x] = (float)(116 * t[1] - 16);
-        out[3 * x + 1] = (float)(500 * (t[0] - t[1]));
-        out[3 * x + 2] = (float)(200 * (t[1] - t[2]));
+        out[i] = (float)(116 * t[1] - 16);
+        out[row + i] = (float)(500 * (t[0] - t[1]));
+        out[2 * row + i] = (float)(200 * (t[1] - t[2]));
     }
 }
 
 static void filter_across(const filters *f, const float *in, uint32_t width, float *opponent, float *out)
 {
-    static const int channel[ROWS] = {0, 1, 2, 2, 0, 0, 0};
+    static const uint32_t channel[KERNELS] = {0, 1, 2, 2, 0, 0, 0};
     to_opponent(in, width, opponent);
-    for (uint32_t x = 0; x < width; x++)
-        for (int k = 0; k < ROWS; k++)
-            out[(uint32_t)k * width + x] = (float)weighted(opponent + channel[k], 3, width, x, f->kernel[k], k < 4 ? f->radius : f->feature_radius);
+    memset(out, 0, KERNELS * sizeof *out * width);
+    for (int k = 0; k < KERNELS; k++)
+        for (int i = -radius_of(f, k); i <= radius_of(f, k); i++)
+            add_row(opponent + channel[k] * (width + 2 * RADIUS_MOST) + RADIUS_MOST + i, f->kernel[k][i + radius_of(f, k)], width, out + (uint32_t)k * width);
+}
+
+/* The other halves of the filters: which row, filtered across, by which kernel. */
+enum { Y, RG, BY, BY2, EDGE_X, EDGE_Y, POINT_X, POINT_Y, DOWN };
+static const int halves[DOWN][2] = {{SMOOTH_Y, SMOOTH_Y}, {SMOOTH_RG, SMOOTH_RG}, {SMOOTH_BY, SMOOTH_BY}, {SMOOTH_BY2, SMOOTH_BY2}, {EDGE, SMOOTH_FEATURE},
+                                    {SMOOTH_FEATURE, EDGE}, {POINT, SMOOTH_FEATURE}, {SMOOTH_FEATURE, POINT}};
+
+/* across: rows of KERNELS * width. out: DOWN * width, of row y. */
+static void filter_down(const filters *f, const float *across, uint32_t width, uint32_t height, uint32_t y, float *out)
+{
+    memset(out, 0, DOWN * sizeof *out * width);
+    for (int k = 0; k < DOWN; k++)
+        for (int i = -radius_of(f, halves[k][1]); i <= radius_of(f, halves[k][1]); i++) {
+            int64_t from = (int64_t)y + i;
+            from = from < 0 ? 0 : from < height ? from : height - 1;
+            add_row(across + (uint64_t)from * KERNELS * width + (uint64_t)halves[k][0] * width, f->kernel[halves[k][1]][i + radius_of(f, halves[k][1])], width,
+                    out + (uint32_t)k * width);
+        }
 }
 
 typedef struct seen {
     double lab[3], edge, point;
 } seen;
 
-/* The rest of the filters, down: across holds rows of ROWS * width. */
-static seen look_at(const filters *f, const float *across, uint32_t width, uint32_t height, uint32_t x, uint32_t y)
+static seen look_at(const filters *f, const float *filtered, uint32_t width, uint32_t x)
 {
-#define DOWN(row, name, r) weighted(across + (uint64_t)(row) * width + x, (uint64_t)ROWS * width, height, y, f->kernel[name], r)
-    const int r = f->radius, s = f->feature_radius;
-    double by = f->by_share * DOWN(2, SMOOTH_BY, r) + (1 - f->by_share) * DOWN(3, SMOOTH_BY2, r);
-    double yy = (DOWN(0, SMOOTH_Y, r) + 16) / 116, xyz[3], rgb[3];
-    xyz[0] = (yy + DOWN(1, SMOOTH_RG, r) / 500) * white[0];
-    xyz[1] = yy * white[1];
-    xyz[2] = (yy - by / 200) * white[2];
+    double v[DOWN], xyz[3], rgb[3];
+    for (uint32_t k = 0; k < DOWN; k++) v[k] = filtered[k * width + x];
+    double y = (v[Y] + 16) / 116, by = f->by_share * v[BY] + (1 - f->by_share) * v[BY2];
+    xyz[0] = (y + v[RG] / 500) * white[0];
+    xyz[1] = y * white[1];
+    xyz[2] = (y - by / 200) * white[2];
     transform(to_rgb, xyz, rgb);
     for (int c = 0; c < 3; c++) rgb[c] = fmin(fmax(rgb[c], 0), 1);
-    seen out;
+    seen out = {.edge = hypot(v[EDGE_X], v[EDGE_Y]) / 116, .point = hypot(v[POINT_X], v[POINT_Y]) / 116}; /* Y' + 16 and Y' have the same derivatives */
     hunt_lab(rgb, out.lab);
-    out.edge = hypot(DOWN(5, SMOOTH_FEATURE, s), DOWN(4, EDGE, s)) / 116; /* Y' + 16 and Y' have the same derivatives */
-    out.point = hypot(DOWN(6, SMOOTH_FEATURE, s), DOWN(4, POINT, s)) / 116;
-#undef DOWN
     return out;
 }
 
@@ -159,21 +174,25 @@ ec_result ec_flip(const float *a, const float *b, uint32_t width, uint32_t heigh
 {
     filters f = {0};
     const float *pictures[2] = {a, b};
-    const uint64_t row = (uint64_t)ROWS * width;
-    float *across = malloc((2 * height * row + 2 * 3ull * width * height) * sizeof *across), *opponent = across ? across + 2 * height * row : NULL;
+    const uint64_t row = (uint64_t)KERNELS * width, line = (uint64_t)2 * DOWN * width + 3 * 2 * RADIUS_MOST; /* of a thread: what either half needs */
+    const int threads = omp_get_max_threads();
+    float *across = malloc((2 * height * row + (uint64_t)threads * line) * sizeof *across);
     if (!across) return ec_fail(err, "out of memory for FLIP of two pictures of %ux%u pixels", width, height);
     make_filters(&f);
-#pragma omp parallel
+#pragma omp parallel num_threads(threads)
     {
+        float *own = across + 2 * height * row + (uint64_t)omp_get_thread_num() * line;
 #pragma omp for schedule(static)
-        for (uint32_t k = 0; k < 2 * height; k++)
-            filter_across(&f, pictures[k / height] + 3ull * width * (k % height), width, opponent + 3ull * width * k, across + row * k);
+        for (uint32_t k = 0; k < 2 * height; k++) filter_across(&f, pictures[k / height] + 3ull * width * (k % height), width, own, across + row * k);
 #pragma omp for schedule(static)
-        for (uint32_t y = 0; y < height; y++)
+        for (uint32_t y = 0; y < height; y++) {
+            filter_down(&f, across, width, height, y, own);
+            filter_down(&f, across + height * row, width, height, y, own + (uint64_t)DOWN * width);
             for (uint32_t x = 0; x < width; x++) {
-                seen one = look_at(&f, across, width, height, x, y), other = look_at(&f, across + height * row, width, height, x, y);
+                seen one = look_at(&f, own, width, x), other = look_at(&f, own + (uint64_t)DOWN * width, width, x);
                 map[(uint64_t)y * width + x] = difference(&f, &one, &other);
             }
+        }
     }
     free(across);
     return EC_OK;
