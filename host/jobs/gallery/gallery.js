@@ -24,7 +24,7 @@ const columns = [
     ["SSIM", r => r.ssim, r => r.ssim === null ? "?" : r.ssim.toFixed(4)],
     ["PSNR", r => r.psnr, r => r.psnr === null ? "" : `${r.psnr.toFixed(1)} dB`],
     ["p", r => r.noise_test?.p ?? null, r => !r.noise_test ? "" : r.noise_test.p < 1e-99 ? "< 1e-99" : number(r.noise_test.p, 2)],
-];
+].filter(([, key]) => pairs.some(p => key(p.report) !== null));
 let sorted = {column: -1, down: false};
 const rows = [], cards = [];
 function order() {
