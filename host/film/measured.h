@@ -10,6 +10,7 @@ typedef struct ec_measured {
     const float *rgb;     /* 3 a pixel, finite */
     const float *se;      /* 3 a pixel: standard errors, finite; NULL if they are not known, which counts as none */
     const float *se_y;    /* 1 a pixel: of luminance; NULL if not known */
+    const float *tail_se; /* 3 a pixel: in place of se where single values are judged, as noise reaches further to one side; NULL: se */
     double replicates;    /* independent estimates behind the standard errors; INFINITY if not known */
     double samples;       /* a pixel; 0 if not known */
     int is_half;          /* the values were rounded to 16 bits */

@@ -43,6 +43,12 @@ static double own_variance(const ec_measured *image, uint64_t i)
     return image->se ? (double)image->se[i] * image->se[i] : 0;
 }
 
+/* Of a value alone. */
+static double single_variance(const ec_measured *image, uint64_t i)
+{
+    return image->tail_se ? (double)image->tail_se[i] * image->tail_se[i] : own_variance(image, i);
+}
+
 static void judge(const ec_measured *image, double *judged)
 {
     for (uint32_t y = 0; y < image->height; y++)
@@ -55,9 +61,9 @@ static void judge(const ec_measured *image, double *judged)
                     uint64_t beside = (uint64_t)j * image->width + i;
                     if (!ec_counts(image, image, beside)) continue;
                     count++;
-                    for (uint64_t c = 0; c < 3; c++) sum[c] += own_variance(image, 3 * beside + c);
+                    for (uint64_t c = 0; c < 3; c++) sum[c] += single_variance(image, 3 * beside + c);
                 }
-            for (uint64_t c = 0; c < 3; c++) judged[3 * p + c] = fmax(own_variance(image, 3 * p + c), count > 0 ? sum[c] / count : 0);
+            for (uint64_t c = 0; c < 3; c++) judged[3 * p + c] = fmax(single_variance(image, 3 * p + c), count > 0 ? sum[c] / count : 0);
         }
 }
 
@@ -100,7 +106,7 @@ static void add_judged(const pair *q, uint64_t i, t_sums *s)
     s->difference += difference_of(q, i);
     s->slack += ec_slack(q->a, q->b, i);
     s->variance += wa + wb + rounding * rounding;
-    s->spread += own_variance(q->a, i) * wa / q->dof_a + own_variance(q->b, i) * wb / q->dof_b;
+    s->spread += single_variance(q->a, i) * wa / q->dof_a + single_variance(q->b, i) * wb / q->dof_b;
 }
 
 static double t_of(const t_sums *s)

@@ -47,13 +47,26 @@ static void add_direction(const ec_look *look, const double rgb[3], const double
     }
 }
 
-void ec_show_noise(const ec_look *look, const ec_measured *linear, float *se, float *se_y, float *slack)
+/* See tail_se: a value that came out bright hides in a flat part of the curve how far off it may be. */
+static void reach(const ec_look *look, const double rgb[3], const double along[3], double out[3])
+{
+    double at[3][4];
+    for (int k = 0; k < 3; k++) {
+        double moved[3];
+        for (int c = 0; c < 3; c++) moved[c] = rgb[c] + 4 * (k - 1) * along[c];
+        show_pixel(look, moved, at[k]);
+    }
+    for (int c = 0; c < 3; c++) out[c] = fmax(fabs(at[2][c] - at[1][c]), fabs(at[1][c] - at[0][c])) / 4;
+}
+
+void ec_show_noise(const ec_look *look, const ec_measured *linear, float *se, float *se_y, float *slack, float *tail_se)
 {
 #pragma omp parallel for schedule(static)
     for (uint64_t p = 0; p < (uint64_t)linear->width * linear->height; p++) {
         const float *from = linear->se + 3 * p;
         const double rgb[3] = {linear->rgb[3 * p], linear->rgb[3 * p + 1], linear->rgb[3 * p + 2]}, all[3] = {from[0], from[1], from[2]};
-        double variance[4] = {0}, bend[4] = {0}, together = linear->se_y ? correlation(from, linear->se_y[p]) : 1;
+        double variance[4] = {0}, bend[4] = {0}, tail[3], together = linear->se_y ? correlation(from, linear->se_y[p]) : 1;
+        reach(look, rgb, all, tail);
         add_direction(look, rgb, all, together, variance, bend);
         for (int c = 0; c < 3 && together < 1; c++) {
             double alone[3] = {0};
@@ -63,6 +76,7 @@ void ec_show_noise(const ec_look *look, const ec_measured *linear, float *se, fl
         for (uint64_t c = 0; c < 3; c++) {
             se[3 * p + c] = (float)sqrt(variance[c]);
             slack[3 * p + c] += (float)fabs(bend[c]);
+            tail_se[3 * p + c] = (float)fmax(sqrt(variance[c]), tail[c]);
         }
         se_y[p] = (float)sqrt(variance[3]);
     }

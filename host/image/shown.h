@@ -15,8 +15,9 @@ void ec_show(const ec_look *look, const float *in, uint64_t pixel_count, float *
 
 /* The standard errors of `linear` through the curve, in whose place they may be (linear->se and se_y), by three points of a normal distribution
  * along each channel alone and along all together, weighted so that se_y comes out; without se_y the channels' noise is taken for one.
- * slack, 3 a pixel: how far noise moves the mean of what is shown, as curves bend. To be called with rgb still linear. */
-void ec_show_noise(const ec_look *look, const ec_measured *linear, float *se, float *se_y, float *slack);
+ * slack, 3 a pixel: how far noise moves the mean of what is shown, as curves bend, is added. tail_se, 3 a pixel: a quarter of how far four standard errors
+ * of all channels reach, to the side where that is more; at least se. To be called with rgb still linear. */
+void ec_show_noise(const ec_look *look, const ec_measured *linear, float *se, float *se_y, float *slack, float *tail_se);
 
 /* How far noise of `se` in shown values moves their mean where the linear picture without it is `rgb`: added to slack. */
 void ec_show_bend(const ec_look *look, const float *rgb, const float *se, uint64_t pixel_count, float *slack);

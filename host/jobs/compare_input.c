@@ -52,6 +52,7 @@ void ec_compare_input_free(ec_compare_input *input)
     free(input->se);
     free(input->se_y);
     free(input->slack);
+    free(input->tail_se);
     free(input->mask);
     free(input->why);
     *input = (ec_compare_input){0};

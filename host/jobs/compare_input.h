@@ -14,7 +14,7 @@ typedef struct ec_compare_input {
     bool is_lossy;              /* its values may be off by more than a step */
     char *why;                  /* owned: why the file states no bound of its error; NULL: it does, or says nothing */
     float *rgb, *se, *se_y;     /* owned; se and se_y NULL where the file has none, or only one replicate */
-    float *slack;               /* owned; NULL: none */
+    float *slack, *tail_se;     /* owned; NULL: none */
     uint8_t *mask;              /* owned: 0 where the picture is not opaque; NULL: it is */
 } ec_compare_input;
 

@@ -17,14 +17,13 @@ static ec_result show(const ec_look *look, ec_compare_input *input, ec_error *er
     const uint64_t pixels = (uint64_t)m->width * m->height;
     if (m->se) {
         if (!input->slack) input->slack = calloc(3 * pixels, sizeof(float));
-        float *se_y = input->se_y ? input->se_y : malloc(pixels * sizeof(float));
-        if (!input->slack || !se_y) {
-            if (!input->se_y) free(se_y);
-            return ec_fail(err, "out of memory for the noise of '%s'", input->path);
-        }
-        ec_show_noise(look, m, input->se, se_y, input->slack);
-        m->se_y = input->se_y = se_y;
+        if (!input->se_y) input->se_y = malloc(pixels * sizeof(float));
+        input->tail_se = malloc(3 * pixels * sizeof(float));
+        if (!input->slack || !input->se_y || !input->tail_se) return ec_fail(err, "out of memory for the noise of '%s'", input->path);
+        ec_show_noise(look, m, input->se, input->se_y, input->slack, input->tail_se);
+        m->se_y = input->se_y;
         m->slack = input->slack;
+        m->tail_se = input->tail_se;
     }
     ec_show(look, input->rgb, pixels, input->rgb);
     m->peak = 1;

@@ -15,7 +15,7 @@ static void noise_goes_through_a_curve(ec_tonemap tonemap, const float rgb[3], d
 {
     const ec_look look = {.tonemap = tonemap};
     double sum[3] = {0}, square[3] = {0};
-    float se[3], se_y, shown_se[3], slack[3] = {0}, middle[3];
+    float se[3], se_y, shown_se[3], slack[3] = {0}, tail_se[3], middle[3];
     ec_show(&look, rgb, 1, middle);
     for (int i = 0; i < SAMPLES; i++) {
         float one[3], shown[3];
@@ -32,10 +32,11 @@ static void noise_goes_through_a_curve(ec_tonemap tonemap, const float rgb[3], d
         y += weights[c] * rgb[c] * together;
     }
     se_y = (float)sqrt(y2 + y * y);
-    ec_show_noise(&look, &(ec_measured){.width = 1, .height = 1, .rgb = rgb, .se = se, .se_y = &se_y}, shown_se, &se_y, slack);
+    ec_show_noise(&look, &(ec_measured){.width = 1, .height = 1, .rgb = rgb, .se = se, .se_y = &se_y}, shown_se, &se_y, slack, tail_se);
     for (int c = 0; c < 3; c++) {
         double mean = sum[c] / SAMPLES, deviation = sqrt(square[c] / SAMPLES - mean * mean);
         CHECK_NEAR(shown_se[c], deviation, 0.03 * deviation);
+        CHECK(tail_se[c] >= shown_se[c] && tail_se[c] < 2 * deviation);
         CHECK_NEAR(slack[c], fabs(mean), 4 * deviation / sqrt(SAMPLES) + 0.1 * fabs(mean));
     }
 }
