@@ -63,11 +63,34 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
     return ec_render_check_files(request, err);
 }
 
-/* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */
+static void name_environment(const ec_render_request *r, char key[400])
+{
+    snprintf(key, 400, "%.17g %.17g %s", r->env_degrees, r->env_strength, r->environment ? r->environment : "");
+}
+
+static bool is_environment_there(const ec_render_job *job)
+{
+    char key[400];
+    if (!job->share || !job->share->environment_known) return false;
+    name_environment(job->request, key);
+    return job->share->animation || (job->request->environment && !strcmp(key, job->share->environment_key));
+}
+
+static void drop_environment(ec_frame_share *share)
+{
+    free(share->environment.rgb);
+    ec_packed_map_free(&share->packed);
+    share->environment = (ec_environment){0};
+    share->environment_known = false;
+}
+
+/* The map of all pictures is read, scaled and turned once; a sky that is only there because one of them has no light is that one's. */
 static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error *err)
 {
     ec_frame_share *share = job->share;
-    if (!share || !is_of_all || share->environment_known) return EC_OK;
+    if (!share || !is_of_all || is_environment_there(job)) return EC_OK;
+    drop_environment(share);
+    name_environment(job->request, share->environment_key);
     if (job->scene->environment.rgb) EC_TRY(ec_pack_map(&job->scene->environment, &share->packed, err));
     share->environment = job->scene->environment;
     share->has_environment = job->scene->has_environment;
@@ -82,8 +105,8 @@ ec_result ec_render_job_light(ec_render_job *job, ec_error *err)
 {
     const ec_log *log = &job->listener->log;
     const char *environment = job->request->environment;
-    bool is_of_all = environment || job->scene->has_environment;
-    if (job->share && job->share->environment_known) {
+    const bool is_there = is_environment_there(job), is_of_all = environment || (job->share && job->share->animation && job->scene->has_environment);
+    if (is_there) {
         job->scene->environment = job->share->environment;
         job->scene->environment.lent = true;
         job->scene->has_environment = job->share->has_environment;
@@ -99,7 +122,7 @@ ec_result ec_render_job_light(ec_render_job *job, ec_error *err)
             EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
         }
     }
-    if (job->request->adjusts_env && !(job->share && job->share->environment_known)) {
+    if (job->request->adjusts_env && !is_there) {
         if (!environment && !job->scene->has_environment)
             return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --env, or leave them out");
         ec_scene_adjust_environment(job->scene, job->request->env_degrees, job->request->env_strength, log);
@@ -201,7 +224,7 @@ ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* Those of all frames. */
+/* Those of all pictures. */
 static void take_devices(ec_render_job *job)
 {
     const ec_frame_share *share = job->share;
@@ -215,7 +238,7 @@ static ec_result load_scene(ec_render_job *job, ec_error *err)
 {
     const ec_log *log = &job->listener->log;
     const ec_render_request *request = job->request;
-    if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, log, err));
+    if (job->share && job->share->animation) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, log, err));
     return ec_render_job_light(job, err);
 }
@@ -271,7 +294,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     }
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
-    ec_warn_of_blank(job);
+    job->is_blank = ec_warn_of_blank(job);
     return check_memory(job, err);
 }
 
@@ -309,6 +332,33 @@ ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
     if (!job->request->options.denoise || job->stats.is_clean) return EC_OK;
     job->stats.is_clean = true; /* once, whatever comes of it */
     return ec_denoise(&job->film, job->request->options.denoise, &job->devices[0], &job->denoised, err);
+}
+
+void ec_frame_share_leave(ec_frame_share *share)
+{
+    ec_animation_close(share->animation);
+    share->animation = NULL;
+    drop_environment(share);
+    ec_followed_free(&share->followed);
+}
+
+void ec_frame_share_free(ec_frame_share *share)
+{
+    ec_frame_share_leave(share);
+    ec_frame_share_close(share);
+    while (share->pictures.count) free(share->pictures.list[--share->pictures.count]);
+    free(share->pictures.list);
+}
+
+void ec_frame_share_picture(ec_frame_share *share, const ec_outputs *outputs)
+{
+    int which = 0;
+    for (int i = outputs->count - 1; i >= 0; i--)
+        if (outputs->file[i].kind == EC_OUTPUT_PNG) which = i;
+    char **longer = realloc(share->pictures.list, (share->pictures.count + 1) * sizeof *longer), *path = strdup(outputs->file[which].path);
+    if (longer) share->pictures.list = longer;
+    if (longer && path) longer[share->pictures.count++] = path;
+    else free(path);
 }
 
 void ec_render_job_free(ec_render_job *job)

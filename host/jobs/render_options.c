@@ -17,6 +17,7 @@
 
 #define LASTING "a window keeps no checkpoints and renders no slices"
 #define MOVING "a window shows one moment"
+#define MANY "a window shows one picture"
 #define TALKING "a window reports to who looks at it"
 
 const ec_option ec_render_rows[] = {
@@ -91,7 +92,8 @@ const ec_option ec_render_rows[] = {
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
-     .help = "write FILE, an .exr (linear, with errors: --channels) or a .png; may be repeated",
+     .help = "write FILE, an .exr (linear, with errors: --channels) or a .png; may be repeated. {name} stands for the scene's base name, {folder} for its "
+             "folder's: several scenes need one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
@@ -130,6 +132,13 @@ const ec_option ec_render_rows[] = {
      .not_in_window = MOVING},
     {.name = "overwrite", EC_STORED(FLAG, overwrite), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "replace existing frames of a different job; without this option they are an error", .not_in_window = MOVING},
+
+    /* Several pictures */
+    {.name = "shard", .metavar = "I/N", .set = ec_set_shard, .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "render only every N-th picture, from the I-th on, as in 3/8: N machines share the work", .not_in_window = MANY},
+    {.name = "sheet", .metavar = "FILE", EC_STORED(FILE, sheet), .ending = ".png", .group = EC_GROUP_SERIES,
+     .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "write a contact sheet, a .png with small pictures of all, in their order from the top left; of --frames too", .not_in_window = MANY},
 
     /* Resume and distribute */
     {.name = "checkpoint", .metavar = "FILE", EC_STORED(FILE, checkpoint), .ending = ".exr", .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,

@@ -11,8 +11,9 @@
 #include "render/render.h"
 #include "report/attributes.h"
 
-/* A frame of a sequence. */
+/* A frame of a sequence, or one of several pictures. */
 typedef struct ec_frame_facts {
+    const char *name;               /* NULL: a frame, by its number */
     uint32_t number, place, count;  /* the place-th of so many, from 1 */
     double seconds;                 /* of the animation */
     const char *job;                /* what it is of, for a later run: an attribute of its files */

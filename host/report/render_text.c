@@ -41,12 +41,14 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
 {
     char summary[EC_ERROR_TEXT + 128];
     ec_render_report_summary(report, summary, sizeof summary);
-    fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
+    if (report->frame->name) ec_text_print(to, "", report->frame->name, ": ");
+    else fprintf(to, "frame %u at %.6g s: ", report->frame->number, report->frame->seconds);
+    fputs(summary, to);
     for (int i = 0; i < report->output_count; i++) ec_text_print(to, i ? ", " : " → ", report->outputs[i], "");
     fputc('\n', to);
     print_clamped(report, to);
     ec_denoised_text(report->denoised, to);
-    if (report->verbose) print_shared(report->stats, to);
+    if (report->verbose && !report->frame->name) print_shared(report->stats, to);
 }
 
 /* Four times the samples bring half the error where they are independent, and less where their order tells. */
