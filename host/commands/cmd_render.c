@@ -44,7 +44,7 @@ static bool is_series(const ec_call *call, const ec_render_request *r)
 {
     bool has_place = false;
     for (int i = 0; i < r->outputs.count; i++) has_place |= ec_entries_has_place(r->outputs.file[i].path);
-    return call->input_count > 1 || has_place || r->frames.given || r->sheet || r->shard_count;
+    return call->input_count > 1 || has_place || r->frames.given || r->orbit || r->sheet || r->shard_count;
 }
 
 static ec_result run_series(ec_call *call, ec_render_request *request, double start, ec_error *err)

@@ -75,8 +75,11 @@ void ec_frame_identify(const ec_identity *all, const ec_render_request *request,
     char text[64];
     *identity = *all;
     if (!request->frames.given) return;
-    snprintf(text, sizeof text, "%.17g s", ec_frame_seconds(&request->frames, frame));
+    snprintf(text, sizeof text, "%.17g s", ec_frame_moment(request, frame));
     add(identity, "moment", text);
+    if (!request->orbit) return;
+    snprintf(text, sizeof text, "%.17g degrees", ec_frame_turn(request, frame));
+    add(identity, "turn", text);
 }
 
 char *ec_frame_command(const ec_given_options *given, const ec_render_request *request, const ec_outputs *outputs, uint32_t frame)

@@ -6,6 +6,10 @@
 #include "jobs/outputs.h"
 #include "jobs/render_request.h"
 
+/* When a frame is shown, in seconds of the animation, and how far the camera has gone round then, in degrees. With --orbit alone time stands still. */
+static inline double ec_frame_moment(const ec_render_request *r, uint32_t frame) { return r->frames.fps > 0 ? ec_frame_seconds(&r->frames, frame) : r->choice.at; }
+static inline double ec_frame_turn(const ec_render_request *r, uint32_t frame) { return r->orbit ? 360.0 * frame / r->orbit : 0; }
+
 /* The identity of all frames: version, kernels, the bytes of the scene's files (their digest) and of the environment's, and every option that a
  * picture may depend on, as it was given. */
 ec_result ec_frames_identify(const ec_given_options *given, const ec_render_request *request, const char *files,

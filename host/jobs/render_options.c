@@ -130,6 +130,10 @@ const ec_option ec_render_rows[] = {
      .help = "render frames A to B, B included, or every STEP-th of them; A alone renders one. -o then contains %d, or %04d for four digits, in place of the "
              "frame number (default: NAME.%04d.exr and .png). Frames of the same job that already exist are skipped",
      .not_in_window = MOVING},
+    {.name = "orbit", .metavar = "N", EC_RANGED(U32, orbit, 1, EC_FRAME_MOST), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_PART,
+     .help = "turntable: frames 0 to N-1, in which the camera goes round the scene once, to its right, about --up (0,1,0) through --look-at (the centre of the "
+             "scene). Animations stand still, unless --fps is given; --frames renders some of the frames",
+     .not_in_window = MOVING},
     {.name = "overwrite", EC_STORED(FLAG, overwrite), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "replace existing frames of a different job; without this option they are an error", .not_in_window = MOVING},
 

@@ -42,6 +42,8 @@ typedef struct ec_render_request {
     const char *device;        /* NULL: chosen */
     double exposure;           /* EV */
     ec_frame_range frames;     /* of a sequence; not given: one picture */
+    uint32_t orbit;            /* frames in which the camera goes round the scene once; 0: it stays */
+    double turn;               /* degrees that it has gone round */
     bool seed_is_frame;        /* --seed frame */
     const char *sheet;         /* small pictures of all of the job in one; NULL: none */
     const char *scenarios, *folder; /* a file of them, and where their pictures go; NULL: none */

@@ -60,8 +60,9 @@ static void describe_helpers(const ec_render_job *job, char *text, size_t size)
 static void announce(const ec_render_job *job)
 {
     const ec_render_options *options = &job->request->options;
-    char limits[160] = "", range[128] = "", more[64] = "";
+    char when[32], limits[160] = "", range[128] = "", more[64] = "";
     int used = 0;
+    ec_frame_when(&job->frame, when, sizeof when);
     if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
     if (options->time_limit > 0)
         used += snprintf(limits + used, sizeof limits - (size_t)used, "%s%g s", used ? " or " : "", options->time_limit);
@@ -84,8 +85,7 @@ static void announce(const ec_render_job *job)
     if (job->share && job->frame.name)
         snprintf(range, sizeof range, "%.*s (%u of %u): ", EC_CUT(job->frame.name, 80), job->frame.place, job->frame.count);
     else if (job->share)
-        snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place,
-                 job->frame.count, job->frame.seconds);
+        snprintf(range, sizeof range, "frame %u (%u of %u), at %s: ", job->frame.number, job->frame.place, job->frame.count, when);
     describe_helpers(job, more, sizeof more);
     ec_say(&job->listener->log, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height,
                    job->devices[0].name, more, limits);

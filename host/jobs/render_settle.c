@@ -139,16 +139,21 @@ static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
 /* A frame is done or not: it is the sequence that goes on. */
 static ec_result settle_frames(ec_render_request *request, ec_error *err)
 {
+    if (request->orbit && !request->frames.given)
+        request->frames = (ec_frame_range){.given = true, .last = request->orbit - 1, .step = 1, .fps = request->frames.fps};
     if (!request->frames.given && request->overwrite)
         return ec_usage(err, "--overwrite belongs to --frames; other pictures are written over as ever");
     if (!request->frames.given && request->frames.fps > 0)
         return ec_usage(err, "--fps belongs to --frames; leave it out or give that too");
     if (!request->frames.given && request->seed_is_frame) return ec_usage(err, "--seed frame belongs to --frames; give a number");
     if (!request->frames.given) return EC_OK;
-    if (request->choice.at_given) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
+    if (request->orbit && request->frames.last >= request->orbit)
+        return ec_usage(err, "--frames ends with %u, and --orbit %u has the frames 0 to %u", request->frames.last, request->orbit, request->orbit - 1);
+    const bool is_still = request->orbit && request->frames.fps == 0;
+    if (request->choice.at_given && !is_still) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
     const char *other = request->resume ? "resume" : request->checkpoint ? "checkpoint" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
     if (other) return ec_usage(err, "--frames and --%s: a sequence goes on with the frames that are not there yet; leave --%s out", other, other);
-    if (request->frames.fps == 0) request->frames.fps = EC_DEFAULT_FPS;
+    if (request->frames.fps == 0 && !is_still) request->frames.fps = EC_DEFAULT_FPS;
     return EC_OK;
 }
 

@@ -34,8 +34,10 @@ static ec_result outputs_of(const sequence *s, uint32_t frame, ec_outputs *outpu
 static ec_scene_choice choice_of(const sequence *s, uint32_t frame)
 {
     ec_scene_choice choice = s->request->choice;
-    double at = ec_frame_seconds(&s->request->frames, frame);
-    choice.animated = choice.frame = true;
+    const double at = ec_frame_moment(s->request, frame);
+    choice.frame = true;
+    if (!(s->request->frames.fps > 0)) return choice;
+    choice.animated = true;
     choice.at = at;
     choice.opens += at; /* a shutter is told from where the frame is */
     choice.closes += at;
@@ -77,8 +79,9 @@ static ec_result tell_frame(const sequence *s, uint32_t frame, const char *failu
 {
     if (!s->request->json) return EC_OK;
     cJSON *object = cJSON_CreateObject();
-    EC_JSON(object, EC_WHOLE("frame", frame), EC_REAL("frame_seconds", ec_frame_seconds(&s->request->frames, frame)),
+    EC_JSON(object, EC_WHOLE("frame", frame), EC_REAL("frame_seconds", ec_frame_moment(s->request, frame)),
             EC_STRING("state", failure ? "failed" : "skipped"));
+    if (s->request->orbit) EC_JSON(object, EC_REAL("frame_degrees", ec_frame_turn(s->request, frame)));
     if (failure) ec_json_text(object, "error", failure);
     cJSON *names = cJSON_AddArrayToObject(object, "outputs");
     for (int i = 0; i < outputs->count; i++) ec_json_text(names, NULL, outputs->file[i].path);
@@ -95,7 +98,7 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     char *words = ec_identity_write(&identity), *command = ec_frame_command(s->given, s->request, &request->outputs, frame);
     ec_render_job job = {.request = request, .listener = s->listener, .command = command, .ranks = s->ranks, .share = s->share,
                          .frame = {.number = frame, .place = i + 1, .count = s->count,
-                                   .seconds = ec_frame_seconds(&s->request->frames, frame), .job = words}};
+                                   .seconds = ec_frame_moment(s->request, frame), .turns = s->request->orbit > 0, .degrees = request->turn, .job = words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, err);
     if (result == EC_OK) result = ec_render_job_run(&job, err);
@@ -114,6 +117,7 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
     if (!request) return ec_fail(err, "out of memory");
     *request = *s->request;
     request->choice = choice_of(s, frame);
+    request->turn = ec_frame_turn(s->request, frame);
     if (request->seed_is_frame) request->options.seed = frame;
     ec_error why = {0};
     ec_result told = EC_OK, result = outputs_of(s, frame, &request->outputs, &why);

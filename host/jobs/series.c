@@ -18,7 +18,9 @@
 #include "store/identity_text.h"
 
 typedef struct series {
-    const ec_listener *listener;
+    const ec_listener *listener;  /* that names the entry in what it hears */
+    ec_listener named;
+    const ec_log *log;            /* of who called */
     const ec_render_request *all; /* what was asked for */
     ec_ranks *ranks;
     const ec_entries *entries;
@@ -26,9 +28,19 @@ typedef struct series {
     ec_frame_share share;
     char **failures;              /* by entry, why; NULL: none */
     bool *blanks;                 /* by entry: it shows no surface */
+    uint32_t current;             /* the entry under way, from 1; 0: none */
     uint32_t count, place;        /* of the shard */
     uint32_t rendered, skipped, failed, blank;
 } series;
+
+/* Notes and warnings say which of several scenes they are of. */
+static void write_named(void *user, ec_severity severity, const char *text)
+{
+    const series *s = user;
+    const char *name = s->current && s->entries->count > 1 ? s->entries->list[s->current - 1].name : "";
+    const bool names = *name && (severity == EC_NOTE || severity == EC_WARNING) && strncmp(text, name, strlen(name));
+    ec_tell(s->log, severity, "%s%s%s", names ? name : "", names ? ": " : "", text);
+}
 
 static bool is_of_shard(const series *s, uint32_t i) { return !s->all->shard_count || i % s->all->shard_count + 1 == s->all->shard; }
 
@@ -167,6 +179,7 @@ static ec_result take(series *s, uint32_t i, ec_render_request *r, bool *stopped
     const ec_entry *entry = &s->entries->list[i];
     ec_error why = {0};
     s->place++;
+    s->current = i + 1;
     ec_result result = entry->why_not ? ec_fail(&why, "%s", entry->why_not) : settle(entry, r, &why);
     if (result == EC_OK && r->frames.given) result = take_frames(s, i, r, &why);
     else if (result == EC_OK) result = take_picture(s, i, r, stopped, &why);
@@ -223,6 +236,7 @@ static ec_result render_all(series *s, ec_render_request *r, ec_error *err)
         EC_TRY(take(s, i, r, &stopped, err));
         stopped |= s->listener->should_stop(s->listener->user) && s->place < s->count;
     }
+    s->current = 0;
     if (s->all->sheet) EC_TRY(ec_sheet_write(s->all->sheet, s->share.pictures.list, s->share.pictures.count, (float)s->all->exposure, s->all->tonemap, err));
     return conclude(s, stopped, err);
 }
@@ -230,7 +244,9 @@ static ec_result render_all(series *s, ec_render_request *r, ec_error *err)
 ec_result ec_series_render(const ec_listener *listener, const ec_render_request *request, ec_ranks *ranks, const ec_entries *entries, double start,
                            ec_error *err)
 {
-    series s = {.listener = listener, .all = request, .ranks = ranks, .entries = entries, .start = start};
+    series s = {.named = *listener, .log = &listener->log, .all = request, .ranks = ranks, .entries = entries, .start = start};
+    s.named.log = (ec_log){write_named, &s};
+    s.listener = &s.named;
     ec_render_request *room = malloc(sizeof *room);
     s.failures = calloc(entries->count + 1, sizeof *s.failures);
     s.blanks = calloc(entries->count + 1, sizeof *s.blanks);

@@ -168,11 +168,62 @@ class Series(Case):
         scene["nodes"][0]["rotation"] = [0, 1, 0, 0]
         write_gltf(self.path("back.gltf"), scene)
         run = self.assert_ok(self.render("a.gltf", "back.gltf", "b.gltf", "-q", "-o", "out/{name}.png"))
+        self.assertIn("eclat: warning: back.gltf: the picture will show no surface", run.stderr)
         self.assertIn("1 of 3 pictures show no surface, as said above: back.gltf", run.stderr.splitlines()[-1])
         del scene["cameras"], scene["nodes"][1], scene["scenes"][0]["nodes"][1]
         write_gltf(self.path("back.gltf"), scene)
         self.assertEqual(self.assert_ok(self.render("a.gltf", "back.gltf", "-q", "-o", "out/{name}.exr")).stderr, "")
         self.assertGreater(sum(read_exr(self.path("out", "back.exr"))[1]["A"]), 0)
+
+    def test_a_turntable(self):
+        """A quad that glows on one side, off the scene's centre: from the other side it is not seen. A frame is what --eye sees from there."""
+        scene = glowing(1)
+        scene["nodes"] += [{"mesh": 0, "translation": [0, 0, -2], "rotation": [0, 1, 0, 0], "scale": [0.5, 0.5, 0.5]}]
+        scene["scenes"][0]["nodes"].append(2)
+        scene["nodes"][1]["translation"] = [0, 0, 4]
+        scene["cameras"][0]["perspective"]["aspectRatio"] = 1
+        path = write_gltf(self.path("two.gltf"), scene)
+        run, rows, last = self.rows(path, "--orbit", "4", "-o", "out/%d.exr", "--sheet", "sheet.png")
+        self.assert_ok(run)
+        self.assertEqual([row["frame_degrees"] for row in rows], [0, 90, 180, 270])
+        self.assertEqual([row["frame_seconds"] for row in rows], [0] * 4)
+        seen = [sum(read_exr(self.path("out", f"{k}.exr"))[1]["A"]) for k in range(4)]
+        self.assertEqual((seen[1], seen[3]), (0, 0), "edge on")
+        self.assertGreater(seen[0], 3 * seen[2])
+        self.assertGreater(seen[2], 0)
+        self.assert_ok(self.render(path, "-q", "-o", "still.exr"))
+        self.assertEqual(read_exr(self.path("still.exr"))[1], read_exr(self.path("out", "0.exr"))[1])
+        attributes, planes = read_exr(self.path("out", "2.exr"))
+        self.assertEqual(attributes["eclat.frame.degrees"], 180)
+        self.assert_ok(self.render(path, "-q", "-o", "eye.exr", "--eye", "0,0,-6", "--look-at", "0,0,-1"))
+        there = read_exr(self.path("eye.exr"))[1]
+        self.assertLess(max(abs(a - b) for a, b in zip(planes["A"], there["A"])), 0.3)
+        os.remove(self.path("out", "2.exr"))
+        self.assert_ok(eclat(*attributes["eclat.command"].split()[1:], "-q", cwd=self.folder))
+        self.assertEqual(read_exr(self.path("out", "2.exr"))[1], planes)
+        _, rows, _ = self.rows(path, "--orbit", "8", "--frames", "0:6:2", "-o", "out/%d.exr", "--overwrite")
+        self.assertEqual([row["frame_degrees"] for row in rows], [0, 90, 180, 270])
+        self.assertEqual([row["state"] for row in rows], ["skipped", "rendered", "rendered", "rendered"])
+
+    def test_a_turntable_whose_scene_moves_and_one_of_its_own(self):
+        scene = glowing(1)
+        move_node(scene, 0, [0, 0, 0], [8, 0, 0])
+        path = write_gltf(self.path("moves.gltf"), scene)
+
+        def means(*options):
+            rows = self.rows(path, "--orbit", "2", "-o", "out/%d.exr", "--overwrite", "--look-at", "0,0,0", "--eye", "0,0,3", *options)[1]
+            return [row["frame_seconds"] for row in rows], sum(read_exr(self.path("out", "0.exr"))[1]["A"])
+        self.assertEqual(means()[0], [0, 0])
+        self.assertEqual(means("--fps", "2")[0], [0, 0.5])
+        self.assertGreater(means("--at", "0")[1], 0)
+        self.assertEqual(means("--at", "1")[1], 0)
+        self.refuse_orbit("--frames ends with 4, and --orbit 4 has the frames 0 to 3", "--frames", "0:4")
+        self.refuse_orbit("--frames and --at", "--fps", "4", "--at", "1")
+        self.refuse_orbit("--frames and --checkpoint", "--checkpoint", "c.exr")
+        self.refuse_orbit("is one name for all --frames", "-o", "out.png")
+
+    def refuse_orbit(self, says, *options):
+        self.assertIn(says, self.assert_one_error(self.render("a.gltf", "--orbit", "4", *options), 2))
 
     def test_frames_of_several(self):
         for name in ("a.gltf", "b.gltf"):
