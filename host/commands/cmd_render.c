@@ -1,10 +1,14 @@
 /* eclat render SCENE */
+#include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "commands/command.h"
 #include "jobs/render_plan.h"
+#include "jobs/index_page.h"
+#include "jobs/scenarios.h"
 #include "jobs/series.h"
 
 static int list_rows(ec_option rows[EC_OPTIONS_MAX])
@@ -44,17 +48,42 @@ static bool is_series(const ec_call *call, const ec_render_request *r)
 {
     bool has_place = false;
     for (int i = 0; i < r->outputs.count; i++) has_place |= ec_entries_has_place(r->outputs.file[i].path);
-    return call->input_count > 1 || has_place || r->frames.given || r->orbit || r->sheet || r->shard_count;
+    return call->input_count > 1 || has_place || r->frames.given || r->orbit || r->scenarios || r->folder || r->sheet || r->shard_count;
+}
+
+static ec_result list_entries(const ec_call *call, const ec_render_request *request, ec_entries *entries, ec_error *err)
+{
+    if (request->scenarios) {
+        if (call->input_count) return ec_usage(err, "--scenarios has scenes of its own; leave '%s' out", call->inputs[0]);
+        EC_TRY(ec_entries_check(&call->given, err));
+        EC_TRY(ec_scenarios_read(request->scenarios, request->folder, &call->given, entries, err));
+        if (mkdir(request->folder, 0777) != 0 && errno != EEXIST) return ec_fail(err, "cannot make the folder '%s': %s; choose another with --out", request->folder, strerror(errno));
+        return EC_OK;
+    }
+    for (int i = 0; i == 0 || i < call->input_count; i++)
+        if (!call->input_count || !*call->inputs[i]) return ec_usage(err, "render needs a SCENE (.gltf or .glb); see 'eclat render --help'");
+    return ec_entries_of_scenes(call->inputs, call->input_count, &call->given, entries, err);
+}
+
+/* The page shows what there is, also where some has failed. */
+static ec_result write_index(const ec_render_request *request, const ec_entries *entries, ec_result result, ec_error *err)
+{
+    ec_error why;
+    if (!request->scenarios || result == EC_USAGE || ec_index_write(request->scenarios, request->folder, entries, &why) == EC_OK) return result;
+    if (result == EC_OK) return ec_fail(err, "%s", why.text);
+    ec_fail_more(err, "; and %s", why.text);
+    return result;
 }
 
 static ec_result run_series(ec_call *call, ec_render_request *request, double start, ec_error *err)
 {
     ec_entries entries = {0};
     EC_TRY(ec_render_request_settle(request, ec_render_rows, ec_render_row_count, call->is_given, err));
-    for (int i = 0; i == 0 || i < call->input_count; i++)
-        if (!call->input_count || !*call->inputs[i]) return ec_usage(err, "render needs a SCENE (.gltf or .glb); see 'eclat render --help'");
-    ec_result result = ec_entries_of_scenes(call->inputs, call->input_count, &call->given, &entries, err);
-    if (result == EC_OK) result = ec_series_render(call->listener, request, call->ranks, &entries, start, err);
+    ec_result result = list_entries(call, request, &entries, err);
+    if (result == EC_OK) {
+        result = ec_series_render(call->listener, request, call->ranks, &entries, start, err);
+        result = write_index(request, &entries, result, err);
+    }
     ec_entries_free(&entries);
     return result;
 }

@@ -8,7 +8,7 @@ typedef struct ec_entry {
     char *name;              /* in messages. Owned, as all of it */
     char *scene;             /* file */
     ec_given_options given;  /* with outputs of its own; those of the whole job, as --sheet, are left out */
-    char *why_not;           /* it cannot be rendered; NULL: it may be */
+    char *why_not;           /* it cannot be rendered, or has failed; NULL: neither */
 } ec_entry;
 
 /* Zero-initialised: none. */

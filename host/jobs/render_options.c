@@ -138,6 +138,13 @@ const ec_option ec_render_rows[] = {
      .help = "replace existing frames of a different job; without this option they are an error", .not_in_window = MOVING},
 
     /* Several pictures */
+    {.name = "out", .metavar = "FOLDER", EC_STORED(TEXT, folder), .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "with --scenarios: write NAME.exr and NAME.png of each scenario into FOLDER, which is made, with index.html and index.png, all of them with their "
+             "errors", .not_in_window = MANY},
+    {.name = "scenarios", .metavar = "FILE", EC_STORED(TEXT, scenarios), .group = EC_GROUP_SERIES,
+     .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "render the scenarios of FILE in place of a SCENE: models, cameras, light, size and tone curve, as in the config.json of <model-viewer>'s and Khronos' "
+             "fidelity tests. Options given here replace a scenario's", .not_in_window = MANY},
     {.name = "shard", .metavar = "I/N", .set = ec_set_shard, .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
      .help = "render only every N-th picture, from the I-th on, as in 3/8: N machines share the work", .not_in_window = MANY},
     {.name = "sheet", .metavar = "FILE", EC_STORED(FILE, sheet), .ending = ".png", .group = EC_GROUP_SERIES,

@@ -157,6 +157,16 @@ static ec_result settle_frames(ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
+static ec_result check_scenarios(const ec_render_request *request, ec_error *err)
+{
+    if (!request->scenarios && request->folder) return ec_usage(err, "--out belongs to --scenarios; other pictures are named with -o");
+    if (!request->scenarios) return EC_OK;
+    if (!request->folder || !*request->folder) return ec_usage(err, "--scenarios needs --out FOLDER, for its pictures");
+    if (request->outputs.count) return ec_usage(err, "--scenarios and -o: each picture is called as its scenario, in the folder of --out; leave -o out");
+    if (request->frames.given) return ec_usage(err, "--scenarios and --frames: a scenario is one picture, from one place; leave --frames and --orbit out");
+    return EC_OK;
+}
+
 /* No option is without effect. */
 static ec_result settle_channels(const ec_render_request *request, ec_error *err)
 {
@@ -181,6 +191,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
         return ec_usage(err, "--every belongs to --checkpoint or --snapshot; leave it out or give one of them too");
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;
     EC_TRY(settle_frames(request, err));
+    EC_TRY(check_scenarios(request, err));
     EC_TRY(settle_slice(request, err));
     EC_TRY(settle_channels(request, err));
     EC_TRY(settle_adaptive(request, err));

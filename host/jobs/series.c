@@ -23,10 +23,9 @@ typedef struct series {
     const ec_log *log;            /* of who called */
     const ec_render_request *all; /* what was asked for */
     ec_ranks *ranks;
-    const ec_entries *entries;
+    ec_entries *entries;          /* what fails gets its why_not */
     double start;
     ec_frame_share share;
-    char **failures;              /* by entry, why; NULL: none */
     bool *blanks;                 /* by entry: it shows no surface */
     uint32_t current;             /* the entry under way, from 1; 0: none */
     uint32_t count, place;        /* of the shard */
@@ -176,7 +175,7 @@ static void say_failure(const series *s, const ec_entry *entry, const char *why,
 
 static ec_result take(series *s, uint32_t i, ec_render_request *r, bool *stopped, ec_error *err)
 {
-    const ec_entry *entry = &s->entries->list[i];
+    ec_entry *entry = &s->entries->list[i];
     ec_error why = {0};
     s->place++;
     s->current = i + 1;
@@ -184,12 +183,12 @@ static ec_result take(series *s, uint32_t i, ec_render_request *r, bool *stopped
     if (result == EC_OK && r->frames.given) result = take_frames(s, i, r, &why);
     else if (result == EC_OK) result = take_picture(s, i, r, stopped, &why);
     if (result == EC_OK || *stopped) return EC_OK;
+    if (!entry->why_not) entry->why_not = strdup(why.text);
     if (s->entries->count == 1) {
         *err = why;
         return result;
     }
     say_failure(s, entry, why.text, EC_STATUS);
-    s->failures[i] = strdup(why.text);
     s->failed++;
     return tell(s, entry, why.text, &r->outputs, err);
 }
@@ -218,7 +217,7 @@ static ec_result conclude(const series *s, bool stopped, ec_error *err)
     list_blanks(s, names, sizeof names);
     if (s->blank && s->count > 1) ec_warn(log, "%u of %u pictures show no surface, as said above: %s", s->blank, s->count, names);
     for (uint32_t i = 0; i < s->entries->count; i++)
-        if (s->failures[i]) say_failure(s, &s->entries->list[i], s->failures[i], EC_FAILURE);
+        if (s->entries->list[i].why_not && is_of_shard(s, i)) say_failure(s, &s->entries->list[i], s->entries->list[i].why_not, EC_FAILURE);
     if (stopped)
         return ec_fail(err, "interrupted: %u of %u pictures are there; the same command goes on with the others", s->rendered + s->skipped, s->count);
     if (s->failed)
@@ -237,23 +236,20 @@ static ec_result render_all(series *s, ec_render_request *r, ec_error *err)
         stopped |= s->listener->should_stop(s->listener->user) && s->place < s->count;
     }
     s->current = 0;
-    if (s->all->sheet) EC_TRY(ec_sheet_write(s->all->sheet, s->share.pictures.list, s->share.pictures.count, (float)s->all->exposure, s->all->tonemap, err));
+    if (s->all->sheet) EC_TRY(ec_sheet_write(s->all->sheet, s->share.pictures.list, s->share.pictures.count, err));
     return conclude(s, stopped, err);
 }
 
-ec_result ec_series_render(const ec_listener *listener, const ec_render_request *request, ec_ranks *ranks, const ec_entries *entries, double start,
+ec_result ec_series_render(const ec_listener *listener, const ec_render_request *request, ec_ranks *ranks, ec_entries *entries, double start,
                            ec_error *err)
 {
     series s = {.named = *listener, .log = &listener->log, .all = request, .ranks = ranks, .entries = entries, .start = start};
     s.named.log = (ec_log){write_named, &s};
     s.listener = &s.named;
     ec_render_request *room = malloc(sizeof *room);
-    s.failures = calloc(entries->count + 1, sizeof *s.failures);
     s.blanks = calloc(entries->count + 1, sizeof *s.blanks);
-    ec_result result = room && s.failures && s.blanks ? render_all(&s, room, err) : ec_fail(err, "out of memory for %u pictures", entries->count);
-    for (uint32_t i = 0; s.failures && i < entries->count; i++) free(s.failures[i]);
+    ec_result result = room && s.blanks ? render_all(&s, room, err) : ec_fail(err, "out of memory for %u pictures", entries->count);
     ec_frame_share_free(&s.share);
-    free(s.failures);
     free(s.blanks);
     free(room);
     return result;

@@ -6,6 +6,11 @@
 #include <string.h>
 #include <strings.h>
 
+#include "image/exr_header.h"
+#include "image/image.h"
+#include "jobs/numbers.h"
+#include "report/names.h"
+
 enum { CELL = 192, GAP = 8, GROUND = 32, SIDE_MOST = 32768 };
 
 typedef struct small {
@@ -26,14 +31,21 @@ static bool read_png(const char *path, small *picture)
     return is_read;
 }
 
-static bool read_exr(const char *path, float exposure, ec_tonemap tonemap, small *picture)
+/* As the PNG beside it would show it. */
+static bool read_exr(const char *path, small *picture)
 {
+    double exposure = 0;
+    uint32_t tonemap = EC_TONEMAP_NEUTRAL;
     float *rgb = NULL;
     ec_error ignored;
+    char *curve = ec_exr_header_text(path, "eclat.png.tonemap");
+    ec_exr_number(path, "eclat.png.exposure", &exposure);
+    if (curve) ec_parse_choice("tonemap", curve, ec_tonemap_names, &tonemap, &ignored);
+    free(curve);
     if (ec_image_read_rgb(path, &picture->width, &picture->height, &rgb, &ignored) != EC_OK) return false;
     const uint64_t pixels = (uint64_t)picture->width * picture->height;
     picture->rgb = malloc(3 * pixels);
-    if (picture->rgb) ec_tonemap_rgb(rgb, picture->rgb, pixels, exposure, tonemap);
+    if (picture->rgb) ec_tonemap_rgb(rgb, picture->rgb, pixels, (float)exposure, (ec_tonemap)tonemap);
     free(rgb);
     return picture->rgb;
 }
@@ -92,14 +104,14 @@ static ec_result write(const char *path, const small *pictures, uint32_t count, 
     return result;
 }
 
-ec_result ec_sheet_write(const char *path, char *const *files, uint32_t count, float exposure, ec_tonemap tonemap, ec_error *err)
+ec_result ec_sheet_write(const char *path, char *const *files, uint32_t count, ec_error *err)
 {
     small *pictures = calloc(count + 1, sizeof *pictures);
     if (!pictures) return ec_fail(err, "cannot write '%s': out of memory for %u pictures", path, count);
     for (uint32_t i = 0; i < count; i++) {
         const char *dot = strrchr(files[i], '.');
         const bool is_png = dot && !strcasecmp(dot, ".png");
-        if (is_png ? read_png(files[i], &pictures[i]) : read_exr(files[i], exposure, tonemap, &pictures[i])) shrink(&pictures[i]);
+        if (is_png ? read_png(files[i], &pictures[i]) : read_exr(files[i], &pictures[i])) shrink(&pictures[i]);
         else pictures[i] = (small){0};
     }
     ec_result result = write(path, pictures, count, err);

@@ -4,10 +4,10 @@
 
 #include <stdint.h>
 
-#include "image/image.h"
+#include "base/error.h"
 
-/* Writes a PNG with the pictures of these files, PNG or EXR, in rows from the top left, each at most 192 pixels wide and high. Those of an EXR are tone
- * mapped so. What cannot be read stays empty. */
-ec_result ec_sheet_write(const char *path, char *const *files, uint32_t count, float exposure, ec_tonemap tonemap, ec_error *err);
+/* Writes a PNG with the pictures of these files, PNG or EXR, in rows from the top left, each at most 192 pixels wide and high. An EXR is tone
+ * mapped as its PNG is. What cannot be read stays empty. */
+ec_result ec_sheet_write(const char *path, char *const *files, uint32_t count, ec_error *err);
 
 #endif

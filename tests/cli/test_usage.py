@@ -200,7 +200,7 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "-z", says="unknown option '-z'")
 
     def test_ambiguous_missing_and_superfluous_values(self):
-        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --samples, --scattering, --scene, --screen-window, --seed, --shard, --sheet, --shutter, --size, --snapshot, --spp")
+        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --samples, --scattering, --scenarios, --scene, --screen-window, --seed, --shard, --sheet, --shutter, --size, --snapshot, --spp")
         self.usage("render", "s.gltf", "--spp", says="'--spp' needs a value")
         self.usage("render", "s.gltf", "-o", says="needs a value")
         self.usage("render", "s.gltf", "--quiet=yes", says="takes no value")
