@@ -17,6 +17,7 @@
 
 #define LASTING "a window keeps no checkpoints and renders no slices"
 #define MOVING "a window shows one moment"
+#define MANY "a window shows one picture"
 #define TALKING "a window reports to who looks at it"
 
 const ec_option ec_render_rows[] = {
@@ -55,16 +56,16 @@ const ec_option ec_render_rows[] = {
      .otherwise = "off"},
     {.name = "env", .metavar = "FILE|R,G,B", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
-     .help = "environment light: an equirectangular .hdr or .exr map, or a constant radiance", .otherwise = "none; 1,1,1 if the scene has no light at all"},
+     .help = "environment light: an equirectangular .hdr or .exr map, a constant radiance, or a name that --light takes", .otherwise = "as --light"},
     {.name = "env-rotate", .metavar = "DEG", EC_RANGED(REAL, env_degrees, -36000, 36000), EC_TOLD(adjusts_env), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_WINDOW,
      .help = "turn the environment by this many degrees, counter-clockwise as seen from above", .otherwise = "0"},
     {.name = "env-strength", .metavar = "S", EC_RANGED(REAL, env_strength, 0, 1e30), EC_TOLD(adjusts_env), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO,
      .help = "multiply the environment's radiance by S", .otherwise = "1"},
-    {.name = "exposure", .metavar = "EV", EC_RANGED(REAL, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST), .group = EC_GROUP_PICTURE,
+    {.name = "exposure", .metavar = "EV|auto", EC_RANGED(EXPOSURE, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW,
-     .help = "brighten the PNG by this many stops", .otherwise = "0"},
+     .help = EC_EXPOSURE_HELP, .otherwise = "0"},
     {.name = "eye", .metavar = "X,Y,Z", EC_STORED(TRIPLE, look.to.eye), EC_TOLD(look.has_eye), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "position of the camera, in the file's coordinates", .otherwise = "the camera's own"},
     {.name = "filter", .metavar = "NAME", EC_CHOSEN(options.filter, ec_filter_names), .group = EC_GROUP_PICTURE, .integrators = TRACERS,
@@ -86,12 +87,18 @@ const ec_option ec_render_rows[] = {
      .help = "render with a thin lens instead of a pinhole; the diameter of its aperture is its focal length divided by N, for a sensor 24 mm high and the "
              "camera's field of view; requires --focus",
      .otherwise = "a pinhole"},
+    {.name = "light", .metavar = "NAME|FILE", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
+     .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
+     .help = "the same as --env. studio: grey walls and soft boxes around a subject that faces +z; sky:AZ,EL: a clear sky with its sun AZ degrees from +z "
+             "towards +x and EL degrees above the horizon, 0 to 90",
+     .otherwise = "none; studio if the scene has no light at all"},
     {.name = "look-at", .metavar = "X,Y,Z", EC_STORED(TRIPLE, look.to.target), EC_TOLD(look.has_target), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_CAMERA,
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
-     .help = "write FILE, an .exr (linear, with errors: --channels) or a .png; may be repeated",
+     .help = "write FILE, an .exr (linear, with errors: --channels) or a .png; may be repeated. {name} stands for the scene's base name, {folder} for its "
+             "folder's: several scenes need one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
@@ -102,7 +109,7 @@ const ec_option ec_render_rows[] = {
     {.name = "size", .metavar = "WxH", EC_STORED(SIZE, options.width), EC_TOLD(has_size), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
      .help = "width and height in pixels", .otherwise = EC_TEXT(EC_DEFAULT_HEIGHT) " high, and as wide as the camera's aspect ratio requires; square without one"},
     {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(tonemap, ec_tonemap_names), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
-     .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
+     .help = EC_TONE_CURVES_HELP, .otherwise = "neutral"},
     {.name = "up", .metavar = "X,Y,Z", .set = ec_set_up, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "up direction of the camera", .otherwise = "0,1,0 with --eye or --look-at, else the camera's own"},
 
@@ -128,8 +135,26 @@ const ec_option ec_render_rows[] = {
      .help = "render frames A to B, B included, or every STEP-th of them; A alone renders one. -o then contains %d, or %04d for four digits, in place of the "
              "frame number (default: NAME.%04d.exr and .png). Frames of the same job that already exist are skipped",
      .not_in_window = MOVING},
+    {.name = "orbit", .metavar = "N", EC_RANGED(U32, orbit, 1, EC_FRAME_MOST), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_PART,
+     .help = "turntable: frames 0 to N-1, in which the camera goes round the scene once, to its right, about --up (0,1,0) through --look-at (the centre of the "
+             "scene). Animations stand still, unless --fps is given; --frames renders some of the frames",
+     .not_in_window = MOVING},
     {.name = "overwrite", EC_STORED(FLAG, overwrite), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "replace existing frames of a different job; without this option they are an error", .not_in_window = MOVING},
+
+    /* Several pictures */
+    {.name = "out", .metavar = "FOLDER", EC_STORED(TEXT, folder), .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "with --scenarios: write NAME.exr and NAME.png of each scenario into FOLDER, which is made, with index.html and index.png, all of them with their "
+             "errors", .not_in_window = MANY},
+    {.name = "scenarios", .metavar = "FILE", EC_STORED(TEXT, scenarios), .group = EC_GROUP_SERIES,
+     .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "render the scenarios of FILE in place of a SCENE: models, cameras, light, size and tone curve, as in the config.json of <model-viewer>'s and Khronos' "
+             "fidelity tests. Options given here replace a scenario's", .not_in_window = MANY},
+    {.name = "shard", .metavar = "I/N", .set = ec_set_shard, .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "render only every N-th picture, from the I-th on, as in 3/8: N machines share the work", .not_in_window = MANY},
+    {.name = "sheet", .metavar = "FILE", EC_STORED(FILE, sheet), .ending = ".png", .group = EC_GROUP_SERIES,
+     .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "write a contact sheet, a .png with small pictures of all, in their order from the top left; of --frames too", .not_in_window = MANY},
 
     /* Resume and distribute */
     {.name = "checkpoint", .metavar = "FILE", EC_STORED(FILE, checkpoint), .ending = ".exr", .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,

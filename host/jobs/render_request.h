@@ -9,6 +9,7 @@
 #include "jobs/frames.h"
 #include "jobs/given.h"
 #include "jobs/outputs.h"
+#include "film/exposure.h"
 #include "image/image.h"
 #include "render/render.h"
 #include "scene/scene.h"
@@ -40,9 +41,14 @@ typedef struct ec_render_request {
     double env_degrees, env_strength; /* 0 and 1: as it is */
     bool adjusts_env;          /* one of these was given */
     const char *device;        /* NULL: chosen */
-    double exposure;           /* EV */
+    ec_exposure exposure;
     ec_frame_range frames;     /* of a sequence; not given: one picture */
+    uint32_t orbit;            /* frames in which the camera goes round the scene once; 0: it stays */
+    double turn;               /* degrees that it has gone round */
     bool seed_is_frame;        /* --seed frame */
+    const char *sheet;         /* small pictures of all of the job in one; NULL: none */
+    const char *scenarios, *folder; /* a file of them, and where their pictures go; NULL: none */
+    uint32_t shard, shard_count; /* the shard-th picture of each shard_count, from 1; 0: all */
     bool overwrite;            /* frames that are there and of another job */
     bool has_slice;            /* --samples A:B: */
     uint32_t slice_first, slice_end; /* samples a pixel */

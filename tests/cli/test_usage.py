@@ -183,7 +183,7 @@ class WrongOptions(Case):
     def test_operands(self):
         self.usage("render", says="needs a SCENE")
         self.usage("info", says="needs a SCENE")
-        self.usage("render", "a.gltf", "b.gltf", says="one scene at a time: 'b.gltf'")
+        self.usage("info", "a.gltf", "b.gltf", says="one scene at a time: 'b.gltf'")
         self.usage("devices", "extra", says="no operand")
         self.usage("compare", says="needs two pictures")
         self.usage("compare", "a.exr", says="needs two pictures")
@@ -200,7 +200,7 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "-z", says="unknown option '-z'")
 
     def test_ambiguous_missing_and_superfluous_values(self):
-        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --samples, --scattering, --scene, --screen-window, --seed, --shutter, --size, --snapshot, --spp")
+        self.usage("render", "s.gltf", "--s", "1", says="ambiguous: --sample, --sampler, --samples, --scattering, --scenarios, --scene, --screen-window, --seed, --shard, --sheet, --shutter, --size, --snapshot, --spp")
         self.usage("render", "s.gltf", "--spp", says="'--spp' needs a value")
         self.usage("render", "s.gltf", "-o", says="needs a value")
         self.usage("render", "s.gltf", "--quiet=yes", says="takes no value")
@@ -213,13 +213,13 @@ class WrongOptions(Case):
             "--size": ["512", "512x", "x512", "0x10", "-1x5", "5x5x5", "512X512 ", "100000x100000", "60000x60000"],
             "--max-depth": ["0", "-1", "infinite", "1.5"],
             "--seed": ["-1", "18446744073709551616", "0x", "ten"],
-            "--exposure": ["nan", "inf", "1e9", "1ev"],
+            "--exposure": ["nan", "inf", "1e9", "1ev", "Auto", ""],
             "--lanes": ["0", "2", "32", "all"],
             "--replicates": ["0", "17", "1.5", "many", ""],
             "--adaptive": ["yes", "", "1"],
             "--wave": ["0", "-5"],
             "--sampler": ["halton", ""],
-            "--tonemap": ["aces"],
+            "--tonemap": ["reinhard", ""],
             "--terminator": ["soft", ""],
             "--sample": ["all", "nee", ""],
             "--accel": ["octree"],
