@@ -35,7 +35,7 @@ static const ec_option options[] = {
      .help = "compare only where this picture is white, or brighter than half"},
     {.name = "quiet", .letter = 'q', .help = "print nothing; only the exit code tells"},
     {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(asked.look.tonemap, ec_tonemap_names), EC_TOLD(asked.is_shown),
-     .help = "compare sRGB values from 0 to 1, EXR through this tone curve: neutral (Khronos PBR Neutral) or none",
+     .help = "compare sRGB values from 0 to 1, EXR through this " EC_TONE_CURVES_HELP,
      .otherwise = "neutral where A or B is a PNG, JPEG, WebP or AVIF; else linear values are compared"},
 };
 

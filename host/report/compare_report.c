@@ -114,6 +114,11 @@ static void print_verdict(const ec_compare_report *report, FILE *to)
         fprintf(to, "they differ in %" PRIu64 " pixel%s; whether that is noise cannot be told\n", unequal, unequal == 1 ? "" : "s");
 }
 
+static bool is_bent(const ec_compare_report *report)
+{
+    return report->is_shown && report->tested && report->difference.noise_relative_rms > EC_NOISE_BENT;
+}
+
 /* The verdict does not know of light that a picture lacks. */
 static void print_unbound(char name, const char *why, FILE *to)
 {
@@ -135,6 +140,8 @@ void ec_compare_report_text(const ec_compare_report *report, FILE *to)
     print_noise(report, to);
     if (report->tested && report->difference.unequal > 0) print_test(&report->test, to);
     print_verdict(report, to);
+    if (report->differ && is_bent(report))
+        fprintf(to, "caution   tone curves bend noise of more than %.0f %% in ways that standard errors do not tell: take more samples, or compare EXR with EXR\n", 100 * EC_NOISE_BENT);
     if (report->is_lossy_a && report->differ) fprintf(to, "lossy     A is a %s, whose losses are differences too: save a PNG\n", report->format_a);
     print_unbound('A', report->why_a, to);
     print_unbound('B', report->why_b, to);
@@ -175,7 +182,7 @@ cJSON *ec_compare_report_json(const ec_compare_report *report)
             EC_REAL("psnr", d->psnr), EC_REAL("flip", report->flip), EC_REAL("ssim", report->ssim), EC_WHOLE("compared_pixels", d->pixels),
             EC_STRING("space", report->is_shown ? "srgb" : "linear"), EC_STRING("tonemap", ec_tonemap_names[report->tonemap]),
             EC_REAL("exposure", report->exposure), EC_STRING("exposure_fitted", report->fitted ? (char[2]){report->fitted} : NULL),
-            EC_FLAG("noise_estimated", report->is_estimated));
+            EC_FLAG("noise_estimated", report->is_estimated), EC_FLAG("noise_bent", is_bent(report)));
     if (report->tested)
         add_test(cJSON_AddObjectToObject(root, "noise_test"), &report->test);
     else

@@ -117,6 +117,13 @@ class Noise(Pictures):
             self.assertGreater(self.compare(right, b, "--tonemap", "none")["noise_test"]["p"], 0.01)
             self.compare(dark, b, "--tonemap", "none", code=1)
 
+    def test_much_noise_is_cautioned_of(self):
+        a = self.png("a.png", self.ramp(0.2))
+        for error, bent in (0.02, False), (0.4, True):
+            b = self.exr("b.exr", self.ramp(), error=error)
+            self.assertEqual(self.compare(a, b, code=1)["noise_bent"], bent)
+            self.assertEqual("caution   tone curves bend noise of more than 10 %" in eclat("compare", a, b).stdout, bent)
+
     def test_rounding_of_a_whole_surface_is_no_difference(self):
         grey = [[decode(100.45 / 255)] * 3] * (W * H)  # half a step from what 8 bits hold, many standard errors of the mean
         b = self.exr("b.exr", grey, error=1e-3)
@@ -142,6 +149,10 @@ class Noise(Pictures):
         run("--spp", "64", "-o", "noisy.png")
         run("--spp", "64", "--max-depth", "4", "-o", "wrong.png")
         self.compare("same.png", "b.exr")
+        for curve in "aces", "agx", "filmic", "none":
+            run("--spp", "1024", "--seed", "100", "--tonemap", curve, "-o", f"{curve}.png")
+            self.assertEqual(self.compare(f"{curve}.png", "b.exr", "--tonemap", curve)["unequal_pixels"], 0)
+            self.compare(f"{curve}.png", "b.exr", code=1)
         self.compare("noisy.png", "b.exr", "--estimate-noise")
         self.compare("wrong.png", "b.exr", "--estimate-noise", code=1)
 
