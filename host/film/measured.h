@@ -10,13 +10,13 @@ typedef struct ec_measured {
     const float *rgb;     /* 3 a pixel, finite */
     const float *se;      /* 3 a pixel: standard errors, finite; NULL if they are not known, which counts as none */
     const float *se_y;    /* 1 a pixel: of luminance; NULL if not known */
-    const float *tail_se; /* 3 a pixel: in place of se where single values are judged, as noise reaches further to one side; NULL: se */
     double replicates;    /* independent estimates behind the standard errors; INFINITY if not known */
     double samples;       /* a pixel; 0 if not known */
     int is_half;          /* the values were rounded to 16 bits */
     const float *slack;   /* 3 a pixel: by how much values may be off, all of them in one direction, as stored in few bits; NULL: not at all */
     const uint8_t *mask;  /* 1 a pixel: 0 does not count; NULL: all do */
     double peak;          /* the largest value there can be; 0: there is no limit */
+    const float *tail_se; /* 3 a pixel: in place of se where single values are judged, as noise reaches further to one side; NULL: se */
 } ec_measured;
 
 /* Two values closer than this are the same number after rounding: other orders of addition (a few ulps of a float), other
