@@ -42,6 +42,8 @@ typedef struct ec_render_request {
     bool adjusts_env;          /* one of these was given */
     const char *device;        /* NULL: chosen */
     ec_exposure exposure;
+    ec_background background;
+    unsigned png_depth;        /* of ec_png_depths: 8 or 16 bits */
     ec_frame_range frames;     /* of a sequence; not given: one picture */
     bool seed_is_frame;        /* --seed frame */
     bool overwrite;            /* frames that are there and of another job */
