@@ -1,11 +1,15 @@
 /* eclat render SCENE */
+#include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "commands/command.h"
 #include "jobs/render_plan.h"
-#include "jobs/sequence.h"
+#include "jobs/index_page.h"
+#include "jobs/scenarios.h"
+#include "jobs/series.h"
 
 static int list_rows(ec_option rows[EC_OPTIONS_MAX])
 {
@@ -40,6 +44,50 @@ static ec_result take_request(ec_call *call, ec_render_request *request, ec_erro
     return ec_render_request_settle(request, ec_render_rows, ec_render_row_count, call->is_given, err);
 }
 
+static bool is_series(const ec_call *call, const ec_render_request *r)
+{
+    bool has_place = false;
+    for (int i = 0; i < r->outputs.count; i++) has_place |= ec_entries_has_place(r->outputs.file[i].path);
+    return call->input_count > 1 || has_place || r->frames.given || r->orbit || r->scenarios || r->folder || r->sheet || r->shard_count;
+}
+
+static ec_result list_entries(const ec_call *call, const ec_render_request *request, ec_entries *entries, ec_error *err)
+{
+    if (request->scenarios) {
+        if (call->input_count) return ec_usage(err, "--scenarios has scenes of its own; leave '%s' out", call->inputs[0]);
+        EC_TRY(ec_entries_check(&call->given, err));
+        EC_TRY(ec_scenarios_read(request->scenarios, request->folder, &call->given, entries, err));
+        if (mkdir(request->folder, 0777) != 0 && errno != EEXIST) return ec_fail(err, "cannot make the folder '%s': %s; choose another with --out", request->folder, strerror(errno));
+        return EC_OK;
+    }
+    for (int i = 0; i == 0 || i < call->input_count; i++)
+        if (!call->input_count || !*call->inputs[i]) return ec_usage(err, "render needs a SCENE (.gltf or .glb); see 'eclat render --help'");
+    return ec_entries_of_scenes(call->inputs, call->input_count, &call->given, entries, err);
+}
+
+/* The page shows what there is, also where some has failed. */
+static ec_result write_index(const ec_render_request *request, const ec_entries *entries, ec_result result, ec_error *err)
+{
+    ec_error why;
+    if (!request->scenarios || result == EC_USAGE || ec_index_write(request->scenarios, request->folder, entries, &why) == EC_OK) return result;
+    if (result == EC_OK) return ec_fail(err, "%s", why.text);
+    ec_fail_more(err, "; and %s", why.text);
+    return result;
+}
+
+static ec_result run_series(ec_call *call, ec_render_request *request, double start, ec_error *err)
+{
+    ec_entries entries = {0};
+    EC_TRY(ec_render_request_settle(request, ec_render_rows, ec_render_row_count, call->is_given, err));
+    ec_result result = list_entries(call, request, &entries, err);
+    if (result == EC_OK) {
+        result = ec_series_render(call->listener, request, call->ranks, &entries, start, err);
+        result = write_index(request, &entries, result, err);
+    }
+    ec_entries_free(&entries);
+    return result;
+}
+
 static ec_result run(ec_call *call, ec_error *err)
 {
     const double start = ec_now();
@@ -49,8 +97,8 @@ static ec_result run(ec_call *call, ec_error *err)
     *job = (ec_render_job){.request = request, .listener = call->listener, .takes_several = true, .ranks = call->ranks, .program = call->program,
                            .command = call->line, .job = {.argc = call->words.count - 1, .argv = call->words.list + 1, .folder = call->folder}};
     call->write = write_rendered;
+    if (is_series(call, request)) return run_series(call, request, start, err);
     EC_TRY(take_request(call, request, err));
-    if (request->frames.given) return ec_frames_render(call->listener, request, job->ranks, &call->given, start, err);
     if (request->plan_ranks) return plan(job, err);
     job->in_memory = call->wants_picture && !request->outputs.count;
     ec_result result = job->in_memory ? ec_render_job_load(job, err) : ec_render_job_prepare(job, err);
@@ -66,8 +114,8 @@ static const eclat_note notes[] = {
     {0}};
 
 const ec_command ec_cmd_render = {
-    .told = {.name = "render", .operands = "SCENE [options]", .summary = "render a scene to EXR and PNG",
-             .intro = "Renders a glTF 2.0 scene (.gltf or .glb) and states the error of the image.",
+    .told = {.name = "render", .operands = "SCENE... [options]", .summary = "render scenes to EXR and PNG",
+             .intro = "Renders glTF 2.0 scenes (.gltf or .glb) and states the error of each image.",
              .notes = notes},
     .rows = list_rows, .size = sizeof(ec_render_request), .start = ec_render_request_start, .run = run, .is_shared = true,
 };

@@ -13,6 +13,7 @@ const char *const ec_group_titles[EC_GROUP_COUNT] = {
     [EC_GROUP_PICTURE] = "Picture",
     [EC_GROUP_LIMITS] = EC_TITLE_LIMITS,
     [EC_GROUP_ANIMATION] = "Animation: one picture per frame; limits apply to each",
+    [EC_GROUP_SERIES] = "Several pictures: of several SCENEs, or of a file of scenarios; limits apply to each",
     [EC_GROUP_RESUME] = EC_TITLE_RESUME,
     [EC_GROUP_TRANSPORT] = "Light transport",
     [EC_GROUP_DEVICE] = "Device",

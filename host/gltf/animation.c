@@ -32,7 +32,7 @@ ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_
         return ec_fail(err, "%s: out of memory", path);
     }
     ec_result result = ec_settle_moment(path, choice, &moment, err);
-    moment.frame = moment.animated = true;
+    moment.frame = true;
     if (result == EC_OK) result = ec_gltf_read(a->path, &moment, &a->gltf, log, err);
     if (result == EC_OK) result = make_room(a->gltf, err);
     if (result == EC_OK) {

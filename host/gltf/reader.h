@@ -19,7 +19,7 @@ typedef struct ec_scene_files {
 void ec_scene_files_list(const char *scene, ec_scene_files *files);
 void ec_scene_files_free(ec_scene_files *files);
 
-/* A file of which many moments are shown: read and decoded once. choice: animated, a frame; its moment is the first one shown. */
+/* A file of which many moments are shown, or one many times: read and decoded once. choice: a frame; its moment is the first one shown. */
 typedef struct ec_animation ec_animation;
 ec_result ec_animation_open(const char *path, const ec_scene_choice *choice, ec_animation **animation,
                             const ec_log *log, ec_error *err);

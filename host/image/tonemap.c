@@ -16,7 +16,7 @@ double ec_srgb_to_linear(double encoded)
 }
 
 /* Non-finite to 0 and negative to 0; the upper limit keeps infinity out of the curves' squares, when the exposure is absurd. */
-static double expose(float value, double scale)
+static double expose(double value, double scale)
 {
     if (!isfinite(value) || value <= 0) return 0;
     return fmin(value * scale, 1e30);
@@ -34,6 +34,13 @@ const double *ec_srgb_bytes(void)
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, fill_srgb_bytes);
     return srgb_bytes;
+}
+
+void ec_tonemap_pixel(double rgb[3], double scale, ec_tonemap tonemap)
+{
+    for (int c = 0; c < 3; c++) rgb[c] = expose(rgb[c], scale);
+    ec_tone_curve_apply(tonemap, rgb);
+    for (int c = 0; c < 3; c++) rgb[c] = srgb_encode(rgb[c]);
 }
 
 static void put(double x, const ec_raster *to, uint8_t *out, uint32_t channel)

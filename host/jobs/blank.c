@@ -18,16 +18,16 @@ static bool is_within(const ec_scene *s, const float point[3])
     return true;
 }
 
-void ec_warn_of_blank(const ec_render_job *job)
+bool ec_warn_of_blank(const ec_render_job *job)
 {
     const ec_scene *s = job->scene;
     const ec_render_options *o = &job->request->options;
     const ec_camera *camera = &s->cameras[o->camera];
     double window[4];
-    if (!s->triangle_count || o->fstop > 0 || (o->without & EC_FEATURE_CULLING)) return; /* no surfaces are told of where the file is read */
+    if (!s->triangle_count || o->fstop > 0 || (o->without & EC_FEATURE_CULLING)) return false; /* no surfaces are told of where the file is read */
     find_window(camera, o, window);
     const ec_in_sight seen = ec_scene_in_sight(s, camera, window);
-    if (seen == EC_SIGHT_FRONTS) return;
+    if (seen == EC_SIGHT_FRONTS) return false;
     const char *inside = is_within(s, camera->position) ? ", from within the scene" : "";
     if (seen == EC_SIGHT_NONE)
         ec_warn(&job->listener->log, "the picture will show no surface: there is none in the view of camera %s%s; --eye and --look-at place it elsewhere",
@@ -36,4 +36,5 @@ void ec_warn_of_blank(const ec_render_job *job)
         ec_warn(&job->listener->log, "the picture will show no surface: camera %s sees nothing but backs of single-sided materials%s, which its rays pass "
                 "through; look from the other side (--eye), make the materials double-sided, or leave culling out with --without back-face-culling",
                 job->camera_text, inside);
+    return true;
 }

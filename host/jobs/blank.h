@@ -4,7 +4,7 @@
 
 #include "jobs/render_job.h"
 
-/* Warns where the job's camera has no surface in its view, or only such as camera rays pass through. */
-void ec_warn_of_blank(const ec_render_job *job);
+/* Warns where the job's camera has no surface in its view, or only such as camera rays pass through; true then. */
+bool ec_warn_of_blank(const ec_render_job *job);
 
 #endif

@@ -75,8 +75,12 @@ void ec_frame_identify(const ec_identity *all, const ec_render_request *request,
 {
     char text[64];
     *identity = *all;
-    snprintf(text, sizeof text, "%.17g s", ec_frame_seconds(&request->frames, frame));
+    if (!request->frames.given) return;
+    snprintf(text, sizeof text, "%.17g s", ec_frame_moment(request, frame));
     add(identity, "moment", text);
+    if (!request->orbit) return;
+    snprintf(text, sizeof text, "%.17g degrees", ec_frame_turn(request, frame));
+    add(identity, "turn", text);
 }
 
 char *ec_frame_command(const ec_given_options *given, const ec_render_request *request, const ec_outputs *outputs, uint32_t frame)
@@ -86,7 +90,7 @@ char *ec_frame_command(const ec_given_options *given, const ec_render_request *r
     ec_words words = {0};
     snprintf(number, sizeof number, "%u", frame);
     ec_result result = ec_given_add_all(&alone, given, ec_render_rows, ec_render_row_count, EC_OPTION_SEQUENCE, NULL);
-    if (result == EC_OK) result = ec_given_add(&alone, "frames", number, NULL);
+    if (result == EC_OK && request->frames.given) result = ec_given_add(&alone, "frames", number, NULL);
     for (int i = 0; result == EC_OK && i < outputs->count; i++) result = ec_given_add(&alone, "output", outputs->file[i].path, NULL);
     if (result == EC_OK) result = ec_words_make(&words, "render", &scene, 1, &alone, ec_render_rows, ec_render_row_count, NULL);
     if (result == EC_OK) line = ec_command_line(words.count, words.list);

@@ -42,6 +42,7 @@ typedef enum ec_option_group {
     EC_GROUP_PICTURE,
     EC_GROUP_LIMITS,
     EC_GROUP_ANIMATION,
+    EC_GROUP_SERIES,
     EC_GROUP_RESUME,
     EC_GROUP_TRANSPORT,
     EC_GROUP_DEVICE,

@@ -23,7 +23,7 @@ typedef struct ec_inputs {
 bool ec_inputs_have(ec_inputs *inputs, const char *path);
 void ec_inputs_free(ec_inputs *inputs);
 
-enum { EC_OUTPUT_EXR, EC_OUTPUT_PIXELS };
+enum { EC_OUTPUT_EXR, EC_OUTPUT_PIXELS, EC_OUTPUT_PNG = EC_OUTPUT_PIXELS + EC_FORMAT_PNG };
 
 enum { EC_OUTPUTS_MAX = 16 };
 

@@ -97,11 +97,11 @@ static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
     return EC_OK;
 }
 
-/* A frame's scene shares data with the next one's. */
+/* A frame's scene shares data with the next one's: those of one animation. */
 static void drop_scene(void *user)
 {
     ec_render_job *job = user;
-    if (!job->share) ec_scene_drop_data(job->scene);
+    if (!job->share || !job->share->animation) ec_scene_drop_data(job->scene);
 }
 
 static bool keep_all(ec_render_job *job, const ec_film *film, const ec_past *past)

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/vec3.h"
 #include "jobs/blank.h"
 #include "jobs/defaults.h"
 #include "jobs/numbers.h"
@@ -64,11 +65,34 @@ static ec_result prepare_outputs(ec_render_request *request, ec_error *err)
     return ec_render_check_files(request, err);
 }
 
-/* The map of all frames is read, scaled and turned once; a sky that is only there because a frame has no light is that frame's. */
+static void name_environment(const ec_render_request *r, char key[400])
+{
+    snprintf(key, 400, "%.17g %.17g %s", r->env_degrees, r->env_strength, r->environment ? r->environment : "");
+}
+
+static bool is_environment_there(const ec_render_job *job)
+{
+    char key[400];
+    if (!job->share || !job->share->environment_known) return false;
+    name_environment(job->request, key);
+    return job->share->animation || (job->request->environment && !strcmp(key, job->share->environment_key));
+}
+
+static void drop_environment(ec_frame_share *share)
+{
+    free(share->environment.rgb);
+    ec_packed_map_free(&share->packed);
+    share->environment = (ec_environment){0};
+    share->environment_known = false;
+}
+
+/* The map of all pictures is read, scaled and turned once; a sky that is only there because one of them has no light is that one's. */
 static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error *err)
 {
     ec_frame_share *share = job->share;
-    if (!share || !is_of_all || share->environment_known) return EC_OK;
+    if (!share || !is_of_all || is_environment_there(job)) return EC_OK;
+    drop_environment(share);
+    name_environment(job->request, share->environment_key);
     if (job->scene->environment.rgb) EC_TRY(ec_pack_map(&job->scene->environment, &share->packed, err));
     share->environment = job->scene->environment;
     share->has_environment = job->scene->has_environment;
@@ -83,8 +107,8 @@ ec_result ec_render_job_light(ec_render_job *job, ec_error *err)
 {
     const ec_log *log = &job->listener->log;
     const char *environment = job->request->environment;
-    bool is_of_all = environment || job->scene->has_environment;
-    if (job->share && job->share->environment_known) {
+    const bool is_there = is_environment_there(job), is_of_all = environment || (job->share && job->share->animation && job->scene->has_environment);
+    if (is_there) {
         job->scene->environment = job->share->environment;
         job->scene->environment.lent = true;
         job->scene->has_environment = job->share->has_environment;
@@ -100,7 +124,7 @@ ec_result ec_render_job_light(ec_render_job *job, ec_error *err)
             EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
         }
     }
-    if (job->request->adjusts_env && !(job->share && job->share->environment_known)) {
+    if (job->request->adjusts_env && !is_there) {
         if (!environment && !job->scene->has_environment)
             return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --light, or leave them out");
         ec_scene_adjust_environment(job->scene, job->request->env_degrees, job->request->env_strength, log);
@@ -151,12 +175,46 @@ static ec_result change_camera(const ec_camera_change *change, ec_scene *s, uint
     return EC_OK;
 }
 
+/* Round an axis through a point (Rodrigues 1840). */
+static void turn(double p[3], const double axis[3], const double through[3], double angle)
+{
+    double from[3], across[3];
+    for (int k = 0; k < 3; k++) from[k] = p[k] - through[k];
+    ec_cross(axis, from, across);
+    const double along = ec_dot(axis, from) * (1 - cos(angle));
+    for (int k = 0; k < 3; k++) p[k] = through[k] + from[k] * cos(angle) + across[k] * sin(angle) + axis[k] * along;
+}
+
+/* As far round the scene as the request asks for. */
+static ec_result turn_camera(const ec_render_request *r, ec_scene *s, uint32_t index, ec_viewpoint *v, ec_error *err)
+{
+    ec_camera *camera = &s->cameras[index], turned;
+    double axis[3] = {0, 1, 0}, centre[3], origin[3] = {0};
+    if (r->turn == 0) return EC_OK;
+    for (int k = 0; k < 3; k++) {
+        centre[k] = r->look.has_target ? r->look.to.target[k] : 0.5 * ((double)s->bounds_min[k] + s->bounds_max[k]) + s->center[k];
+        if (r->look.has_up) axis[k] = r->look.to.up[k];
+    }
+    const double angle = r->turn * 3.14159265358979323846 / 180;
+    ec_normalize(axis);
+    turn(v->eye, axis, centre, angle);
+    turn(v->target, axis, centre, angle);
+    turn(v->up, axis, origin, angle);
+    EC_TRY(ec_camera_look(v, s->center, &turned, err));
+    turned.aspect = camera->aspect;
+    turned.xmag = camera->xmag;
+    turned.name = camera->name;
+    *camera = turned;
+    return EC_OK;
+}
+
 static ec_result prepare_camera(ec_render_job *job, ec_error *err)
 {
     ec_render_options *options = &job->request->options;
     options->camera = job->scene->default_camera;
     if (job->request->camera) EC_TRY(ec_scene_find_camera(job->scene, job->request->camera, &options->camera, err));
     EC_TRY(change_camera(&job->request->look, job->scene, options->camera, &job->viewpoint, err));
+    EC_TRY(turn_camera(job->request, job->scene, options->camera, &job->viewpoint, err));
     if (!job->request->has_size) choose_size(options, job->request->default_height, &job->scene->cameras[options->camera]);
     ec_camera_describe(job->scene, options->camera, job->camera_text, sizeof job->camera_text);
     return EC_OK;
@@ -202,7 +260,7 @@ ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* Those of all frames. */
+/* Those of all pictures. */
 static void take_devices(ec_render_job *job)
 {
     const ec_frame_share *share = job->share;
@@ -216,7 +274,7 @@ static ec_result load_scene(ec_render_job *job, ec_error *err)
 {
     const ec_log *log = &job->listener->log;
     const ec_render_request *request = job->request;
-    if (job->share) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, log, err));
+    if (job->share && job->share->animation) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, log, err));
     return ec_render_job_light(job, err);
 }
@@ -272,7 +330,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     }
     job->load_seconds = ec_now() - start;
     EC_TRY(prepare_camera(job, err));
-    ec_warn_of_blank(job);
+    job->is_blank = ec_warn_of_blank(job);
     return check_memory(job, err);
 }
 
@@ -313,6 +371,33 @@ ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
     if (!job->request->options.denoise || job->stats.is_clean) return EC_OK;
     job->stats.is_clean = true; /* once, whatever comes of it */
     return ec_denoise(&job->film, job->request->options.denoise, &job->devices[0], &job->denoised, err);
+}
+
+void ec_frame_share_leave(ec_frame_share *share)
+{
+    ec_animation_close(share->animation);
+    share->animation = NULL;
+    drop_environment(share);
+    ec_followed_free(&share->followed);
+}
+
+void ec_frame_share_free(ec_frame_share *share)
+{
+    ec_frame_share_leave(share);
+    ec_frame_share_close(share);
+    while (share->pictures.count) free(share->pictures.list[--share->pictures.count]);
+    free(share->pictures.list);
+}
+
+void ec_frame_share_picture(ec_frame_share *share, const ec_outputs *outputs)
+{
+    int which = 0;
+    for (int i = outputs->count - 1; i >= 0; i--)
+        if (outputs->file[i].kind == EC_OUTPUT_PNG) which = i;
+    char **longer = realloc(share->pictures.list, (share->pictures.count + 1) * sizeof *longer), *path = strdup(outputs->file[which].path);
+    if (longer) share->pictures.list = longer;
+    if (longer && path) longer[share->pictures.count++] = path;
+    else free(path);
 }
 
 void ec_render_job_free(ec_render_job *job)

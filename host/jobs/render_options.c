@@ -17,6 +17,7 @@
 
 #define LASTING "a window keeps no checkpoints and renders no slices"
 #define MOVING "a window shows one moment"
+#define MANY "a window shows one picture"
 #define TALKING "a window reports to who looks at it"
 
 const ec_option ec_render_rows[] = {
@@ -100,7 +101,8 @@ const ec_option ec_render_rows[] = {
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
-     .help = "write FILE: an .exr (linear, with errors: --channels), a .png or .jpg for the screen, or an .hdr (linear); may be repeated",
+     .help = "write FILE: an .exr (linear, with errors: --channels), a .png or .jpg for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
+             "scene's base name, {folder} for its folder's: several scenes need one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
@@ -139,8 +141,26 @@ const ec_option ec_render_rows[] = {
      .help = "render frames A to B, B included, or every STEP-th of them; A alone renders one. -o then contains %d, or %04d for four digits, in place of the "
              "frame number (default: NAME.%04d.exr and .png). Frames of the same job that already exist are skipped",
      .not_in_window = MOVING},
+    {.name = "orbit", .metavar = "N", EC_RANGED(U32, orbit, 1, EC_FRAME_MOST), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_PART,
+     .help = "turntable: frames 0 to N-1, in which the camera goes round the scene once, to its right, about --up (0,1,0) through --look-at (the centre of the "
+             "scene). Animations stand still, unless --fps is given; --frames renders some of the frames",
+     .not_in_window = MOVING},
     {.name = "overwrite", EC_STORED(FLAG, overwrite), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "replace existing frames of a different job; without this option they are an error", .not_in_window = MOVING},
+
+    /* Several pictures */
+    {.name = "out", .metavar = "FOLDER", EC_STORED(TEXT, folder), .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "with --scenarios: write NAME.exr and NAME.png of each scenario into FOLDER, which is made, with index.html and index.png, all of them with their "
+             "errors", .not_in_window = MANY},
+    {.name = "scenarios", .metavar = "FILE", EC_STORED(TEXT, scenarios), .group = EC_GROUP_SERIES,
+     .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "render the scenarios of FILE in place of a SCENE: models, cameras, light, size and tone curve, as in the config.json of <model-viewer>'s and Khronos' "
+             "fidelity tests. Options given here replace a scenario's", .not_in_window = MANY},
+    {.name = "shard", .metavar = "I/N", .set = ec_set_shard, .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "render only every N-th picture, from the I-th on, as in 3/8: N machines share the work", .not_in_window = MANY},
+    {.name = "sheet", .metavar = "FILE", EC_STORED(FILE, sheet), .ending = ".png", .group = EC_GROUP_SERIES,
+     .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
+     .help = "write a contact sheet, a .png with small pictures of all, in their order from the top left; of --frames too", .not_in_window = MANY},
 
     /* Resume and distribute */
     {.name = "checkpoint", .metavar = "FILE", EC_STORED(FILE, checkpoint), .ending = ".exr", .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,

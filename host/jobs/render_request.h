@@ -45,7 +45,12 @@ typedef struct ec_render_request {
     ec_background background;
     unsigned png_depth;        /* of ec_png_depths: 8 or 16 bits */
     ec_frame_range frames;     /* of a sequence; not given: one picture */
+    uint32_t orbit;            /* frames in which the camera goes round the scene once; 0: it stays */
+    double turn;               /* degrees that it has gone round */
     bool seed_is_frame;        /* --seed frame */
+    const char *sheet;         /* small pictures of all of the job in one; NULL: none */
+    const char *scenarios, *folder; /* a file of them, and where their pictures go; NULL: none */
+    uint32_t shard, shard_count; /* the shard-th picture of each shard_count, from 1; 0: all */
     bool overwrite;            /* frames that are there and of another job */
     bool has_slice;            /* --samples A:B: */
     uint32_t slice_first, slice_end; /* samples a pixel */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "cl/workarounds.h"
 #include "jobs/given.h"
 #include "jobs/render_job.h"
@@ -39,7 +40,7 @@ static char *say_how_to_go_on(const ec_render_job *job)
 static void hint_at_resume(const ec_render_job *job, const char *command)
 {
     char hint[5000];
-    const char *how = job->share != NULL ? "the same command goes on behind the frames that are done"
+    const char *how = job->share != NULL ? "the same command goes on behind what is done"
                       : command ? "it goes on from the last checkpoint, alone or behind mpirun, with: "
                                 : "with --checkpoint FILE it could be gone on with";
     snprintf(hint, sizeof hint, "asked to stop, as mpirun asks all where one rank has died; %s%s", how, command ? command : "");
@@ -59,8 +60,9 @@ static void describe_helpers(const ec_render_job *job, char *text, size_t size)
 static void announce(const ec_render_job *job)
 {
     const ec_render_options *options = &job->request->options;
-    char limits[160] = "", range[64] = "", more[64] = "";
+    char when[32], limits[160] = "", range[128] = "", more[64] = "";
     int used = 0;
+    ec_frame_when(&job->frame, when, sizeof when);
     if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
     if (options->time_limit > 0)
         used += snprintf(limits + used, sizeof limits - (size_t)used, "%s%g s", used ? " or " : "", options->time_limit);
@@ -80,9 +82,10 @@ static void announce(const ec_render_job *job)
     }
     if (job->request->resume)
         ec_say(&job->listener->log, "going on from '%s', %llu samples a pixel", job->request->resume, there);
-    if (job->share)
-        snprintf(range, sizeof range, "frame %u (%u of %u), at %.6g s: ", job->frame.number, job->frame.place,
-                 job->frame.count, job->frame.seconds);
+    if (job->share && job->frame.name)
+        snprintf(range, sizeof range, "%.*s (%u of %u): ", EC_CUT(job->frame.name, 80), job->frame.place, job->frame.count);
+    else if (job->share)
+        snprintf(range, sizeof range, "frame %u (%u of %u), at %s: ", job->frame.number, job->frame.place, job->frame.count, when);
     describe_helpers(job, more, sizeof more);
     ec_say(&job->listener->log, "rendering %s%ux%u pixels on %s%s until %s", range, options->width, options->height,
                    job->devices[0].name, more, limits);
@@ -122,11 +125,11 @@ static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *
     return count ? EC_OK : EC_FAILED;
 }
 
-/* Once for all frames, and again after one that failed; what does not open is out for the rest of them. */
+/* Once for all pictures, and again after one that failed; what does not open is out for the rest of them. */
 static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *err)
 {
     ec_frame_share *share = job->share;
-    job->request->options.followed = &share->followed;
+    if (share->animation) job->request->options.followed = &share->followed;
     if (share->is_open) return EC_OK;
     EC_TRY(open_devices(job, share->cl, log, err));
     memcpy(share->devices, job->devices, sizeof share->devices);
@@ -164,7 +167,7 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
                                         listener->progress, listener->user, &job->film, &job->stats, log, err);
     listener->end(listener->user);
     for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
-    if (job->share) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
+    if (job->share && job->share->animation) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     const bool has_picture = job->film.batch_count || job->rows;
     if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");
     if (result != EC_OK && !has_picture && listener->should_stop(listener->user) && job->has_kept)

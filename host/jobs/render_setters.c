@@ -15,6 +15,7 @@
 #define SETTER(name) ec_result ec_set_##name(void *target, const char *option, const char *value, ec_error *err)
 #define REQUEST ((ec_render_request *)target)
 #define MOMENT_MOST 1e9 /* seconds */
+#define SHARDS_MOST 1000000
 #define SCREEN_MOST 1e4 /* half heights */
 
 const char *const ec_adaptive_names[] = {[EC_ADAPTIVE_AUTO] = "auto", [EC_ADAPTIVE_ON] = "on", [EC_ADAPTIVE_OFF] = "off", NULL};
@@ -126,6 +127,17 @@ SETTER(samples)
     EC_TRY(ec_parse_u32(option, colon + 1, 1, EC_MAX_SPP, &REQUEST->slice_end, err));
     if (REQUEST->slice_first < REQUEST->slice_end) return EC_OK;
     return ec_usage(err, "--%s: %s holds no samples; the second number must be the larger", option, value);
+}
+
+SETTER(shard)
+{
+    char first[16];
+    const char *slash = strchr(value, '/');
+    const size_t size = slash ? (size_t)(slash - value) : 0;
+    if (!size || size >= sizeof first) return ec_usage(err, "--%s: '%s' is not I/N, as in 3/8 for the third of eight shares", option, value);
+    snprintf(first, sizeof first, "%.*s", (int)size, value);
+    EC_TRY(ec_parse_u32(option, slash + 1, 1, SHARDS_MOST, &REQUEST->shard_count, err));
+    return ec_parse_u32(option, first, 1, REQUEST->shard_count, &REQUEST->shard, err);
 }
 
 SETTER(grid_density)

@@ -139,16 +139,31 @@ static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
 /* A frame is done or not: it is the sequence that goes on. */
 static ec_result settle_frames(ec_render_request *request, ec_error *err)
 {
+    if (request->orbit && !request->frames.given)
+        request->frames = (ec_frame_range){.given = true, .last = request->orbit - 1, .step = 1, .fps = request->frames.fps};
     if (!request->frames.given && request->overwrite)
         return ec_usage(err, "--overwrite belongs to --frames; other pictures are written over as ever");
     if (!request->frames.given && request->frames.fps > 0)
         return ec_usage(err, "--fps belongs to --frames; leave it out or give that too");
     if (!request->frames.given && request->seed_is_frame) return ec_usage(err, "--seed frame belongs to --frames; give a number");
     if (!request->frames.given) return EC_OK;
-    if (request->choice.at_given) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
+    if (request->orbit && request->frames.last >= request->orbit)
+        return ec_usage(err, "--frames ends with %u, and --orbit %u has the frames 0 to %u", request->frames.last, request->orbit, request->orbit - 1);
+    const bool is_still = request->orbit && request->frames.fps == 0;
+    if (request->choice.at_given && !is_still) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
     const char *other = request->resume ? "resume" : request->checkpoint ? "checkpoint" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
     if (other) return ec_usage(err, "--frames and --%s: a sequence goes on with the frames that are not there yet; leave --%s out", other, other);
-    if (request->frames.fps == 0) request->frames.fps = EC_DEFAULT_FPS;
+    if (request->frames.fps == 0 && !is_still) request->frames.fps = EC_DEFAULT_FPS;
+    return EC_OK;
+}
+
+static ec_result check_scenarios(const ec_render_request *request, ec_error *err)
+{
+    if (!request->scenarios && request->folder) return ec_usage(err, "--out belongs to --scenarios; other pictures are named with -o");
+    if (!request->scenarios) return EC_OK;
+    if (!request->folder || !*request->folder) return ec_usage(err, "--scenarios needs --out FOLDER, for its pictures");
+    if (request->outputs.count) return ec_usage(err, "--scenarios and -o: each picture is called as its scenario, in the folder of --out; leave -o out");
+    if (request->frames.given) return ec_usage(err, "--scenarios and --frames: a scenario is one picture, from one place; leave --frames and --orbit out");
     return EC_OK;
 }
 
@@ -191,6 +206,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
         return ec_usage(err, "--every belongs to --checkpoint or --snapshot; leave it out or give one of them too");
     if (request->every == 0) request->every = EC_DEFAULT_EVERY;
     EC_TRY(settle_frames(request, err));
+    EC_TRY(check_scenarios(request, err));
     EC_TRY(settle_slice(request, err));
     EC_TRY(settle_channels(request, err));
     EC_TRY(settle_files(request, err));

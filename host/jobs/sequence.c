@@ -17,7 +17,7 @@ typedef struct sequence {
     ec_ranks *ranks;            /* the other processes of an MPI job; NULL: there are none */
     const ec_given_options *given;
     ec_identity identity;       /* of all frames */
-    ec_frame_share share;
+    ec_frame_share *share;
     ec_frame_state *states;     /* by frame, as they were found */
     uint32_t count, rendered, skipped, failed;
 } sequence;
@@ -34,8 +34,10 @@ static ec_result outputs_of(const sequence *s, uint32_t frame, ec_outputs *outpu
 static ec_scene_choice choice_of(const sequence *s, uint32_t frame)
 {
     ec_scene_choice choice = s->request->choice;
-    double at = ec_frame_seconds(&s->request->frames, frame);
-    choice.animated = choice.frame = true;
+    const double at = ec_frame_moment(s->request, frame);
+    choice.frame = true;
+    if (!(s->request->frames.fps > 0)) return choice;
+    choice.animated = true;
     choice.at = at;
     choice.opens += at; /* a shutter is told from where the frame is */
     choice.closes += at;
@@ -77,8 +79,9 @@ static ec_result tell_frame(const sequence *s, uint32_t frame, const char *failu
 {
     if (!s->request->json) return EC_OK;
     cJSON *object = cJSON_CreateObject();
-    EC_JSON(object, EC_WHOLE("frame", frame), EC_REAL("frame_seconds", ec_frame_seconds(&s->request->frames, frame)),
+    EC_JSON(object, EC_WHOLE("frame", frame), EC_REAL("frame_seconds", ec_frame_moment(s->request, frame)),
             EC_STRING("state", failure ? "failed" : "skipped"));
+    if (s->request->orbit) EC_JSON(object, EC_REAL("frame_degrees", ec_frame_turn(s->request, frame)));
     if (failure) ec_json_text(object, "error", failure);
     cJSON *names = cJSON_AddArrayToObject(object, "outputs");
     for (int i = 0; i < outputs->count; i++) ec_json_text(names, NULL, outputs->file[i].path);
@@ -93,8 +96,9 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
     ec_identity identity;
     ec_frame_identify(&s->identity, s->request, frame, &identity);
     char *words = ec_identity_write(&identity), *command = ec_frame_command(s->given, s->request, &request->outputs, frame);
-    ec_render_job job = {.request = request, .listener = s->listener, .command = command, .ranks = s->ranks, .share = &s->share,
-                         .frame = {frame, i + 1, s->count, ec_frame_seconds(&s->request->frames, frame), words}};
+    ec_render_job job = {.request = request, .listener = s->listener, .command = command, .ranks = s->ranks, .share = s->share,
+                         .frame = {.number = frame, .place = i + 1, .count = s->count,
+                                   .seconds = ec_frame_moment(s->request, frame), .turns = s->request->orbit > 0, .degrees = request->turn, .job = words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, err);
     if (result == EC_OK) result = ec_render_job_run(&job, err);
@@ -113,20 +117,25 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
     if (!request) return ec_fail(err, "out of memory");
     *request = *s->request;
     request->choice = choice_of(s, frame);
+    request->turn = ec_frame_turn(s->request, frame);
     if (request->seed_is_frame) request->options.seed = frame;
     ec_error why = {0};
     ec_result told = EC_OK, result = outputs_of(s, frame, &request->outputs, &why);
     if (s->states[i] == EC_FRAME_DONE) {
         s->skipped++;
+        ec_frame_share_picture(s->share, &request->outputs);
         told = tell_frame(s, frame, NULL, &request->outputs, err);
     } else {
         if (result == EC_OK) result = render_frame(s, request, i, stopped, &why);
-        if (result == EC_OK && !*stopped) s->rendered++;
+        if (result == EC_OK && !*stopped) {
+            s->rendered++;
+            ec_frame_share_picture(s->share, &request->outputs);
+        }
         if (result != EC_OK && !*stopped) {
             ec_tell(&s->listener->log, EC_FAILURE, "frame %u: %s", frame, why.text);
             s->failed++;
             told = tell_frame(s, frame, why.text, &request->outputs, err);
-            ec_frame_share_close(&s->share); /* what a device has forgotten or not done right is not to be taken for there */
+            ec_frame_share_close(s->share); /* what a device has forgotten or not done right is not to be taken for there */
         }
     }
     free(request);
@@ -156,18 +165,6 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
     return EC_OK;
 }
 
-static ec_result find_devices(sequence *s, ec_error *err)
-{
-    ec_render_request request = *s->request;
-    ec_render_job job = {.request = &request, .listener = s->listener, .ranks = s->ranks, .takes_several = true};
-    EC_TRY(ec_render_job_find_devices(&job, err));
-    memcpy(s->share.devices, job.devices, sizeof job.devices);
-    memcpy(s->share.device_indices, job.device_indices, sizeof job.device_indices);
-    s->share.device_count = job.device_count;
-    s->share.device_why = job.device_why;
-    return EC_OK;
-}
-
 static ec_result begin(sequence *s, ec_error *err)
 {
     const ec_log *log = &s->listener->log;
@@ -176,9 +173,8 @@ static ec_result begin(sequence *s, ec_error *err)
     ec_outputs outputs;
     char files[65];
     EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* patterns first of all */
-    EC_TRY(find_devices(s, err));
-    EC_TRY(ec_animation_open(r->scene, &first, &s->share.animation, log, err));
-    ec_animation_digest(s->share.animation, files);
+    EC_TRY(ec_animation_open(r->scene, &first, &s->share->animation, log, err));
+    ec_animation_digest(s->share->animation, files);
     EC_TRY(ec_frames_identify(s->given, r, files, &s->identity, err));
     ec_inputs inputs = {.scene = r->scene, .files = &r->environment, .file_count = 1};
     ec_result result = look_around(s, &inputs, err);
@@ -198,16 +194,13 @@ static ec_result render_all(sequence *s, double start, ec_error *err)
 }
 
 ec_result ec_frames_render(const ec_listener *listener, const ec_render_request *request, ec_ranks *ranks,
-                           const ec_given_options *given, double start, ec_error *err)
+                           const ec_given_options *given, ec_frame_share *share, double start, ec_error *err)
 {
-    sequence s = {.listener = listener, .request = request, .ranks = ranks, .given = given, .count = ec_frame_count(&request->frames)};
+    sequence s = {.listener = listener, .request = request, .ranks = ranks, .given = given, .share = share,
+                  .count = ec_frame_count(&request->frames)};
     s.states = calloc(s.count, sizeof *s.states);
     ec_result result = s.states ? render_all(&s, start, err) : ec_fail(err, "out of memory for %u frames", s.count);
-    ec_animation_close(s.share.animation);
-    free(s.share.environment.rgb);
-    ec_packed_map_free(&s.share.packed);
-    ec_followed_free(&s.share.followed);
-    ec_frame_share_close(&s.share);
+    ec_frame_share_leave(share);
     free(s.states);
     return result;
 }

@@ -57,7 +57,7 @@ eclat_result eclat_job_run(eclat_job *job, eclat_picture **picture, eclat_error 
 {
     ec_error why = {0}, unfinished = {0};
     ec_lib_ear ear = {.listener = &job->listener, .is_stopped = &job->is_stopped, .is_quiet = ec_given_has(&job->given, "quiet"),
-                      .says_once = ec_given_has(&job->given, "frames")}; /* frames are much alike */
+                      .says_once = ec_given_has(&job->given, "frames") || ec_given_has(&job->given, "orbit")}; /* frames are much alike */
     eclat_picture *made = calloc(1, sizeof *made);
     if (picture) *picture = NULL;
     ear.to = open_memstream(&ear.text, &ear.size);

@@ -37,9 +37,9 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     const ec_frame_facts *frame = report->frame;
     EC_ATTRIBUTES(attributes, EC_STRING("eclat.command", report->command), EC_STRING("eclat.version", ECLAT_VERSION),
                   EC_STRING("eclat.scene", report->scene));
-    if (frame)
-        EC_ATTRIBUTES(attributes, EC_WHOLE("eclat.frame", frame->number), EC_REAL("eclat.frame.seconds", frame->seconds),
-                      EC_STRING("eclat.frame.job", frame->job));
+    if (frame && !frame->name) EC_ATTRIBUTES(attributes, EC_WHOLE("eclat.frame", frame->number), EC_REAL("eclat.frame.seconds", frame->seconds));
+    if (frame && frame->turns) EC_ATTRIBUTES(attributes, EC_REAL("eclat.frame.degrees", frame->degrees));
+    if (frame) EC_ATTRIBUTES(attributes, EC_STRING("eclat.frame.job", frame->job));
     EC_ATTRIBUTES(attributes, EC_STRING("eclat.camera", report->camera));
     add_viewpoint(attributes, &report->viewpoint);
     EC_ATTRIBUTES(attributes, EC_STRING("eclat.environment", report->environment));

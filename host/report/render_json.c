@@ -31,10 +31,11 @@ static void add_option(cJSON *root, const ec_setting *setting, const ec_render_o
 
 static void add_setting(cJSON *root, const ec_render_report *report)
 {
-    if (report->frame) {
-        EC_JSON(root, EC_WHOLE("frame", report->frame->number), EC_REAL("frame_seconds", report->frame->seconds), EC_STRING("state", "rendered"));
-        add_shared(root, report->stats);
-    }
+    const ec_frame_facts *frame = report->frame;
+    if (frame && frame->name) EC_JSON(root, EC_STRING("name", frame->name), EC_STRING("state", "rendered"));
+    else if (frame) EC_JSON(root, EC_WHOLE("frame", frame->number), EC_REAL("frame_seconds", frame->seconds), EC_STRING("state", "rendered"));
+    if (frame && frame->turns) EC_JSON(root, EC_REAL("frame_degrees", frame->degrees));
+    if (frame) add_shared(root, report->stats);
     EC_JSON(root, EC_STRING("version", ECLAT_VERSION), EC_STRING("command", report->command), EC_STRING("scene", report->scene),
             EC_STRING("camera", report->camera), EC_STRING("environment", report->environment), EC_WHOLE("width", report->options->width),
             EC_WHOLE("height", report->options->height));

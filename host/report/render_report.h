@@ -11,10 +11,13 @@
 #include "render/render.h"
 #include "report/attributes.h"
 
-/* A frame of a sequence. */
+/* A frame of a sequence, or one of several pictures. */
 typedef struct ec_frame_facts {
+    const char *name;               /* NULL: a frame, by its number */
     uint32_t number, place, count;  /* the place-th of so many, from 1 */
     double seconds;                 /* of the animation */
+    bool turns;                     /* it is one of a turntable, */
+    double degrees;                 /* the camera having gone round so far */
     const char *job;                /* what it is of, for a later run: an attribute of its files */
 } ec_frame_facts;
 
@@ -57,6 +60,8 @@ static inline const ec_clamp_error *ec_render_report_clamp(const ec_render_repor
 }
 
 void ec_render_report_text(const ec_render_report *report, FILE *to);
+/* "0.5 s" or "90 degrees". */
+void ec_frame_when(const ec_frame_facts *frame, char *text, size_t size);
 /* One line for a frame. */
 void ec_frame_report_text(const ec_render_report *report, FILE *to);
 ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_error *err);

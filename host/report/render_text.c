@@ -37,16 +37,25 @@ static void print_clamped(const ec_render_report *report, FILE *to)
     fprintf(to, "clamped  %s\n", text);
 }
 
+void ec_frame_when(const ec_frame_facts *frame, char *text, size_t size)
+{
+    if (frame->turns) snprintf(text, size, "%.6g degrees", frame->degrees);
+    else snprintf(text, size, "%.6g s", frame->seconds);
+}
+
 void ec_frame_report_text(const ec_render_report *report, FILE *to)
 {
-    char summary[EC_ERROR_TEXT + 128];
+    char summary[EC_ERROR_TEXT + 128], when[32];
     ec_render_report_summary(report, summary, sizeof summary);
-    fprintf(to, "frame %u at %.6g s: %s", report->frame->number, report->frame->seconds, summary);
+    ec_frame_when(report->frame, when, sizeof when);
+    if (report->frame->name) ec_text_print(to, "", report->frame->name, ": ");
+    else fprintf(to, "frame %u at %s: ", report->frame->number, when);
+    fputs(summary, to);
     for (int i = 0; i < report->output_count; i++) ec_text_print(to, i ? ", " : " → ", report->outputs[i], "");
     fputc('\n', to);
     print_clamped(report, to);
     ec_denoised_text(report->denoised, to);
-    if (report->verbose) print_shared(report->stats, to);
+    if (report->verbose && !report->frame->name) print_shared(report->stats, to);
 }
 
 /* Four times the samples bring half the error where they are independent, and less where their order tells. */

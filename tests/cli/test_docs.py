@@ -65,7 +65,7 @@ def eclat_commands(text):
     """Command lines of eclat as lists of words, with something in place of shell variables."""
     for line in code_lines(text):
         line = re.sub(r"^tools/render", "eclat render", line)
-        for command in re.findall(rf"\beclat (?:{'|'.join(COMMANDS)})\b[^'|;]*", line):
+        for command in re.findall(rf"\beclat (?:{'|'.join(COMMANDS)})\b(?:'[^'|;]*'|[^'|;])*", line):
             command = re.sub(r"\$\(\([^)]*\)\)", "64", command)
             command = re.sub(r"\$\w+|\{\}", "0", command)
             yield shlex.split(re.sub(r"[][…]|>.*", " ", command))[1:]
