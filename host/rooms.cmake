@@ -26,6 +26,7 @@ endfunction()
 set(gltf_more ${codec_sources})
 set(cl_more ${embedded_kernels})
 set(cost_more ${embedded_page})
+set(jobs_more ${embedded_gallery})
 set(ranks_only launcher.c mpi_load.c plan.c) # the others are the module eclat-mpi
 
 eclat_room(base)

@@ -1,5 +1,6 @@
 /* eclat info SCENE */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -8,6 +9,7 @@
 #include "gltf/reader.h"
 #include "jobs/render_request.h"
 #include "report/scene_report.h"
+#include "scene/built_in.h"
 
 typedef struct info_request {
     ec_render_request render; /* first: the setters of its options are used */
@@ -63,13 +65,12 @@ static ec_result measure(const ec_render_request *request, ec_scene_report *repo
     EC_TRY(ec_bvh_build(scene->positions, scene->indices, ec_scene_flat_count(scene), 0, &bvh, &report->bvh, err));
     ec_bvh_free(&bvh);
     ec_scene lit = *scene;
-    report->takes_white = !report->has_light && !request->environment && !request->adjusts_env;
-    if (report->takes_white) {
-        lit.has_environment = true;
-        for (int k = 0; k < 3; k++) lit.environment.constant[k] = 1.0f;
-    }
+    report->takes_studio = !report->has_light && !request->environment && !request->adjusts_env;
+    if (report->takes_studio) EC_TRY(ec_scene_set_environment(&lit, EC_STUDIO, NULL, err));
     uint32_t refs = report->bvh.ref_count + scene->triangle_count - ec_scene_flat_count(scene);
-    EC_TRY(ec_scene_estimate(&lit, &request->options, refs, &report->device_bytes, &report->effects, err));
+    const ec_result result = ec_scene_estimate(&lit, &request->options, refs, &report->device_bytes, &report->effects, err);
+    if (report->takes_studio) free(lit.environment.rgb);
+    EC_TRY(result);
     report->peak_memory_bytes = ec_peak_memory_bytes();
     return EC_OK;
 }

@@ -2,13 +2,14 @@
 #include <string.h>
 
 #include "commands/command.h"
+#include "jobs/defaults.h"
 #include "jobs/outputs.h"
 #include "report/merge_report.h"
 #include "report/names.h"
 
 typedef struct merge_request {
     ec_outputs outputs;
-    double exposure;
+    ec_exposure exposure;
     ec_tonemap tonemap;
     bool partial;
 } merge_request;
@@ -16,14 +17,14 @@ typedef struct merge_request {
 #define REQUEST merge_request
 
 static const ec_option options[] = {
-    {.name = "exposure", .metavar = "EV", EC_RANGED(REAL, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST), .help = "brighten the PNG by this many stops", .otherwise = "0"},
+    {.name = "exposure", .metavar = "EV|auto", EC_RANGED(EXPOSURE, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST),
+     .help = EC_EXPOSURE_HELP, .otherwise = "0"},
     {.name = "json", .help = "print one JSON object instead of text"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .uses = EC_OPTION_REPEATS,
      .help = "write FILE, an .exr (all data, sums included, so that it can be merged again) or a .png; may be repeated"},
     {.name = "partial", EC_STORED(FLAG, partial), .help = "write the picture even if samples are missing"},
     {.name = "quiet", .letter = 'q', .help = "print only warnings and errors"},
-    {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(tonemap, ec_tonemap_names),
-     .help = "tone curve of the PNG: neutral (Khronos PBR Neutral) or none", .otherwise = "neutral"},
+    {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(tonemap, ec_tonemap_names), .help = EC_TONE_CURVES_HELP, .otherwise = "neutral"},
 };
 
 EC_ROWS(options)
@@ -58,7 +59,9 @@ static ec_result tell(const ec_call *call, ec_error *err)
                                     .clamp = m->clamp,
                                     .image_sha256 = m->sha256,
                                     .outputs = outputs,
-                                    .output_count = request->outputs.count};
+                                    .output_count = request->outputs.count,
+                                    .exposure = ec_merged_stops(m, &request->exposure),
+                                    .is_exposure_auto = request->exposure.is_auto};
     if (call->json) return ec_merge_report_json(&report, call->listener->to, err);
     if (!call->quiet) ec_merge_report_text(&report, call->listener->to);
     return EC_OK;
@@ -67,7 +70,7 @@ static ec_result tell(const ec_call *call, ec_error *err)
 static ec_result write_merged(ec_call *call, ec_outputs *outputs, ec_error *err)
 {
     const merge_request *request = call->request;
-    return ec_merged_write(&call->merged, outputs, request->exposure, request->tonemap, err);
+    return ec_merged_write(&call->merged, outputs, &request->exposure, request->tonemap, err);
 }
 
 static ec_result run(ec_call *call, ec_error *err)

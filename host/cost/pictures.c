@@ -1,12 +1,12 @@
 /* Thumbnails, and those of a study as data URIs. */
 #include "cost/cost_internal.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/error_map.h"
 #include "image/image.h"
+#include "report/page.h"
 
 enum { WIDTH_MOST = 192 }; /* of a thumbnail */
 
@@ -32,38 +32,11 @@ float *ec_cost_shrink(const ec_render_options *o, const float *rgb)
     return small;
 }
 
-static char *data_uri(const uint8_t *bytes, size_t size)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/",
-                      head[] = "data:image/png;base64,";
-    char *text = malloc(sizeof head + (size + 2) / 3 * 4), *to = text;
-    if (!text) return NULL;
-    to += sprintf(to, "%s", head);
-    for (size_t i = 0; i < size; i += 3) {
-        uint32_t word = (uint32_t)bytes[i] << 16 | (i + 1 < size ? (uint32_t)bytes[i + 1] << 8 : 0) | (i + 2 < size ? bytes[i + 2] : 0);
-        for (size_t k = 0; k < 4; k++) *to++ = i + k <= size ? digits[word >> (18 - 6 * k) & 63] : '=';
-    }
-    *to = 0;
-    return text;
-}
-
-static ec_result encode(const thumbnail *t, const uint8_t *rgb, cJSON **text, ec_error *err)
-{
-    uint8_t *png = NULL;
-    size_t size = 0;
-    EC_TRY(ec_png_encode(t->width, t->height, rgb, &png, &size, err));
-    char *uri = data_uri(png, size);
-    *text = uri ? cJSON_CreateString(uri) : NULL;
-    free(png);
-    free(uri);
-    return *text ? EC_OK : ec_fail(err, "out of memory for the pictures of a report");
-}
-
 /* to: an object or an array; key: NULL for an array */
 static ec_result add(cJSON *to, const char *key, const thumbnail *t, const uint8_t *rgb, ec_error *err)
 {
     cJSON *text = NULL;
-    EC_TRY(encode(t, rgb, &text, err));
+    EC_TRY(ec_page_picture(t->width, t->height, rgb, &text, err));
     if (key)
         cJSON_AddItemToObject(to, key, text);
     else

@@ -13,6 +13,9 @@ typedef struct ec_measured {
     double replicates;    /* independent estimates behind the standard errors; INFINITY if not known */
     double samples;       /* a pixel; 0 if not known */
     int is_half;          /* the values were rounded to 16 bits */
+    const float *slack;   /* 3 a pixel: by how much values may be off, all of them in one direction, as stored in few bits; NULL: not at all */
+    const uint8_t *mask;  /* 1 a pixel: 0 does not count; NULL: all do */
+    double peak;          /* the largest value there can be; 0: there is no limit */
 } ec_measured;
 
 /* Two values closer than this are the same number after rounding: other orders of addition (a few ulps of a float), other
@@ -21,6 +24,17 @@ static inline double ec_rounding(const ec_measured *a, const ec_measured *b, dou
 {
     double largest = fmax(fabs(x), fabs(y));
     return a->is_half || b->is_half ? 0x1p-10 * largest + 0x1p-24 : 1e-5 * largest;
+}
+
+/* Does this pixel count? */
+static inline int ec_counts(const ec_measured *a, const ec_measured *b, uint64_t pixel)
+{
+    return (!a->mask || a->mask[pixel]) && (!b->mask || b->mask[pixel]);
+}
+
+static inline double ec_slack(const ec_measured *a, const ec_measured *b, uint64_t value)
+{
+    return (a->slack ? (double)a->slack[value] : 0) + (b->slack ? (double)b->slack[value] : 0);
 }
 
 #endif

@@ -26,7 +26,7 @@ typedef struct ec_noise_test {
     ec_noise_place block, pixel;
 } ec_noise_test;
 
-/* Both of one size, at least one with standard errors. */
+/* Both of one size, with a pixel that counts, at least one with standard errors. */
 ec_result ec_test_noise(const ec_measured *a, const ec_measured *b, ec_noise_test *test, ec_error *err);
 
 #endif

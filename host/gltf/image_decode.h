@@ -1,4 +1,4 @@
-/* Encoded pixels to ec_image. Inside host/gltf/ only. */
+/* Encoded pixels to ec_image: of textures, and of pictures that are compared. */
 #ifndef EC_GLTF_IMAGE_DECODE_H
 #define EC_GLTF_IMAGE_DECODE_H
 
@@ -9,7 +9,7 @@ typedef struct ec_decode_error {
     bool out_of_memory; /* the picture may be whole */
 } ec_decode_error;
 
-/* PNG or JPEG, by content. Sets size and pixels of *image, which must be zero before. */
+/* PNG, JPEG, and WebP, AVIF and KTX2 where the build reads them, by content. Sets size and pixels of *image, which must be zero before. */
 bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_decode_error *err);
 
 /* image_png.c, image_jpeg.c: one format each. Call ec_image_check_size before allocating pixels. */

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "film/channels.h"
+#include "image/tone_curve.h"
 
 /* One EXR channel. */
 typedef struct ec_channel {
@@ -79,16 +80,15 @@ void ec_exr_free(ec_exr *exr);
  * is clamped here. */
 ec_result ec_image_read_rgb(const char *path, uint32_t *width, uint32_t *height, float **rgb, ec_error *err);
 
-typedef enum ec_tonemap { EC_TONEMAP_NEUTRAL, EC_TONEMAP_NONE } ec_tonemap;
-
 double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1, on [0, 1] */
 const double *ec_srgb_bytes(void);        /* that of i / 255.0, 256 of them: a power takes as long as twenty look-ups */
 
-#define EC_EXPOSURE_MOST 100 /* stops that the program takes, brighter and darker */
-
-/* Linear Rec.709 radiance to 8-bit sRGB: rgb * 2^exposure, tone mapper (Khronos PBR Neutral or clamp), exact sRGB curve.
+/* Linear Rec.709 radiance to 8-bit sRGB: rgb * 2^exposure, tone curve, exact sRGB curve.
  * Non-finite values become 0. in: 3 floats a pixel; out: 3 bytes a pixel. */
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap);
+
+/* The same of one pixel times `scale`, in place, from 0 to 1 and not rounded. */
+void ec_tonemap_pixel(double rgb[3], double scale, ec_tonemap tonemap);
 
 ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, ec_error *err);
 

@@ -4,21 +4,6 @@
 
 #include "image/image.h"
 
-/* Khronos PBR Neutral, https://github.com/KhronosGroup/ToneMapping/tree/main/PBR_Neutral, symbols as in its
- * specification: input non-negative Rec.709, output within [0, 1]. */
-static void pbr_neutral(double rgb[3])
-{
-    const double F90 = 0.04, Ks = 0.8 - F90, Kd = 0.15;
-    double x = fmin(rgb[0], fmin(rgb[1], rgb[2]));
-    double f = x <= 2 * F90 ? x - x * x / (4 * F90) : F90;
-    for (int c = 0; c < 3; c++) rgb[c] -= f;
-    double p = fmax(rgb[0], fmax(rgb[1], rgb[2]));
-    if (p <= Ks) return;
-    double pn = 1 - (1 - Ks) * (1 - Ks) / (p + 1 - 2 * Ks);
-    double g = 1 / (Kd * (p - pn) + 1);
-    for (int c = 0; c < 3; c++) rgb[c] = rgb[c] * (pn / p) * g + pn * (1 - g);
-}
-
 /* IEC 61966-2-1, on [0, 1]. */
 static double srgb_encode(double linear)
 {
@@ -30,8 +15,8 @@ double ec_srgb_to_linear(double encoded)
     return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/* Non-finite to 0 and negative to 0; the upper limit keeps infinity out when the exposure is absurd. */
-static double expose(float value, double scale)
+/* Non-finite to 0 and negative to 0; the upper limit keeps infinity out of the curves' squares, when the exposure is absurd. */
+static double expose(double value, double scale)
 {
     if (!isfinite(value) || value <= 0) return 0;
     return fmin(value * scale, 1e30);
@@ -51,15 +36,20 @@ const double *ec_srgb_bytes(void)
     return srgb_bytes;
 }
 
+void ec_tonemap_pixel(double rgb[3], double scale, ec_tonemap tonemap)
+{
+    for (int c = 0; c < 3; c++) rgb[c] = expose(rgb[c], scale);
+    ec_tone_curve_apply(tonemap, rgb);
+    for (int c = 0; c < 3; c++) rgb[c] = srgb_encode(rgb[c]);
+}
+
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap)
 {
     const double scale = exp2(exposure_ev);
 #pragma omp parallel for schedule(static) if (pixel_count > 1 << 14)
     for (uint64_t i = 0; i < pixel_count; i++) {
-        double rgb[3];
-        for (int c = 0; c < 3; c++) rgb[c] = expose(in[3 * i + c], scale);
-        if (tonemap == EC_TONEMAP_NEUTRAL) pbr_neutral(rgb);
-        for (int c = 0; c < 3; c++)
-            out[3 * i + c] = (uint8_t)lrint(255 * srgb_encode(fmin(fmax(rgb[c], 0), 1)));
+        double rgb[3] = {in[3 * i], in[3 * i + 1], in[3 * i + 2]};
+        ec_tonemap_pixel(rgb, scale, tonemap);
+        for (int c = 0; c < 3; c++) out[3 * i + c] = (uint8_t)lrint(255 * rgb[c]);
     }
 }

@@ -1,149 +1,102 @@
 #include "jobs/compare_job.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
-#include "film/channels.h"
 #include "image/error_map.h"
-#include "image/exr_header.h"
+#include "image/flip.h"
 #include "image/image.h"
+#include "jobs/compare_space.h"
 
-/* Names of a plane's first three floats. */
-typedef struct names {
-    const char *of[3];
-} names;
-
-static names names_of(ec_plane plane)
+void ec_compare_map(const ec_compare_job *job, uint8_t *rgb)
 {
-    names n;
-    for (uint32_t c = 0; c < 3; c++) n.of[c] = ec_channel_name_of(plane, c);
-    return n;
+    const ec_measured *a = job->report.a, *b = job->report.b;
+    ec_error_map(a->rgb, b->rgb, ec_compare_pixels(job), rgb);
+    for (uint64_t p = 0; p < ec_compare_pixels(job); p++)
+        if (!ec_counts(a, b, p)) memset(rgb + 3 * p, 128, 3);
 }
 
-static ec_result missing(const char *path, const ec_exr *exr, const char *name, ec_error *err)
+static ec_result write_map(const char *path, const ec_compare_job *job, ec_error *err)
 {
-    char list[160] = "";
-    for (uint32_t i = 0; i < exr->channel_count && strlen(list) < sizeof list - 40; i++) {
-        size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%.*s", i ? ", " : "", EC_CUT(exr->names[i], 32));
-    }
-    return ec_fail(err, "cannot compare '%s': it has no channel '%s' (but %s); %s", path, name, list,
-                   strncmp(name, "stderr.", 7) ? "save it with R, G and B" : "render it with --channels stderr");
-}
-
-/* Woven together: `count` planes to as many floats a pixel. */
-static ec_result weave(const char *path, const ec_exr *exr, const char *const *names, uint32_t count, float **out, ec_error *err)
-{
-    uint64_t pixels = (uint64_t)exr->width * exr->height, broken = 0, first = 0;
-    *out = malloc(pixels * count * sizeof **out);
-    if (!*out) return ec_fail(err, "cannot compare '%s': %u x %u pixels do not fit into memory", path, exr->width, exr->height);
-    for (uint32_t c = 0; c < count; c++) {
-        const float *plane = ec_exr_plane(exr, names[c]);
-        if (!plane) return missing(path, exr, names[c], err);
-        for (uint64_t p = 0; p < pixels; p++) {
-            (*out)[p * count + c] = plane[p];
-            if (isfinite(plane[p])) continue;
-            if (broken++ == 0 || p < first) first = p;
-        }
-    }
-    if (!broken) return EC_OK;
-    return ec_fail(err, "cannot compare '%s': %llu of its values %s NaN or infinite, the first in pixel (%llu, %llu); render it again or "
-                   "mend the pixels", path, (unsigned long long)broken, broken == 1 ? "is" : "are",
-                   (unsigned long long)(first % exr->width), (unsigned long long)(first / exr->width));
-}
-
-static double mean_of(const float *plane, uint64_t count)
-{
-    double sum = 0;
-    for (uint64_t i = 0; i < count; i++) sum += plane[i];
-    return sum / (double)count;
-}
-
-/* 1 means that the file says so: then its standard errors are none. */
-static double count_replicates(const char *path)
-{
-    double replicates;
-    return ec_exr_number(path, "eclat.replicates", &replicates) ? replicates : INFINITY;
-}
-
-static ec_result take_noise(const ec_exr *exr, ec_compare_input *input, ec_error *err)
-{
-    const char *path = input->path, *luminance = ec_channel_name_of(EC_PLANE_STDERR_Y, 0);
-    const names error = names_of(EC_PLANE_STDERR);
-    ec_measured *m = &input->measured;
-    const float *samples = ec_exr_plane(exr, ec_channel_name_of(EC_PLANE_SAMPLES, 0));
-    if (samples) m->samples = mean_of(samples, (uint64_t)exr->width * exr->height);
-    m->replicates = count_replicates(path);
-    if (m->replicates < 2 || !(ec_exr_plane(exr, error.of[0]) || ec_exr_plane(exr, error.of[1]) || ec_exr_plane(exr, error.of[2])))
-        return EC_OK;
-    EC_TRY(weave(path, exr, error.of, 3, &input->se, err));
-    if (ec_exr_plane(exr, luminance)) EC_TRY(weave(path, exr, &luminance, 1, &input->se_y, err));
-    m->se = input->se;
-    m->se_y = input->se_y;
-    return EC_OK;
-}
-
-static void free_input(ec_compare_input *input)
-{
-    free(input->rgb);
-    free(input->se);
-    free(input->se_y);
-    free(input->why);
-    *input = (ec_compare_input){0};
-}
-
-static ec_result load(const char *path, ec_compare_input *input, ec_error *err)
-{
-    ec_exr exr;
-    ec_result result;
-    *input = (ec_compare_input){.path = path};
-    const names colour = names_of(EC_PLANE_RGB), error = names_of(EC_PLANE_STDERR);
-    const char *const wanted[] = {colour.of[0], colour.of[1], colour.of[2], error.of[0], error.of[1], error.of[2],
-                                  ec_channel_name_of(EC_PLANE_STDERR_Y, 0), ec_channel_name_of(EC_PLANE_SAMPLES, 0), NULL};
-    EC_TRY(ec_exr_read_some(path, wanted, &exr, err));
-    EC_TRY_CLEANUP(weave(path, &exr, colour.of, 3, &input->rgb, err));
-    input->measured = (ec_measured){.width = exr.width, .height = exr.height, .rgb = input->rgb};
-    for (int c = 0; c < 3; c++) input->measured.is_half |= ec_exr_is_half(path, colour.of[c]);
-    EC_TRY_CLEANUP(take_noise(&exr, input, err));
-    input->why = ec_exr_header_text(path, "eclat.errorBoundWhy");
-cleanup:
-    ec_exr_free(&exr);
-    if (result != EC_OK) free_input(input);
-    return result;
-}
-
-static ec_result write_map(const char *path, const ec_measured *a, const ec_measured *b, ec_error *err)
-{
-    uint64_t pixels = (uint64_t)a->width * a->height;
-    uint8_t *map = malloc(3 * pixels);
+    uint8_t *map = malloc(3 * ec_compare_pixels(job));
     if (!map) return ec_fail(err, "out of memory for '%s'", path);
-    ec_error_map(a->rgb, b->rgb, pixels, map);
-    ec_result result = ec_png_write(path, a->width, a->height, map, err);
+    ec_compare_map(job, map);
+    ec_result result = ec_png_write(path, job->a.measured.width, job->a.measured.height, map, err);
     free(map);
     return result;
 }
 
-ec_result ec_compare_measure(ec_compare_report *report, const char *diff, ec_error *err)
+/* The pixels that count, of both: what is opaque in both and white in the mask. */
+static ec_result find_mask(ec_compare_job *job, const char *path, ec_error *err)
 {
+    ec_measured *a = &job->a.measured, *b = &job->b.measured;
+    if (!path && !a->mask && !b->mask) return EC_OK;
+    if (path) EC_TRY(ec_compare_read_mask(path, a->width, a->height, &job->mask, err));
+    if (!job->mask && !(job->mask = malloc(ec_compare_pixels(job)))) return ec_compare_no_memory(job, err);
+    if (!path) memset(job->mask, 1, ec_compare_pixels(job));
+    for (uint64_t p = 0; p < ec_compare_pixels(job); p++) job->mask[p] = job->mask[p] && ec_counts(a, b, p);
+    if (!memchr(job->mask, 1, ec_compare_pixels(job)))
+        return ec_fail(err, "cannot compare '%s' with '%s': no pixel is left %s", job->a.path, job->b.path,
+                       path ? "by the mask (white is compared)" : "that is opaque; save the picture with a background");
+    a->mask = b->mask = job->mask;
+    return EC_OK;
+}
+
+/* As they are seen. What does not count is B's in both while they are compared, and A's own again after it. */
+static ec_result see(ec_compare_job *job, const ec_look *look, ec_error *err)
+{
+    ec_compare_report *report = &job->report;
+    const ec_compare_input *inputs[2] = {&job->a, &job->b};
     const ec_measured *a = report->a, *b = report->b;
+    const uint64_t pixels = ec_compare_pixels(job);
+    double sum = 0;
+    for (int i = 0; i < 2; i++) {
+        if (!(job->seen[i] = malloc(3 * pixels * sizeof(float)))) return ec_compare_no_memory(job, err);
+        if (report->is_shown) memcpy(job->seen[i], inputs[i]->rgb, 3 * pixels * sizeof(float));
+        else ec_show(look, inputs[i]->rgb, pixels, job->seen[i]);
+    }
+    for (uint64_t p = 0; p < pixels; p++)
+        if (!ec_counts(a, b, p)) memcpy(job->seen[0] + 3 * p, job->seen[1] + 3 * p, 3 * sizeof(float));
+    if (!(job->flip = malloc(pixels * sizeof(float)))) return ec_compare_no_memory(job, err);
+    EC_TRY(ec_flip(job->seen[0], job->seen[1], a->width, a->height, job->flip, err));
+    for (uint64_t p = 0; p < pixels; p++) sum += ec_counts(a, b, p) ? job->flip[p] : 0;
+    report->flip = sum / (double)report->difference.pixels;
+    report->ssim = ec_ssim(job->seen[0], job->seen[1], a->width, a->height, job->mask);
+    for (uint64_t p = 0; p < pixels; p++) {
+        if (ec_counts(a, b, p)) continue;
+        if (report->is_shown) memcpy(job->seen[0] + 3 * p, job->a.rgb + 3 * p, 3 * sizeof(float));
+        else ec_show(look, job->a.rgb + 3 * p, 1, job->seen[0] + 3 * p);
+    }
+    return EC_OK;
+}
+
+ec_result ec_compare_measure(ec_compare_job *job, const ec_compare_options *options, ec_error *err)
+{
+    ec_compare_report *report = &job->report;
+    const ec_measured *a = report->a, *b = report->b;
+    ec_look look = options->look;
     if (a->width != b->width || a->height != b->height)
         return ec_fail(err, "cannot compare '%s' with '%s': %ux%u pixels against %ux%u; render both at one --size", report->path_a, report->path_b,
                        a->width, a->height, b->width, b->height);
+    EC_TRY(find_mask(job, options->mask, err));
+    EC_TRY(ec_compare_bring_together(job, options, &look, err));
     report->difference = ec_measure_difference(a, b);
     report->tested = a->se || b->se;
     if (report->tested) EC_TRY(ec_test_noise(a, b, &report->test, err));
     report->differ = report->tested ? report->test.p < EC_NOISE_SIGNIFICANCE : report->difference.unequal > 0;
-    report->diff_path = diff;
-    return diff ? write_map(diff, a, b, err) : EC_OK;
+    EC_TRY(see(job, &look, err));
+    report->diff_path = options->diff;
+    return options->diff ? write_map(options->diff, job, err) : EC_OK;
 }
 
 ec_result ec_compare_load(const char *path_a, const char *path_b, ec_compare_job *job, ec_error *err)
 {
     *job = (ec_compare_job){.report = {.path_a = path_a, .path_b = path_b, .a = &job->a.measured, .b = &job->b.measured}};
-    EC_TRY(load(path_a, &job->a, err));
-    EC_TRY(load(path_b, &job->b, err));
+    EC_TRY(ec_compare_read(path_a, &job->a, err));
+    EC_TRY(ec_compare_read(path_b, &job->b, err));
+    job->report.format_a = job->a.format;
+    job->report.format_b = job->b.format;
+    job->report.is_lossy_a = job->a.is_lossy;
     job->report.why_a = job->a.why;
     job->report.why_b = job->b.why;
     return EC_OK;
@@ -151,6 +104,11 @@ ec_result ec_compare_load(const char *path_a, const char *path_b, ec_compare_job
 
 void ec_compare_free(ec_compare_job *job)
 {
-    free_input(&job->a);
-    free_input(&job->b);
+    ec_compare_input_free(&job->a);
+    ec_compare_input_free(&job->b);
+    free(job->mask);
+    free(job->seen[0]);
+    free(job->seen[1]);
+    free(job->flip);
+    *job = (ec_compare_job){0};
 }

@@ -2,30 +2,36 @@
 #ifndef EC_JOBS_COMPARE_JOB_H
 #define EC_JOBS_COMPARE_JOB_H
 
-#include "film/measured.h"
-#include "image/image.h"
+#include "image/shown.h"
+#include "jobs/compare_input.h"
 #include "report/compare_report.h"
 
-/* A picture to be compared: an EXR of ours or of another renderer. */
-typedef struct ec_compare_input {
-    const char *path;
-    ec_measured measured;       /* points into what follows */
-    char *why;                  /* owned: why the file states no bound of its error; NULL: it does, or says nothing */
-    float *rgb, *se, *se_y;     /* owned; se and se_y NULL where the file has none, or only one replicate */
-} ec_compare_input;
+/* What is asked for; zero: as they are, or as --tonemap neutral shows them if one of them is a picture for a screen. */
+typedef struct ec_compare_options {
+    ec_look look;             /* of linear pictures */
+    bool is_shown;            /* so, even if both are linear */
+    bool fits_exposure;       /* of the one that is linear, in place of the look's */
+    bool estimates_noise;     /* of A, if it states none */
+    const char *mask;         /* files; NULL: none */
+    const char *diff;
+} ec_compare_options;
 
-/* The report points into the inputs: not to be moved. */
+/* The report points into all else: not to be moved. */
 typedef struct ec_compare_job {
     ec_compare_input a, b;
+    uint8_t *mask;            /* owned; NULL: all pixels count */
+    float *seen[2], *flip;    /* owned: both as they are shown, 3 floats a pixel, and FLIP's map, 1 */
     ec_compare_report report;
 } ec_compare_job;
 
-/* Reads both: R, G, B; stderr.R, .G, .B, .Y where there are any. Fails where a channel is missing or a value is not finite. To be freed on failure
- * too; zero-initialised is fine. */
+/* Reads both. To be freed on failure too; zero-initialised is fine. */
 ec_result ec_compare_load(const char *path_a, const char *path_b, ec_compare_job *job, ec_error *err);
 
-/* Fills in the report of what was read; diff: a .png for the map of errors, or NULL. */
-ec_result ec_compare_measure(ec_compare_report *report, const char *diff, ec_error *err);
+/* Fills in the report of what was read: once, as linear pictures are replaced by what is shown of them. */
+ec_result ec_compare_measure(ec_compare_job *job, const ec_compare_options *options, ec_error *err);
 void ec_compare_free(ec_compare_job *job);
+
+/* Where they differ, once measured, 3 bytes a pixel: the map of --diff. */
+void ec_compare_map(const ec_compare_job *job, uint8_t *rgb);
 
 #endif

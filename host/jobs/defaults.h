@@ -30,6 +30,8 @@
 #define EC_GRID_DENSITY_LEAST 0.01
 #define EC_GRID_DENSITY_MOST 10000
 
+#define EC_EXPOSURE_HELP "brighten pictures for the screen by this many stops; auto shows the log-average luminance of what is not black as 0.18"
+
 #define EC_TEXT_(x) #x
 #define EC_TEXT(x) EC_TEXT_(x)
 

@@ -12,6 +12,7 @@
 #include "image/exr_header.h"
 #include "image/seal.h"
 #include "device/content.h"
+#include "scene/built_in.h"
 #include "store/identity_text.h"
 
 static void put(ec_identity *identity, const char *name, const char *value, bool repeats)
@@ -37,7 +38,7 @@ static ec_result add_environment(ec_identity *identity, const char *environment,
 {
     char text[96];
     if (!environment) return EC_OK;
-    if (access(environment, R_OK) != 0) {
+    if (ec_is_built_in(environment) || access(environment, R_OK) != 0) {
         add(identity, "--env", environment);
         return EC_OK;
     }

@@ -35,11 +35,13 @@ void ec_merged_attributes(const ec_merged *m, ec_report_attributes *to)
     if (film->limit > 0) ec_clamp_attributes(to, ec_merged_clamp(m), (double)film->limit, &m->clamp);
 }
 
-ec_result ec_merged_write(const ec_merged *m, ec_outputs *outputs, double exposure, ec_tonemap tonemap, ec_error *err)
+double ec_merged_stops(const ec_merged *m, const ec_exposure *exposure) { return ec_exposure_stops(exposure, &m->slices.all.film); }
+
+ec_result ec_merged_write(const ec_merged *m, ec_outputs *outputs, const ec_exposure *exposure, ec_tonemap tonemap, ec_error *err)
 {
     ec_report_attributes attributes = {.count = 0};
     ec_merged_attributes(m, &attributes);
-    const ec_picture_style style = {.exposure = (float)exposure,
+    const ec_picture_style style = {.exposure = (float)ec_merged_stops(m, exposure),
                                     .tonemap = tonemap,
                                     .attributes = attributes.list,
                                     .attribute_count = attributes.count,

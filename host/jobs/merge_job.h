@@ -3,6 +3,7 @@
 #define EC_JOBS_MERGE_JOB_H
 
 #include "film/clamp.h"
+#include "film/exposure.h"
 #include "jobs/hash.h"
 #include "jobs/write_outputs.h"
 #include "report/error_text.h"
@@ -27,7 +28,8 @@ double ec_merged_clamp(const ec_merged *merged);
 /* Adds the attributes of its file; their texts are its own. */
 void ec_merged_attributes(const ec_merged *merged, ec_report_attributes *attributes);
 
-ec_result ec_merged_write(const ec_merged *merged, ec_outputs *outputs, double exposure, ec_tonemap tonemap, ec_error *err);
+double ec_merged_stops(const ec_merged *merged, const ec_exposure *exposure); /* that it is shown with */
+ec_result ec_merged_write(const ec_merged *merged, ec_outputs *outputs, const ec_exposure *exposure, ec_tonemap tonemap, ec_error *err);
 void ec_merged_free(ec_merged *merged); /* zero-initialised is fine */
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "film/exposure.h"
 #include "jobs/numbers.h"
 #include "jobs/outputs.h"
 
@@ -37,6 +38,13 @@ static ec_result store_file(const ec_option *o, const char **field, const char *
     return EC_OK;
 }
 
+static ec_result store_exposure(const ec_option *o, ec_exposure *field, const char *value, ec_error *err)
+{
+    *field = (ec_exposure){.is_auto = !strcmp(value, "auto")};
+    if (field->is_auto || ec_parse_real(o->name, value, o->least, o->most, &field->stops, NULL) == EC_OK) return EC_OK;
+    return ec_usage(err, "--%s: '%s' is neither a number from %g to %g nor auto", o->name, value, o->least, o->most);
+}
+
 ec_result ec_option_store(const ec_option *o, void *target, const char *value, ec_error *err)
 {
     void *field = (char *)target + o->at;
@@ -60,6 +68,7 @@ ec_result ec_option_store(const ec_option *o, void *target, const char *value, e
     case EC_AS_TRIPLE: return ec_parse_triple(o->name, value, field, err);
     case EC_AS_SIZE: return ec_parse_size(o->name, value, field, (uint32_t *)field + 1, err);
     case EC_AS_FILE: return store_file(o, field, value, err);
+    case EC_AS_EXPOSURE: return store_exposure(o, field, value, err);
     case EC_AS_OUTPUT: return ec_outputs_add(field, value, err);
     case EC_AS_LANES: return ec_parse_lanes(o->name, value, field, err);
     }

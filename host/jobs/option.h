@@ -26,6 +26,7 @@ typedef enum ec_option_kind {
     EC_AS_LANES,                               /* a uint32_t */
     EC_AS_FILE,                                /* const char *, named NAME.ending */
     EC_AS_OUTPUT,                              /* ec_outputs, one more of them */
+    EC_AS_EXPOSURE,                            /* ec_exposure: stops from least to most, or auto */
 } ec_option_kind;
 
 /* Stores one option's value in a way of its own; `option` is its name, value NULL for a flag. */
@@ -111,6 +112,7 @@ ec_result ec_option_store(const ec_option *option, void *target, const char *val
 #define EC_TYPE_PERCENT double
 #define EC_TYPE_TRIPLE double *
 #define EC_TYPE_OUTPUT ec_outputs
+#define EC_TYPE_EXPOSURE ec_exposure
 #define EC_HAS_TYPE(field, type) sizeof(char[_Generic((field), type: 1, default: -1)])
 
 /* How a row stores its value in a field of REQUEST, a type that the file defines. */

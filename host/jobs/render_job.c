@@ -16,6 +16,7 @@
 #include "render/strips.h"
 #include "report/scene_report.h"
 #include "gltf/reader.h"
+#include "scene/built_in.h"
 
 /* A slice is its sums: a PNG alone would throw them away. */
 static ec_result check_slice_output(const ec_render_request *request, ec_error *err)
@@ -112,20 +113,20 @@ ec_result ec_render_job_light(ec_render_job *job, ec_error *err)
         job->scene->environment.lent = true;
         job->scene->has_environment = job->share->has_environment;
     } else if (environment) {
-        if (job->scene->has_environment) ec_note(log, "--env takes the place of the image-based light that the scene has");
+        if (job->scene->has_environment) ec_note(log, "--light takes the place of the image-based light that the scene has");
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
     } else if (!job->request->adjusts_env) {
         ec_scene_light light;
         EC_TRY(ec_scene_find_light(job->scene, &light, err));
         if (!light.any) {
-            ec_note(log, "the scene has no light: a constant white environment lights it (--env takes another)");
-            environment = "1,1,1";
+            ec_note(log, "the scene has no light: the built-in studio lights it (--light takes another)");
+            environment = EC_STUDIO;
             EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
         }
     }
     if (job->request->adjusts_env && !is_there) {
         if (!environment && !job->scene->has_environment)
-            return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --env, or leave them out");
+            return ec_fail(err, "--env-rotate and --env-strength: the scene has no environment; give one with --light, or leave them out");
         ec_scene_adjust_environment(job->scene, job->request->env_degrees, job->request->env_strength, log);
     }
     EC_TRY(share_environment(job, is_of_all, err));
@@ -350,7 +351,8 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .device = job->devices,
         .device_why = job->device_why,
         .device_index = job->device_indices,
-        .exposure = request->exposure,
+        .exposure = ec_exposure_stops(&request->exposure, &job->film),
+        .is_exposure_auto = request->exposure.is_auto,
         .tonemap = request->tonemap,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),

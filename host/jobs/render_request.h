@@ -9,6 +9,7 @@
 #include "jobs/frames.h"
 #include "jobs/given.h"
 #include "jobs/outputs.h"
+#include "film/exposure.h"
 #include "image/image.h"
 #include "render/render.h"
 #include "scene/scene.h"
@@ -40,7 +41,7 @@ typedef struct ec_render_request {
     double env_degrees, env_strength; /* 0 and 1: as it is */
     bool adjusts_env;          /* one of these was given */
     const char *device;        /* NULL: chosen */
-    double exposure;           /* EV */
+    ec_exposure exposure;
     ec_frame_range frames;     /* of a sequence; not given: one picture */
     uint32_t orbit;            /* frames in which the camera goes round the scene once; 0: it stays */
     double turn;               /* degrees that it has gone round */

@@ -209,6 +209,7 @@ const char *ec_render_whole_for(const ec_render_request *r)
     if (r->options.error_target > 0) return "--error"; /* of the whole image */
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
+    if (r->exposure.is_auto) return "--exposure auto"; /* by all pixels */
     if (r->checkpoint) return "--checkpoint";
     if (r->snapshot) return "--snapshot";
     return r->has_slice ? "--samples" : NULL;

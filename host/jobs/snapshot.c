@@ -30,9 +30,7 @@ ec_result ec_snapshot_write(ec_render_job *job, const ec_film *film, const ec_pa
     ec_row_writer *writer;
     ec_rows_told told;
     if (film->batch_count == 0 || film->batch_count == job->shot_batches) return EC_OK;
-    const ec_picture_style style = {.exposure = (float)request->exposure,
-                                    .tonemap = request->tonemap,
-                                    .channels = ec_render_channels(request),
+    const ec_picture_style style = {.channels = ec_render_channels(request),
                                     .attributes = attributes,
                                     .attribute_count = list(job, &error, past, attributes)};
     EC_TRY(ec_outputs_add(&file, request->snapshot, err));

@@ -7,17 +7,19 @@
 
 #include "base/clock.h"
 #include "jobs/defaults.h"
+#include "jobs/option.h"
 #include "live/shared.h"
 
 _Static_assert((int)ECLAT_RASTER == EC_INTEGRATOR_RASTER && (int)ECLAT_INTEGRATOR_COUNT == EC_INTEGRATOR_COUNT, "one order of integrators");
-_Static_assert((int)ECLAT_TONEMAP_NONE == EC_TONEMAP_NONE, "one order of tone mappers");
+_Static_assert((int)ECLAT_TONEMAP_NONE == EC_TONEMAP_NONE && (int)ECLAT_TONEMAP_AGX == EC_TONEMAP_AGX && (int)ECLAT_TONEMAP_COUNT == EC_TONEMAP_COUNT,
+               "one order of tone curves");
 
 /* Fills in what the request says, before a scene is loaded. */
 static void start(ec_live *live)
 {
     ec_render_request *request = &live->request;
     const ec_render_options *o = &request->options;
-    live->asked.wish = (eclat_wish){.camera = -1, .env_degrees = request->env_degrees, .exposure = request->exposure, .without = o->without,
+    live->asked.wish = (eclat_wish){.camera = -1, .env_degrees = request->env_degrees, .exposure = request->exposure.stops, .without = o->without,
                                     .is_denoised = o->denoise != EC_DENOISER_NONE, .tonemap = (eclat_tonemap)request->tonemap, .integrator = (eclat_integrator)o->integrator,
                                     .second_integrator = ECLAT_RASTER, .x = UINT32_MAX, .y = UINT32_MAX};
     live->asked.serial = 1;
@@ -42,6 +44,7 @@ static ec_result start_threads(ec_live *live, ec_error *err)
 
 static ec_result check(ec_live *live, const char *against, ec_error *err)
 {
+    if (live->request.exposure.is_auto) return ec_usage(err, "--exposure auto: a window shows what it is told, by keys too; give a number of stops");
     EC_TRY(ec_render_check_files(&live->request, err));
     EC_TRY(ec_device_find(live->request.device, &live->device, &live->device_index, &live->device_why, err));
     return against ? ec_image_read_rgb(against, &live->against_width, &live->against_height, &live->against, err) : EC_OK;

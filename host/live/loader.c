@@ -88,7 +88,7 @@ static ec_result load(loader *l, ec_error *err)
 {
     ec_live *live = l->live;
     ec_watch_stop(&l->watch);
-    ec_watch_start(&l->watch, live->request.scene, live->request.environment, live->files);
+    ec_watch_start(&l->watch, live->request.scene, live->request.environment, live->files); /* a built-in one is no file, and nothing comes of it */
     ec_live_scene *s = calloc(1, sizeof *s);
     if (!s) return ec_fail(err, "out of memory for a scene");
     s->users = 1;

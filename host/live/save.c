@@ -84,7 +84,7 @@ static ec_result save(ec_renderer *r, const eclat_wish *wish, char *told, size_t
     const ec_live *live = r->live;
     ec_render_request request = live->request;
     request.options = options_of(r, wish);
-    request.exposure = wish->exposure;
+    request.exposure = (ec_exposure){.stops = wish->exposure};
     request.tonemap = (ec_tonemap)wish->tonemap;
     if (request.outputs.count == 0) EC_TRY(ec_outputs_add_default(&request.outputs, request.scene, err));
     number_outputs(&request.outputs, r->saved + 1);

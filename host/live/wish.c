@@ -25,7 +25,7 @@ void ec_live_limit_wish(eclat_wish *w)
     w->env_degrees = isfinite(w->env_degrees) ? rounded(w->env_degrees) : 0;
     w->exposure = rounded(fmin(fmax(w->exposure, -EC_EXPOSURE_MOST), EC_EXPOSURE_MOST));
     w->is_denoised = w->is_denoised != 0;
-    if (w->tonemap != ECLAT_TONEMAP_NONE) w->tonemap = ECLAT_TONEMAP_NEUTRAL;
+    if (w->tonemap >= ECLAT_TONEMAP_COUNT) w->tonemap = ECLAT_TONEMAP_NEUTRAL;
     if (w->integrator >= ECLAT_INTEGRATOR_COUNT) w->integrator = ECLAT_PATH;
     if (w->second_integrator >= ECLAT_INTEGRATOR_COUNT) w->second_integrator = ECLAT_PATH;
     if (w->second >= ECLAT_SECOND_COUNT) w->second = ECLAT_SECOND_NONE;

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "report/format.h"
 #include "report/json.h"
+#include "report/names.h"
 
 static ec_figure share_of(double share) { return share > 0 ? ec_percent(share) : (ec_figure){"0 %"}; }
 
@@ -30,9 +31,39 @@ static void print_figures(const ec_compare_report *report, FILE *to)
     fputc('\n', to);
 }
 
-static void print_noise_of(char name, const ec_measured *image, FILE *to)
+/* What is compared, where it is not what the files hold. */
+static void print_space(const ec_compare_report *report, FILE *to)
 {
-    if (!image->se)
+    const char *linear = !report->format_a && !report->format_b ? "both" : !report->format_a ? "A" : !report->format_b ? "B" : NULL;
+    const uint64_t pixels = (uint64_t)report->a->width * report->a->height;
+    if (report->is_shown) fputs("compared  sRGB values from 0 to 1", to);
+    if (report->is_shown && linear) fprintf(to, ", %s through the tone curve %s", linear, ec_tonemap_names[report->tonemap]);
+    if (report->is_shown && linear && (report->exposure != 0 || report->fitted) && !(report->fitted && !report->format_a && !report->format_b))
+        fprintf(to, " at exposure %+.3g%s", report->exposure, report->fitted ? ", fitted" : "");
+    if (report->is_shown) fputc('\n', to);
+    if (report->fitted && !report->format_a && !report->format_b)
+        fprintf(to, "exposure  A times %.4g, %+.3g stops, fitted to B\n", exp2(report->exposure), report->exposure);
+    if (report->difference.pixels < pixels)
+        fprintf(to, "mask      %" PRIu64 " of %" PRIu64 " pixels count, %s\n", report->difference.pixels, pixels,
+                share_of((double)report->difference.pixels / (double)pixels).text);
+}
+
+static void print_seen(const ec_compare_report *report, FILE *to)
+{
+    fprintf(to, "seen      FLIP %.4g, SSIM ", report->flip);
+    if (isfinite(report->ssim)) fprintf(to, "%.4f", report->ssim);
+    else fputs("undefined", to);
+    if (!report->is_shown) fprintf(to, ", through the tone curve %s", ec_tonemap_names[report->tonemap]);
+    fputc('\n', to);
+}
+
+static void print_noise_of(char name, const ec_measured *image, const char *format, bool is_estimated, FILE *to)
+{
+    if (is_estimated)
+        fprintf(to, "standard errors of %c estimated from how its difference varies between neighbouring pixels", name);
+    else if (!image->se && format)
+        fprintf(to, "%c is a picture for a screen, which has no standard errors, and counts as exact", name);
+    else if (!image->se)
         fprintf(to, "%c has no standard errors (--channels stderr) and counts as exact", name);
     else if (isfinite(image->replicates))
         fprintf(to, "standard errors of %c from %.0f replicates", name, image->replicates);
@@ -44,9 +75,9 @@ static void print_noise(const ec_compare_report *report, FILE *to)
 {
     fputs("noise     ", to);
     if (report->tested) {
-        print_noise_of('A', report->a, to);
+        print_noise_of('A', report->a, report->format_a, report->is_estimated, to);
         fputs("; ", to);
-        print_noise_of('B', report->b, to);
+        print_noise_of('B', report->b, report->format_b, false, to);
     } else {
         fputs("unknown: neither has standard errors (channels stderr.R, .G and .B: --channels stderr and two replicates or more)", to);
     }
@@ -91,22 +122,27 @@ static void print_unbound(char name, const char *why, FILE *to)
 
 void ec_compare_report_text(const ec_compare_report *report, FILE *to)
 {
-    ec_text_print(to, "A         ", report->path_a, "\n");
-    ec_text_print(to, "B         ", report->path_b, ", the reference; ");
-    fprintf(to, "%ux%u pixels\n", report->a->width, report->a->height);
+    ec_text_print(to, "A         ", report->path_a, "");
+    if (report->format_a) fprintf(to, ", %s", report->format_a);
+    ec_text_print(to, "\nB         ", report->path_b, "");
+    if (report->format_b) fprintf(to, ", %s", report->format_b);
+    fprintf(to, ", the reference; %ux%u pixels\n", report->a->width, report->a->height);
+    print_space(report, to);
     if (report->diff_path)
         ec_text_print(to, "map       ", report->diff_path, ": error relative to B, from 0.1 % (black) to 100 % (pale yellow), logarithmic\n");
     print_figures(report, to);
+    print_seen(report, to);
     print_noise(report, to);
     if (report->tested && report->difference.unequal > 0) print_test(&report->test, to);
     print_verdict(report, to);
+    if (report->is_lossy_a && report->differ) fprintf(to, "lossy     A is a %s, whose losses are differences too: save a PNG\n", report->format_a);
     print_unbound('A', report->why_a, to);
     print_unbound('B', report->why_b, to);
 }
 
-static void add_picture(cJSON *root, const char *key, const char *path, const char *why, const ec_measured *image, double mean)
+static void add_picture(cJSON *root, const char *key, const char *path, const char *format, const char *why, const ec_measured *image, double mean)
 {
-    EC_JSON(ec_json_object(root, key), EC_STRING("path", path), EC_REAL("mean_luminance", mean), EC_FLAG("standard_errors", image->se != NULL),
+    EC_JSON(ec_json_object(root, key), EC_STRING("path", path), EC_STRING("format", format), EC_REAL("mean_luminance", mean), EC_FLAG("standard_errors", image->se != NULL),
             EC_REAL("replicates", image->se ? image->replicates : INFINITY), EC_STRING("error_bound_why", why));
 }
 
@@ -127,20 +163,23 @@ static void add_test(cJSON *root, const ec_noise_test *test)
     ec_json_whole(root, "exact_unequal", test->exact_unequal);
 }
 
-ec_result ec_compare_report_json(const ec_compare_report *report, FILE *to, ec_error *err)
+cJSON *ec_compare_report_json(const ec_compare_report *report)
 {
     const ec_difference *d = &report->difference;
     cJSON *root = cJSON_CreateObject();
-    add_picture(root, "a", report->path_a, report->why_a, report->a, d->mean_a);
-    add_picture(root, "b", report->path_b, report->why_b, report->b, d->mean_b);
+    add_picture(root, "a", report->path_a, report->format_a, report->why_a, report->a, d->mean_a);
+    add_picture(root, "b", report->path_b, report->format_b, report->why_b, report->b, d->mean_b);
     EC_JSON(root, EC_WHOLE("width", report->a->width), EC_WHOLE("height", report->a->height), EC_FLAG("differ", report->differ),
             EC_WHOLE("unequal_pixels", d->unequal), EC_REAL("error", d->relative_rms), EC_REAL("error_of_noise", d->noise_relative_rms),
             EC_REAL("rmse", d->rmse), EC_REAL("relmse", d->relmse), EC_REAL("relmse_of_noise", d->noise_relmse), EC_REAL("mape", d->mape),
-            EC_REAL("psnr", d->psnr));
+            EC_REAL("psnr", d->psnr), EC_REAL("flip", report->flip), EC_REAL("ssim", report->ssim), EC_WHOLE("compared_pixels", d->pixels),
+            EC_STRING("space", report->is_shown ? "srgb" : "linear"), EC_STRING("tonemap", ec_tonemap_names[report->tonemap]),
+            EC_REAL("exposure", report->exposure), EC_STRING("exposure_fitted", report->fitted ? (char[2]){report->fitted} : NULL),
+            EC_FLAG("noise_estimated", report->is_estimated));
     if (report->tested)
         add_test(cJSON_AddObjectToObject(root, "noise_test"), &report->test);
     else
         cJSON_AddNullToObject(root, "noise_test");
     ec_json_text(root, "diff", report->diff_path);
-    return ec_json_print(root, to, err);
+    return root;
 }

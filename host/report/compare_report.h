@@ -2,6 +2,7 @@
 #ifndef EC_REPORT_COMPARE_REPORT_H
 #define EC_REPORT_COMPARE_REPORT_H
 
+#include <cjson/cJSON.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -12,15 +13,23 @@
 typedef struct ec_compare_report {
     const char *path_a, *path_b;
     const ec_measured *a, *b;
+    const char *format_a, *format_b; /* "8-bit PNG"; NULL: linear floats */
+    bool is_lossy_a;
+    bool is_shown;               /* what is compared are sRGB values from 0 to 1, linear pictures' as tonemap shows them */
+    unsigned tonemap;            /* ec_tonemap */
+    double exposure;             /* stops, of that; or of A's values, if it was fitted to a B that is linear too */
+    char fitted;                 /* 'A' or 'B', whose exposure was; 0: none */
+    bool is_estimated;           /* A's noise, from its difference with B */
     const char *why_a, *why_b;   /* why the file states no bound of its error; NULL: it does, or says nothing */
     ec_difference difference;
     bool tested;                 /* at least one of them has standard errors */
     ec_noise_test test;
     bool differ;                 /* by more than noise; without standard errors, in any pixel by more than rounding */
+    double flip, ssim;           /* means; ssim NaN: the picture has no whole window */
     const char *diff_path;       /* the error map; NULL: none was asked for */
 } ec_compare_report;
 
 void ec_compare_report_text(const ec_compare_report *report, FILE *to);
-ec_result ec_compare_report_json(const ec_compare_report *report, FILE *to, ec_error *err);
+cJSON *ec_compare_report_json(const ec_compare_report *report); /* the caller deletes it */
 
 #endif

@@ -15,6 +15,8 @@ typedef struct ec_merge_report {
     double limit, luminance; /* of --clamp, and of that a sample's most; 0: there is none */
     ec_clamp_error clamp;
     const char *image_sha256;
+    double exposure;         /* EV, of the PNG */
+    bool is_exposure_auto;
     const char **outputs;
     int output_count;
 } ec_merge_report;

@@ -24,5 +24,5 @@ const char *const ec_scattering_names[] = {
 
 const char *const ec_terminator_names[] = {
     [EC_TERMINATOR_GEOMETRIC] = "geometric", [EC_TERMINATOR_SMOOTH] = "smooth", NULL};
-const char *const ec_tonemap_names[] = {
-    [EC_TONEMAP_NEUTRAL] = "neutral", [EC_TONEMAP_NONE] = "none", NULL};
+#define NAME(id, name, words) [EC_TONEMAP_##id] = name,
+const char *const ec_tonemap_names[] = {EC_TONE_CURVES(NAME) NULL};

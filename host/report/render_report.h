@@ -35,6 +35,7 @@ typedef struct ec_render_report {
     const uint32_t *device_index;
     const char *device_why;         /* "first GPU" */
     double exposure;                /* EV, of the PNG */
+    bool is_exposure_auto;
     ec_tonemap tonemap;
     double mean_luminance;
     uint32_t replicates;            /* that have samples; with fewer than two no error is known */

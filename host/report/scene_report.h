@@ -26,7 +26,7 @@ typedef struct ec_scene_report {
     uint64_t peak_memory_bytes;  /* of this process: loading, and building the BVH */
     double load_seconds;
     ec_bvh_stats bvh;
-    bool has_light, takes_white; /* takes_white: as it has none and no environment was given */
+    bool has_light, takes_studio; /* takes_studio: as it has none and no environment was given */
     const char *device;          /* on which they were measured */
     ec_accel_report accels[EC_ACCEL_COUNT];
     uint32_t accel_count;        /* 0: none was asked for */

@@ -11,6 +11,7 @@
 
 #include "image/hdr.h"
 #include "image/image.h"
+#include "scene/built_in.h"
 
 /* "R,G,B": 1 = three numbers, 0 = does not look like numbers (so a file name), -1 = numbers, but not three good ones. */
 static int parse_color(const char *spec, float rgb[3])
@@ -49,6 +50,10 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
                        EC_CUT(spec, 200));
     if (color) {
         clean(e.constant, 3, spec, log);
+    } else if (ec_is_built_in(spec)) {
+        ec_made_map map;
+        EC_TRY(ec_built_in_make(spec, &map, err));
+        e = (ec_environment){.width = map.width, .height = map.height, .rgb = map.rgb};
     } else {
         memset(e.constant, 0, sizeof e.constant);
         EC_TRY(ec_image_read_rgb(spec, &e.width, &e.height, &e.rgb, err));

@@ -248,7 +248,7 @@ int64_t ec_scene_node_of(const ec_scene *s, uint32_t id);
 ec_result ec_scene_write_out(const ec_scene *scene, ec_scene *written, ec_error *err);
 void ec_scene_written_free(ec_scene *written);
 
-/* Replaces the environment. spec is a file (.hdr, .exr; equirectangular) or "R,G,B". Non-finite and negative values
+/* Replaces the environment. spec is a file (.hdr, .exr; equirectangular), "R,G,B" or one of built_in.h. Non-finite and negative values
  * are set to 0, those above EC_RADIANCE_MOST to that; a warning counts them. */
 ec_result ec_scene_set_environment(ec_scene *scene, const char *spec, const ec_log *log, ec_error *err);
 

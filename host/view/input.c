@@ -104,7 +104,7 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_INTEGRATOR_RASTER: w->integrator = (eclat_integrator)(action - EC_DO_INTEGRATOR_PATH); break;
     case EC_DO_BRIGHTER: w->exposure = round(3 * w->exposure + 1) / 3; break;
     case EC_DO_DARKER: w->exposure = round(3 * w->exposure - 1) / 3; break;
-    case EC_DO_TONEMAP: w->tonemap = w->tonemap == ECLAT_TONEMAP_NEUTRAL ? ECLAT_TONEMAP_NONE : ECLAT_TONEMAP_NEUTRAL; break;
+    case EC_DO_TONEMAP: w->tonemap = (eclat_tonemap)((w->tonemap + 1) % ECLAT_TONEMAP_COUNT); break;
     case EC_DO_ENV_LEFT: turn_environment(in, -5); break;
     case EC_DO_ENV_RIGHT: turn_environment(in, 5); break;
     case EC_DO_CAMERA: next_camera(in); break;

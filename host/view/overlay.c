@@ -10,7 +10,14 @@
 
 static const float white[3] = {1, 1, 1}, grey[3] = {0.78f, 0.82f, 0.86f}, yellow[3] = {1, 0.85f, 0.4f}, red[3] = {1, 0.5f, 0.45f};
 
-static const char *const integrators[] = {"path", "whitted", "raster"}, *const tonemaps[] = {"neutral", "none"};
+static const char *const integrators[] = {"path", "whitted", "raster"};
+
+static const char *tonemap_name(eclat_tonemap tonemap)
+{
+    eclat_option option;
+    for (size_t i = 0; strcmp((option = eclat_option_at("render", i)).name, "tonemap"); i++) {}
+    return option.choices[tonemap];
+}
 
 /* Three digits. */
 static void format_percent(double fraction, char *text, size_t size)
@@ -99,7 +106,7 @@ static void format_settings(const ec_window *w, char *text, size_t size)
     for (uint32_t i = 0; i < f->effect_count && used < sizeof without; i++)
         if (wish->without & f->effects[i].bit) used += (size_t)snprintf(without + used, sizeof without - used, " %s", f->effects[i].name);
     if (!wish->is_moved) snprintf(camera, sizeof camera, "%u", wish->camera < 0 ? f->camera : (uint32_t)wish->camera);
-    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", f->device, camera, wish->exposure, tonemaps[wish->tonemap], turned,
+    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", f->device, camera, wish->exposure, tonemap_name(wish->tonemap), turned,
              used ? "  without" : "", without);
 }
 

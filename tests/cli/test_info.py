@@ -219,7 +219,7 @@ class Info(Case):
         self.assertEqual(rows["sheen"]["kernels"], ["shade"])
         self.assertEqual(rows["sheen"]["buffers"], [])
         self.assertEqual(rows["sobol-sampler"]["why"], "--sampler sobol")
-        self.assertEqual(rows["environment"]["why"], "the environment shines")  # the white one of a scene without light
+        self.assertEqual(rows["environment"]["why"], "the environment shines")  # the studio of a scene without light
         self.assertIsNone(rows["clearcoat"]["why"])
         self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "connect", "accumulate", "features"])
 
@@ -453,7 +453,7 @@ class Info(Case):
         del scene["cameras"], scene["nodes"][1]["camera"]
         path = write_gltf(self.path("bare.gltf"), scene)
         run = self.assert_ok(eclat("info", path))
-        self.assertRegex(run.stdout, "none at all: .*white environment")
+        self.assertRegex(run.stdout, "none at all: .*built-in studio")
         self.assertRegex(run.stderr, r"(?m)^eclat: note: .*camera")
         self.assertEqual(self.assert_ok(eclat("info", "--quiet", path)).stderr, "")
 

@@ -27,7 +27,7 @@ def show(progress: eclat.Progress) -> None:
 scene = eclat.load(Path("a.gltf"))
 picture = scene.render(error=0.02, size=(4, 3), adaptive=True, eye=(1, 2, 3), lanes=4, without=["emission"], progress=show)
 picture.radiance.mean()
-print((picture.bound or 1) + eclat.compare(picture, "b.exr").error, eclat.cost("a.gltf", budget=3, scene=1)["rungs"])
+print((picture.bound or 1) + eclat.compare(picture, "b.png", fit_exposure=True).flip, eclat.cost("a.gltf", budget=3, scene=1)["rungs"])
 """
 
 

@@ -228,14 +228,6 @@ class Reports(Render):
         report = self.render("--size", "4x4")
         self.assertEqual((report["samples_per_pixel"], report["stopped_by"]), (256, "spp"))
 
-    def test_a_scene_without_light_is_lit_white_and_says_so(self):
-        scene = write_gltf(self.path("dark.gltf"), quad_scene(material={})[0])
-        run = self.assert_ok(eclat("render", scene, *SMALL, "--json", cwd=self.folder))
-        self.assertRegex(run.stderr, r"(?m)^eclat: note: .*no light.*white environment")
-        report = json.loads(run.stdout)
-        self.assertEqual(report["environment"], "1,1,1")
-        self.assertGreater(report["mean_luminance"], 0.1)
-
     def test_environment_option(self):
         report = self.render(*SMALL, "--env", "2,2,2", "-o", "a.exr")
         _, planes = read_exr(self.path("a.exr"))
@@ -248,7 +240,7 @@ class Reports(Render):
 
     def test_an_environment_that_is_not_there_cannot_be_turned(self):
         line = self.assert_one_error(eclat("render", self.scene, *SMALL, "--env-rotate", "90", cwd=self.folder), 1)
-        self.assertIn("give one with --env", line)
+        self.assertIn("give one with --light", line)
 
     def test_quiet_is_silent(self):
         run = self.assert_ok(eclat("render", self.scene, *SMALL, "--quiet", cwd=self.folder))

@@ -37,14 +37,14 @@ static void every_byte_comes_back(void)
 static void nothing_strange_gets_out(void)
 {
     const float in[] = {NAN, INFINITY, -INFINITY, -1, -FLT_MAX, -0.0f, FLT_MAX, FLT_MAX, FLT_MAX, NAN, 1, 0};
-    for (int mapper = EC_TONEMAP_NEUTRAL; mapper <= EC_TONEMAP_NONE; mapper++)
+    for (int mapper = 0; mapper < EC_TONEMAP_COUNT; mapper++)
         for (float ev = -2000; ev <= 2000; ev += 500) {
             uint8_t out[12];
             memset(out, 77, sizeof out);
             ec_tonemap_rgb(in, out, 4, ev, (ec_tonemap)mapper);
             for (int i = 0; i < 6; i++) CHECK(out[i] == 0);
             for (int i = 6; i < 9; i++) CHECK(out[i] == (ev >= 0 ? 255 : 0));
-            CHECK(out[10] == (ev < 0 ? 0 : ev > 0 || mapper == EC_TONEMAP_NONE ? 255 : out[10]) && out[9] == out[11]);
+            CHECK(out[10] == (ev < 0 ? 0 : ev > 0 || mapper == EC_TONEMAP_NONE ? 255 : out[10]) && (ev == 0 || out[9] == out[11])); /* a curve may mix channels */
         }
 }
 

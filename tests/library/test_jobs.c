@@ -30,7 +30,7 @@ static void test_tables(void)
     CHECK(!eclat_option_at("render", 999).name && !eclat_option_at("paint", 0).name);
     CHECK(find_option("render", "spp").takes_value == 1 && find_option("render", "adaptive").takes_value == 2);
     CHECK(find_option("render", "output").letter == 'o' && find_option("render", "output").repeats && !find_option("render", "spp").repeats);
-    CHECK(!strcmp(find_option("render", "tonemap").choices[0], "neutral") && !strcmp(find_option("render", "tonemap").otherwise, "neutral"));
+    CHECK(!strcmp(find_option("render", "tonemap").choices[ECLAT_TONEMAP_AGX], "agx") && !strcmp(find_option("render", "tonemap").otherwise, "neutral"));
     CHECK(find_option("info", "env").is_borrowed && !find_option("info", "json").is_borrowed);
     CHECK(find_option("view", "json").refused && !find_option("render", "json").refused && !find_option("cost", "spp").name);
 }

@@ -176,7 +176,12 @@ class Compare(Case):
         self.assertIn("more than noise", str(apart))
         self.assertEqual(support.png_size(self.folder / "map.png"), (24, 16))
         same = eclat.compare(a, a)
-        self.assertEqual((same.error, same.psnr, same.differ), (0, None, False))
+        self.assertEqual((same.error, same.psnr, same.flip, same.ssim, same.differ), (0, None, 0, 1, False))
+        b.save(self.folder / "b.png")
+        shown = eclat.compare(self.folder / "b.png", b, html=self.folder / "page.html")
+        self.assertEqual((shown.differ, shown.report["a"]["format"], shown.report["unequal_pixels"]), (False, "8-bit PNG", 0))
+        self.assertTrue(0 < shown.flip < 0.05 and (self.folder / "page.html").exists())
+        self.assertTrue(eclat.compare(self.folder / "b.png", b, exposure=0.5, estimate_noise=True).differ)
         # The program says the same.
         a.save(self.folder / "a.exr")
         run = support.eclat("compare", str(self.folder / "a.exr"), str(self.folder / "b.exr"), "--json")

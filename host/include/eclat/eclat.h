@@ -285,7 +285,10 @@ eclat_result eclat_live_open(const eclat_job *job, const char *against, const ec
 void eclat_live_close(eclat_live *live); /* NULL is fine. Waits for what cannot be broken off, such as a compiler */
 
 typedef enum eclat_integrator { ECLAT_PATH, ECLAT_WHITTED, ECLAT_RASTER, ECLAT_INTEGRATOR_COUNT } eclat_integrator;
-typedef enum eclat_tonemap { ECLAT_TONEMAP_NEUTRAL, ECLAT_TONEMAP_NONE } eclat_tonemap;
+/* The order of the option tonemap's choices. */
+typedef enum eclat_tonemap {
+    ECLAT_TONEMAP_NEUTRAL, ECLAT_TONEMAP_NONE, ECLAT_TONEMAP_ACES, ECLAT_TONEMAP_AGX, ECLAT_TONEMAP_FILMIC, ECLAT_TONEMAP_COUNT
+} eclat_tonemap;
 
 /* A second picture: maps of the error or of the samples, another integrator's picture, or the file `against`. */
 typedef enum eclat_second {

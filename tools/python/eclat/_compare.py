@@ -13,7 +13,8 @@ from ._job import run
 from ._options import texts
 from ._picture import Picture
 
-Source = Union[str, "os.PathLike[str]", Picture]
+File = Union[str, "os.PathLike[str]"]
+Source = Union[File, Picture]
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,8 @@ class Comparison:
     relmse: float
     mape: float
     psnr: float | None            # in dB; None: the pictures are equal
+    flip: float                      # how different they look: 0 alike, 1 as different as can be
+    ssim: float | None            # structural similarity, 1 alike; None: the pictures are smaller than its windows
     p: float | None               # that noise alone makes so large a difference; None: neither picture has standard errors
     differ: bool                     # by more than noise, or, without standard errors, by more than rounding
     report: dict[str, Any] = field(repr=False, compare=False)  # everything that `eclat compare --json` tells
@@ -43,14 +46,17 @@ def file_of(picture: Source, folder: str, name: str) -> str:
     return str(path)
 
 
-def compare(a: Source, b: Source, *, diff: str | os.PathLike[str] | None = None) -> Comparison:
-    """Compares a with the reference b: pictures, or .exr files, those of other renderers too. diff: a .png to be written, a map of the error."""
+def compare(a: Source, b: Source, *, diff: File | None = None, html: File | None = None, mask: File | None = None, tonemap: str | None = None,
+            exposure: float | None = None, fit_exposure: bool = False, estimate_noise: bool = False) -> Comparison:
+    """Compares a with the reference b: pictures, or files, those of other renderers too: EXR, Radiance, PNG, JPEG, WebP. diff: a .png to be written, a map of
+    the error; html: a page with both. mask: a picture, white where they are compared. The others are those of `eclat compare`."""
+    named = {"diff": diff, "html": html, "mask": mask, "tonemap": tonemap, "exposure": exposure, "fit_exposure": fit_exposure, "estimate_noise": estimate_noise}
     with tempfile.TemporaryDirectory(prefix="eclat-") as folder:
-        result = run("compare", [file_of(a, folder, "a.exr"), file_of(b, folder, "b.exr")], [("json", None), *texts("compare", {"diff": diff})])
+        result = run("compare", [file_of(a, folder, "a.exr"), file_of(b, folder, "b.exr")], [("json", None), *texts("compare", named)])
     report = json.loads(result.reports[-1])
     for picture, side in ((a, "a"), (b, "b")):
         if isinstance(picture, Picture) and picture.stderr is not None and not report[side]["standard_errors"]:
             raise Error(f"the option channels of picture {side} leaves out stderr, without which noise counts as a difference; add 'stderr' to it", "usage")
     test = report.get("noise_test") or {}
     return Comparison(report["error"], report.get("error_of_noise"), report["rmse"], report["relmse"], report["mape"], report["psnr"],
-                      test.get("p"), bool(report["differ"]), report)
+                      report["flip"], report["ssim"], test.get("p"), bool(report["differ"]), report)

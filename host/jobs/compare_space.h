@@ -1,0 +1,18 @@
+/* Two pictures come into one space: both stay linear, or both become what is shown of them. */
+#ifndef EC_JOBS_COMPARE_SPACE_H
+#define EC_JOBS_COMPARE_SPACE_H
+
+#include "jobs/compare_job.h"
+
+/* Replaces values and noise of both where they are shown, fits the exposure and estimates A's noise as asked, and tells the report so. look: that of
+ * options; becomes the fitted one. */
+ec_result ec_compare_bring_together(ec_compare_job *job, const ec_compare_options *options, ec_look *look, ec_error *err);
+
+static inline uint64_t ec_compare_pixels(const ec_compare_job *job)
+{
+    return (uint64_t)job->a.measured.width * job->a.measured.height;
+}
+
+ec_result ec_compare_no_memory(const ec_compare_job *job, ec_error *err);
+
+#endif

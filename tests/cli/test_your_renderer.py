@@ -1,0 +1,59 @@
+# tier: full
+"""The manual's page for makers of renderers, as its reader runs it: wrong pictures are found, and noisy right ones pass."""
+import os
+import re
+import shutil
+import stat
+import unittest
+
+from support import CORNELL, ECLAT, ENVIRONMENT, SOURCE, Case, eclat, png_size
+
+# A renderer that saves screenshots; HOW is what it does, wrong or right.
+RENDERER = f"""#!/bin/sh
+scene=$1
+shift
+exec {ECLAT} render "$scene" "$@" -q $HOW
+"""
+
+
+def recipe():
+    """The reference, and what is done with a picture that has little noise or much."""
+    with open(os.path.join(SOURCE, "docs", "test-your-renderer.md"), encoding="utf-8") as page:
+        return re.findall(r"```sh\n(.*?)```", page.read(), re.DOTALL)
+
+
+class YourRenderer(Case):
+    def sh(self, script, how=""):
+        if os.path.exists(self.path("difference.png")):
+            os.remove(self.path("difference.png"))
+        path = os.pathsep.join([self.folder, os.path.dirname(os.path.abspath(ECLAT)), ENVIRONMENT["PATH"]])
+        return eclat("-ec", script, program="/bin/sh", cwd=self.folder, env={"PATH": path, "HOW": how})
+
+    def test_the_page(self):
+        with open(self.path("my-renderer"), "w", encoding="utf-8") as file:
+            file.write(RENDERER)
+        os.chmod(file.name, stat.S_IRWXU)
+        shutil.copy(CORNELL, self.path("scene.gltf"))
+        shutil.copy(CORNELL.replace(".gltf", ".bin"), self.folder)
+        reference, quiet, noisy, many = recipe()
+        self.assert_ok(self.sh(reference))
+        right = "--spp 64 --seed 1"
+        for script, how, found in (
+                # The same samples, so that no noise of its own is in the picture.
+                (quiet, "--spp 1024 --seed 100", False), (quiet, "--spp 1024 --seed 100 --tonemap none", True),
+                (quiet, "--spp 1024 --seed 100 --fov 39", True), (quiet, right, True),
+                (noisy, right, False), (noisy, f"{right} --max-depth 4", True), (noisy, f"{right} --exposure 0.05", True)):
+            with self.subTest(how=how):
+                run = self.sh(script, how)
+                self.assertEqual(run.returncode, found, run.stdout + run.stderr)
+                self.assertIn("they differ" if found else "no more different than noise" if script == noisy else "equal in every pixel", run.stdout)
+                self.assertEqual(png_size(self.path("difference.png")), (96, 96))
+        for folder, file in ("mine", "mine.png"), ("reference", "reference.exr"):
+            os.mkdir(self.path(folder))
+            shutil.copy(self.path(file), self.path(folder, f"scene{file[-4:]}"))
+        self.assertEqual(self.sh(many).returncode, 1)
+        self.assertTrue(os.path.exists(self.path("report.html")))
+
+
+if __name__ == "__main__":
+    unittest.main()
