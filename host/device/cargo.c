@@ -151,6 +151,7 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->batch = batch;
     params->max_depth = o->max_depth ? o->max_depth : unlimited;
     params->cutoff = (float)o->cutoff;
+    params->backdrop = o->hides_environment;
     params->panes_count = o->integrator == EC_INTEGRATOR_PATH;
     set_roulette(o->survival, params);
     params->sample = o->sample;

@@ -68,6 +68,7 @@ typedef struct ec_render_options {
     uint64_t memory;            /* bytes that the process should not exceed: else it renders strips (strips.h); 0 = what is free */
     uint32_t slice_first, slice_end; /* batches (film/schedule.h) of a slice, for what they take of it; slice_end 0: it is none */
     ec_denoiser denoise;        /* more first hits, by which a denoiser goes; and where there is an error_target, it is the clean picture's */
+    bool hides_environment;     /* from the camera: where it sees no surface the picture is black, and its alpha 0 */
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */

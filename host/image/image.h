@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "film/channels.h"
-#include "image/tone_curve.h"
+#include "image/screen.h"
 
 /* One EXR channel. */
 typedef struct ec_channel {
@@ -83,8 +83,7 @@ ec_result ec_image_read_rgb(const char *path, uint32_t *width, uint32_t *height,
 double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1, on [0, 1] */
 const double *ec_srgb_bytes(void);        /* that of i / 255.0, 256 of them: a power takes as long as twenty look-ups */
 
-/* Linear Rec.709 radiance to 8-bit sRGB: rgb * 2^exposure, tone curve, exact sRGB curve.
- * Non-finite values become 0. in: 3 floats a pixel; out: 3 bytes a pixel. */
+/* ec_screen_pixels before the environment. in: 3 floats a pixel; out: 3 bytes a pixel. */
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap);
 
 /* The same of one pixel times `scale`, in place, from 0 to 1 and not rounded. */
@@ -99,9 +98,8 @@ typedef struct ec_png_text {
 
 /* Writes rows that come one after the other, from the top; path stays until the end. text: NULL is none. */
 typedef struct ec_png_rows ec_png_rows;
-ec_result ec_png_rows_begin(ec_png_rows **rows, const char *path, uint32_t width, uint32_t height,
-                            const ec_png_text *text, ec_error *err);
-ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *rgb, uint32_t count, ec_error *err);
+ec_result ec_png_rows_begin(ec_png_rows **rows, const char *path, const ec_raster *of, const ec_png_text *text, ec_error *err);
+ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *pixels, uint32_t count, ec_error *err);
 ec_result ec_png_rows_end(ec_png_rows *rows, ec_error *err); /* the file gets its name; after a failure there is none. Frees rows */
 void ec_png_rows_abort(ec_png_rows *rows);                   /* leaves nothing; frees rows; NULL is fine */
 

@@ -1,4 +1,4 @@
-/* PNG out: 8-bit sRGB. In memory through libpng's simplified API, to files row by row, compressed by all threads (png_strips.h); both
+/* PNG out: sRGB, of 8 or 16 bits. In memory through libpng's simplified API, to files row by row, compressed by all threads (png_strips.h); both
  * write the sRGB chunk. */
 #include <png.h>
 #include <setjmp.h>
@@ -30,7 +30,6 @@ struct ec_png_rows {
     png_structp png;
     png_infop info;
     ec_png_strips strips;
-    uint32_t width;
     bool has_begun;       /* the stream's head is written */
     int write_error;      /* errno of the write that failed */
     char message[128];    /* the library's last complaint */
@@ -71,32 +70,31 @@ static void put_text(const ec_png_rows *rows, const ec_png_text *text)
     if (text->text) png_set_text(rows->png, rows->info, &one, 1);
 }
 
-static ec_result begin(ec_png_rows *rows, uint32_t height, const ec_png_text *text, ec_error *err)
+static ec_result begin(ec_png_rows *rows, const ec_raster *of, const ec_png_text *text, ec_error *err)
 {
-    if (rows->width == 0 || height == 0)
-        return ec_fail(err, "cannot write '%s': an image of %u x %u pixels is empty", rows->path, rows->width, height);
-    if (!ec_png_strips_create(&rows->strips, rows->width, height)) return failed(rows, err);
+    if (of->width == 0 || of->height == 0)
+        return ec_fail(err, "cannot write '%s': an image of %u x %u pixels is empty", rows->path, of->width, of->height);
+    if (!ec_png_strips_create(&rows->strips, of->width, of->height, ec_raster_pixel_bytes(of))) return failed(rows, err);
     EC_TRY(ec_atomic_open(&rows->file, rows->path, err));
     rows->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, rows, complain, warn);
     rows->info = rows->png ? png_create_info_struct(rows->png) : NULL;
     if (!rows->info || setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
     png_set_write_fn(rows->png, rows, write_all, flush);
-    png_set_IHDR(rows->png, rows->info, rows->width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(rows->png, rows->info, of->width, of->height, (int)of->bits, of->channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(rows->png, rows->info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (text) put_text(rows, text);
     png_write_info(rows->png, rows->info);
     return EC_OK;
 }
 
-ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, uint32_t width, uint32_t height,
-                            const ec_png_text *text, ec_error *err)
+ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, const ec_raster *of, const ec_png_text *text, ec_error *err)
 {
     ec_png_rows *rows = calloc(1, sizeof *rows);
     *made = NULL;
     if (!rows) return ec_fail(err, "out of memory for '%s'", path);
-    *rows = (ec_png_rows){.file.fd = -1, .path = path, .width = width};
-    if (begin(rows, height, text, err) != EC_OK) {
+    *rows = (ec_png_rows){.file.fd = -1, .path = path};
+    if (begin(rows, of, text, err) != EC_OK) {
         ec_png_rows_abort(rows);
         return EC_FAILED;
     }
@@ -124,11 +122,11 @@ static void put_strips(ec_png_rows *rows)
     }
 }
 
-ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *rgb, uint32_t count, ec_error *err)
+ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *pixels, uint32_t count, ec_error *err)
 {
     if (setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
     for (uint32_t y = 0; y < count;) {
-        y += ec_png_strips_put(&rows->strips, rgb + (uint64_t)y * rows->width * 3, count - y);
+        y += ec_png_strips_put(&rows->strips, pixels + (uint64_t)y * rows->strips.row_bytes, count - y);
         put_strips(rows);
     }
     return EC_OK;
@@ -160,7 +158,7 @@ void ec_png_rows_abort(ec_png_rows *rows)
 ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, ec_error *err)
 {
     ec_png_rows *rows;
-    EC_TRY(ec_png_rows_begin(&rows, path, width, height, NULL, err));
+    EC_TRY(ec_png_rows_begin(&rows, path, &(ec_raster){width, height, 3, 8}, NULL, err));
     if (ec_png_rows_put(rows, rgb, height, err) == EC_OK) return ec_png_rows_end(rows, err);
     ec_png_rows_abort(rows);
     return EC_FAILED;

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <zlib.h>
 
-enum { FILTERS = 5, PIXEL = 3, RAW_DEFLATE = -15, MEMORY_LEVEL = 8 };
+enum { FILTERS = 5, RAW_DEFLATE = -15, MEMORY_LEVEL = 8 };
 
 const uint8_t ec_png_stream_head[2] = {0x78, 0x9c}; /* zlib: deflate, window of 32 KiB, default level */
 
@@ -21,16 +21,16 @@ static uint8_t paeth(int left, int up, int corner)
 }
 
 /* PNG specification (ISO/IEC 15948), 9.2. `above` of the first row is zeros. */
-static void filter_row(int type, const uint8_t *row, const uint8_t *above, size_t bytes, uint8_t *to)
+static void filter_row(int type, const uint8_t *row, const uint8_t *above, size_t bytes, size_t pixel, uint8_t *to)
 {
-    for (size_t i = 0; i < PIXEL; i++)
+    for (size_t i = 0; i < pixel; i++)
         to[i] = (uint8_t)(row[i] - (type == 2 || type == 4 ? above[i] : type == 3 ? above[i] / 2 : 0));
     switch (type) {
     case 0: memcpy(to, row, bytes); break;
-    case 1: for (size_t i = PIXEL; i < bytes; i++) to[i] = (uint8_t)(row[i] - row[i - PIXEL]); break;
-    case 2: for (size_t i = PIXEL; i < bytes; i++) to[i] = (uint8_t)(row[i] - above[i]); break;
-    case 3: for (size_t i = PIXEL; i < bytes; i++) to[i] = (uint8_t)(row[i] - (row[i - PIXEL] + above[i]) / 2); break;
-    default: for (size_t i = PIXEL; i < bytes; i++) to[i] = (uint8_t)(row[i] - paeth(row[i - PIXEL], above[i], above[i - PIXEL]));
+    case 1: for (size_t i = pixel; i < bytes; i++) to[i] = (uint8_t)(row[i] - row[i - pixel]); break;
+    case 2: for (size_t i = pixel; i < bytes; i++) to[i] = (uint8_t)(row[i] - above[i]); break;
+    case 3: for (size_t i = pixel; i < bytes; i++) to[i] = (uint8_t)(row[i] - (row[i - pixel] + above[i]) / 2); break;
+    default: for (size_t i = pixel; i < bytes; i++) to[i] = (uint8_t)(row[i] - paeth(row[i - pixel], above[i], above[i - pixel]));
     }
 }
 
@@ -42,11 +42,11 @@ static uint64_t size_of_values(const uint8_t *bytes, size_t count)
 }
 
 /* The filter whose values, taken as signed, have the least sum of sizes: the heuristic of the specification, 12.8. `room`: a row. */
-static void choose_filter(const uint8_t *row, const uint8_t *above, size_t bytes, uint8_t *to, uint8_t *room)
+static void choose_filter(const uint8_t *row, const uint8_t *above, size_t bytes, size_t pixel, uint8_t *to, uint8_t *room)
 {
     uint64_t least = UINT64_MAX;
     for (int type = 0; type < FILTERS; type++) {
-        filter_row(type, row, above, bytes, room);
+        filter_row(type, row, above, bytes, pixel, room);
         const uint64_t sum = size_of_values(room, bytes);
         if (sum >= least) continue;
         least = sum;
@@ -72,7 +72,8 @@ static void pack(const ec_png_strips *s, ec_png_strip *strip, const uint8_t *fir
     strip->is_packed = false;
     if (filtered && deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, RAW_DEFLATE, MEMORY_LEVEL, Z_FILTERED) == Z_OK) {
         for (uint32_t y = 0; y < rows; y++)
-            choose_filter(first + y * s->row_bytes, first + y * s->row_bytes - s->row_bytes, s->row_bytes, filtered + y * line, filtered + rows * line);
+            choose_filter(first + y * s->row_bytes, first + y * s->row_bytes - s->row_bytes, s->row_bytes, s->pixel_bytes,
+                          filtered + y * line, filtered + rows * line);
         strip->adler = adler32_z(adler32_z(0, NULL, 0), filtered, line * rows);
         if (make_room(strip, deflateBound(&z, (uLong)(line * rows)) + 16)) { /* 16: the empty block at the end of what is no last strip */
             z.next_in = filtered;
@@ -87,9 +88,9 @@ static void pack(const ec_png_strips *s, ec_png_strip *strip, const uint8_t *fir
     free(filtered);
 }
 
-bool ec_png_strips_create(ec_png_strips *s, uint32_t width, uint32_t height)
+bool ec_png_strips_create(ec_png_strips *s, uint32_t width, uint32_t height, uint32_t pixel_bytes)
 {
-    *s = (ec_png_strips){.row_bytes = (size_t)width * PIXEL, .height = height, .strip_count = (uint32_t)omp_get_max_threads()};
+    *s = (ec_png_strips){.row_bytes = (size_t)width * pixel_bytes, .pixel_bytes = pixel_bytes, .height = height, .strip_count = (uint32_t)omp_get_max_threads()};
     s->strip_rows = s->row_bytes < EC_PNG_STRIP_BYTES ? (uint32_t)(EC_PNG_STRIP_BYTES / s->row_bytes) : 1;
     if (s->strip_rows > height) s->strip_rows = height;
     s->adler = adler32_z(0, NULL, 0);
@@ -128,10 +129,10 @@ static void pack_waiting(ec_png_strips *s)
     s->waiting = 0;
 }
 
-uint32_t ec_png_strips_put(ec_png_strips *s, const uint8_t *rgb, uint32_t count)
+uint32_t ec_png_strips_put(ec_png_strips *s, const uint8_t *pixels, uint32_t count)
 {
     const uint32_t room = s->strip_rows * s->strip_count - s->waiting, taken = count < room ? count : room;
-    memcpy(s->rows + (1u + (size_t)s->waiting) * s->row_bytes, rgb, taken * s->row_bytes);
+    memcpy(s->rows + (1u + (size_t)s->waiting) * s->row_bytes, pixels, taken * s->row_bytes);
     s->waiting += taken;
     s->packed = 0;
     if (s->waiting == s->strip_rows * s->strip_count || s->done + s->waiting == s->height) pack_waiting(s);

@@ -16,7 +16,7 @@ typedef struct ec_png_strip {
 /* Strips of as many rows as make EC_PNG_STRIP_BYTES, so that the file does not depend on the number of threads. */
 enum { EC_PNG_STRIP_BYTES = 1 << 18 };
 typedef struct ec_png_strips {
-    size_t row_bytes;
+    size_t row_bytes, pixel_bytes;
     uint32_t height, strip_rows;
     uint32_t done;          /* rows that are in strips handed out */
     uint32_t waiting;       /* rows in `rows` */
@@ -26,12 +26,12 @@ typedef struct ec_png_strips {
     unsigned long adler;    /* of all filtered rows so far */
 } ec_png_strips;
 
-bool ec_png_strips_create(ec_png_strips *strips, uint32_t width, uint32_t height); /* false: no memory */
+bool ec_png_strips_create(ec_png_strips *strips, uint32_t width, uint32_t height, uint32_t pixel_bytes); /* false: no memory */
 void ec_png_strips_free(ec_png_strips *strips);
 
-/* Takes rows of 8-bit RGB, as many as there is room for, and returns how many. Where strips are full then, or the picture is, the first
+/* Takes rows of pixels, as many as there is room for, and returns how many. Where strips are full then, or the picture is, the first
  * `packed` strips of strip[] hold the stream's next part until the next call. */
-uint32_t ec_png_strips_put(ec_png_strips *strips, const uint8_t *rgb, uint32_t count);
+uint32_t ec_png_strips_put(ec_png_strips *strips, const uint8_t *pixels, uint32_t count);
 
 /* What comes before the first strip and after the last one. */
 extern const uint8_t ec_png_stream_head[2];

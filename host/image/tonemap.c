@@ -1,4 +1,4 @@
-/* Linear radiance to 8-bit sRGB, and sRGB to linear. */
+/* Linear radiance to sRGB of 8 and 16 bits, and sRGB to linear. */
 #include <math.h>
 #include <pthread.h>
 
@@ -43,13 +43,37 @@ void ec_tonemap_pixel(double rgb[3], double scale, ec_tonemap tonemap)
     for (int c = 0; c < 3; c++) rgb[c] = srgb_encode(rgb[c]);
 }
 
+static void put(double x, const ec_raster *to, uint8_t *out, uint32_t channel)
+{
+    if (to->bits == 8) {
+        out[channel] = (uint8_t)lrint(255 * x);
+        return;
+    }
+    const long value = lrint(65535 * x);
+    out[2 * channel] = (uint8_t)(value >> 8);
+    out[2 * channel + 1] = (uint8_t)value;
+}
+
+void ec_screen_pixels(const ec_screen *s, const float *rgb, const float *alpha, uint32_t stride, uint64_t count, const ec_raster *to, void *out)
+{
+    const double scale = exp2(s->exposure);
+    const bool covers = s->background.kind != EC_BACKDROP_ENVIRONMENT, shows = s->background.kind == EC_BACKDROP_COLOR;
+    double behind[3];
+    for (int c = 0; c < 3; c++) behind[c] = ec_srgb_to_linear(s->background.rgb[c] / 255.0);
+#pragma omp parallel for schedule(static) if (count > 1 << 14)
+    for (uint64_t i = 0; i < count; i++) {
+        const double covered = covers ? fmin(fmax(alpha[stride * i], 0), 1) : 1;
+        uint8_t *pixel = (uint8_t *)out + i * ec_raster_pixel_bytes(to);
+        double light[3];
+        for (int c = 0; c < 3; c++) light[c] = covered > 0 ? expose(rgb[3 * i + (uint64_t)c], scale / covered) : 0;
+        ec_tone_curve_apply(s->tonemap, light);
+        for (uint32_t c = 0; c < 3; c++) put(srgb_encode(shows ? covered * light[c] + (1 - covered) * behind[c] : light[c]), to, pixel, c);
+        if (to->channels == 4) put(covered, to, pixel, 3);
+    }
+}
+
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap)
 {
-    const double scale = exp2(exposure_ev);
-#pragma omp parallel for schedule(static) if (pixel_count > 1 << 14)
-    for (uint64_t i = 0; i < pixel_count; i++) {
-        double rgb[3] = {in[3 * i], in[3 * i + 1], in[3 * i + 2]};
-        ec_tonemap_pixel(rgb, scale, tonemap);
-        for (int c = 0; c < 3; c++) out[3 * i + c] = (uint8_t)lrint(255 * rgb[c]);
-    }
+    const ec_screen screen = {.exposure = exposure_ev, .tonemap = tonemap};
+    ec_screen_pixels(&screen, in, NULL, 0, pixel_count, &(ec_raster){.channels = 3, .bits = 8}, out);
 }

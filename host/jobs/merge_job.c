@@ -41,8 +41,7 @@ ec_result ec_merged_write(const ec_merged *m, ec_outputs *outputs, const ec_expo
 {
     ec_report_attributes attributes = {.count = 0};
     ec_merged_attributes(m, &attributes);
-    const ec_picture_style style = {.exposure = (float)ec_merged_stops(m, exposure),
-                                    .tonemap = tonemap,
+    const ec_picture_style style = {.screen = {.exposure = (float)ec_merged_stops(m, exposure), .tonemap = tonemap},
                                     .attributes = attributes.list,
                                     .attribute_count = attributes.count,
                                     .job = &m->slices.all.job,

@@ -39,19 +39,24 @@ static const char *name_of(const char *path)
     return slash ? slash + 1 : path;
 }
 
-static bool kind_of(const char *path, ec_output_kind *kind)
+static bool kind_of(const char *path, uint32_t *kind)
 {
     const char *name = name_of(path), *dot = strrchr(name, '.');
     if (!dot || dot == name) return false;
-    *kind = strcasecmp(dot, ".png") == 0 ? EC_OUTPUT_PNG : EC_OUTPUT_EXR;
-    return *kind == EC_OUTPUT_PNG || strcasecmp(dot, ".exr") == 0;
+    for (uint32_t f = 0; f < EC_FORMAT_COUNT; f++)
+        for (const char *const *ending = ec_formats[f].endings; *ending; ending++)
+            if (!strcasecmp(dot, *ending)) return *kind = EC_OUTPUT_PIXELS + f, true;
+    *kind = EC_OUTPUT_EXR;
+    return !strcasecmp(dot, ".exr");
 }
+
+const ec_format *ec_output_format(const ec_output *output) { return output->kind == EC_OUTPUT_EXR ? NULL : &ec_formats[output->kind - EC_OUTPUT_PIXELS]; }
 
 ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
 {
-    ec_output_kind kind;
+    uint32_t kind;
     if (!kind_of(path, &kind))
-        return ec_usage(err, "-o: '%s' must be named NAME.exr (all data) or NAME.png (picture)", path);
+        return ec_usage(err, "-o: '%s' must be named NAME.exr (all data) or NAME.png, NAME.jpg (picture) or NAME.hdr (radiance)", path);
     if (strlen(path) >= sizeof outputs->file[0].path)
         return ec_usage(err, "-o: the path is longer than %d bytes", PATH_MAX - 1);
     for (int i = 0; i < outputs->count; i++)
@@ -131,10 +136,10 @@ static uint64_t room_for(const char *path)
 
 void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, ec_channel_set channels, const ec_log *log)
 {
-    const uint64_t bytes_per_pixel[] = {[EC_OUTPUT_EXR] = ec_channels_bytes(channels), [EC_OUTPUT_PNG] = 3}; /* uncompressed */
     for (int i = 0; i < outputs->count; i++) {
         const ec_output *output = &outputs->file[i];
-        uint64_t needed = pixel_count * bytes_per_pixel[output->kind], room = room_for(output->path);
+        uint64_t needed = pixel_count * (output->kind == EC_OUTPUT_EXR ? ec_channels_bytes(channels) : 3), /* uncompressed */
+                 room = room_for(output->path);
         if (needed <= room) continue;
         ec_warn(log, "'%s' may take up to %s, and its disk has %s left", output->path, ec_bytes(needed).text, ec_bytes(room).text);
     }

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "gltf/reader.h"
+#include "image/formats.h"
 #include "jobs/channel_list.h"
 
 /* The files that a command reads: none of them may be what it writes. */
@@ -22,12 +23,12 @@ typedef struct ec_inputs {
 bool ec_inputs_have(ec_inputs *inputs, const char *path);
 void ec_inputs_free(ec_inputs *inputs);
 
-typedef enum ec_output_kind { EC_OUTPUT_EXR, EC_OUTPUT_PNG } ec_output_kind;
+enum { EC_OUTPUT_EXR, EC_OUTPUT_PIXELS, EC_OUTPUT_PNG = EC_OUTPUT_PIXELS + EC_FORMAT_PNG };
 
 enum { EC_OUTPUTS_MAX = 16 };
 
 typedef struct ec_output {
-    ec_output_kind kind;
+    uint32_t kind;       /* EC_OUTPUT_EXR, or EC_OUTPUT_PIXELS + a format */
     char path[PATH_MAX]; /* as given; absolute once written */
 } ec_output;
 
@@ -35,6 +36,8 @@ typedef struct ec_outputs {
     ec_output file[EC_OUTPUTS_MAX];
     int count;
 } ec_outputs;
+
+const ec_format *ec_output_format(const ec_output *output); /* NULL: the EXR */
 
 /* -o FILE; the kind follows the extension. EC_USAGE for other kinds, too many or the same twice. */
 ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err);

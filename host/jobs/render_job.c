@@ -354,6 +354,8 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .exposure = ec_exposure_stops(&request->exposure, &job->film),
         .is_exposure_auto = request->exposure.is_auto,
         .tonemap = request->tonemap,
+        .background = request->background,
+        .is_png_deep = request->png_depth != 0,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),
         .denoised = request->options.denoise ? &job->denoised : NULL,

@@ -89,7 +89,7 @@ ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err);
 /* Prepares all but the outputs: device, scene, environment, camera, size. */
 ec_result ec_render_job_load(ec_render_job *job, ec_error *err);
 
-/* Part of that: the environment that the request asks for, or a white one where job->scene has no light. */
+/* Part of that: the environment that the request asks for, or the studio where job->scene has no light. */
 ec_result ec_render_job_light(ec_render_job *job, ec_error *err);
 
 /* With --resume, first of all: reads the checkpoint and completes the request by it. */

@@ -42,6 +42,8 @@ typedef struct ec_render_request {
     bool adjusts_env;          /* one of these was given */
     const char *device;        /* NULL: chosen */
     ec_exposure exposure;
+    ec_background background;
+    unsigned png_depth;        /* of ec_png_depths: 8 or 16 bits */
     ec_frame_range frames;     /* of a sequence; not given: one picture */
     uint32_t orbit;            /* frames in which the camera goes round the scene once; 0: it stays */
     double turn;               /* degrees that it has gone round */

@@ -1,6 +1,7 @@
 #include "jobs/render_setters.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "film/denoiser.h"
@@ -18,6 +19,7 @@
 #define SCREEN_MOST 1e4 /* half heights */
 
 const char *const ec_adaptive_names[] = {[EC_ADAPTIVE_AUTO] = "auto", [EC_ADAPTIVE_ON] = "on", [EC_ADAPTIVE_OFF] = "off", NULL};
+const char *const ec_png_depths[] = {"8", "16", NULL};
 const char *const ec_effects_names[] = {"needed", "all", NULL};
 
 SETTER(at)
@@ -79,6 +81,23 @@ SETTER(adaptive)
     if (value) EC_TRY(ec_parse_choice(option, value, ec_adaptive_names, &index, err));
     REQUEST->adaptive = (ec_adaptive)index;
     return EC_OK;
+}
+
+/* transparent, env, a name or six hexadecimal digits. */
+SETTER(background)
+{
+    static const struct { const char *name; ec_background is; } names[] = {
+        {"env", {.kind = EC_BACKDROP_ENVIRONMENT}}, {"transparent", {.kind = EC_BACKDROP_TRANSPARENT}},
+        {"white", {EC_BACKDROP_COLOR, {255, 255, 255}}}, {"black", {.kind = EC_BACKDROP_COLOR}}};
+    ec_background *background = &REQUEST->background;
+    const char *digits = value + (*value == '#');
+    bool is_known = strlen(digits) == 6 && strspn(digits, "0123456789abcdefABCDEF") == 6;
+    const unsigned long number = is_known ? strtoul(digits, NULL, 16) : 0;
+    *background = (ec_background){EC_BACKDROP_COLOR, {(uint8_t)(number >> 16), (uint8_t)(number >> 8), (uint8_t)number}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(value, names[i].name)) *background = names[i].is, is_known = true;
+    REQUEST->options.hides_environment = background->kind != EC_BACKDROP_ENVIRONMENT;
+    return is_known ? EC_OK : ec_usage(err, "--%s: '%s' is neither env nor transparent, white, black or an sRGB colour as 3366cc", option, value);
 }
 
 SETTER(frames) { return ec_frame_range_parse(option, value, &REQUEST->frames, err); }

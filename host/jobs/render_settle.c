@@ -177,6 +177,21 @@ static ec_result settle_channels(const ec_render_request *request, ec_error *err
     return any_exr ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
 }
 
+/* An alpha wants a place, and a frame says of what job it is. */
+static ec_result settle_files(const ec_render_request *request, ec_error *err)
+{
+    const bool is_clear = request->background.kind == EC_BACKDROP_TRANSPARENT;
+    if (request->has_slice && request->options.hides_environment) return ec_usage(err, "--background and --samples: merging knows no background; leave one out");
+    for (int i = 0; i < request->outputs.count; i++) {
+        const ec_format *format = ec_output_format(&request->outputs.file[i]);
+        const char *path = request->outputs.file[i].path;
+        if (format && is_clear && !format->has_alpha) return ec_usage(err, "--background transparent: '%s' has no alpha; write a .png or an .exr", path);
+        if (format && request->frames.given && !format->keeps_text)
+            return ec_usage(err, "--frames: '%s' cannot say which job it is of; write a .png or an .exr", path);
+    }
+    return EC_OK;
+}
+
 bool ec_render_has_limit(const ec_render_options *o) { return o->spp || o->time_limit > 0 || o->error_target > 0; }
 
 ec_result ec_render_request_settle(ec_render_request *request, const ec_option *options, int count, const bool *given,
@@ -194,6 +209,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(check_scenarios(request, err));
     EC_TRY(settle_slice(request, err));
     EC_TRY(settle_channels(request, err));
+    EC_TRY(settle_files(request, err));
     EC_TRY(settle_adaptive(request, err));
     EC_TRY(settle_denoise(request, err));
     request->capped = limits->spp == 0 && ec_render_has_limit(limits);

@@ -103,9 +103,10 @@ static ec_result give_picture(const reading *r, const cJSON *scenario, ec_entry 
     char path[PATH_MAX];
     EC_TRY(take_numbers(r, scenario, "dimensions", sides, 2, size, err));
     EC_TRY(give(r, entry, "size", err, "%.0fx%.0f", size[0], size[1]));
+    if (!cJSON_IsTrue(find(r, scenario, "renderSkybox"))) EC_TRY(give(r, entry, "background", err, "transparent"));
     if (curve) EC_TRY(give(r, entry, "tonemap", err, "%s", tone_curve(curve)));
     if (exposure) EC_TRY(give(r, entry, "exposure", err, "%.9g", log2(cJSON_GetNumberValue(exposure))));
-    if (!lighting || ec_given_has(r->given, "env")) return EC_OK;
+    if (!lighting || ec_given_has(r->given, "env") || ec_given_has(r->given, "light")) return EC_OK;
     const bool fits = snprintf(path, sizeof path, "%.*s%s", *lighting == '/' ? 0 : r->base, r->file, lighting) < (int)sizeof path;
     if (!fits || access(path, R_OK) != 0) return ec_fail(err, "its \"lighting\", '%s', cannot be read; put it there, or light all by another map with --env FILE", path);
     return give(r, entry, "env", err, "%s", path);

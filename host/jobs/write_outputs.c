@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 
 ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, ec_error *err)
 {
@@ -128,15 +129,32 @@ ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, cons
                         style->attribute_count, err);
 }
 
-static ec_result write_png(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
+ec_raster ec_picture_raster(const ec_format *format, const ec_picture_style *style, uint32_t width, uint32_t height)
 {
-    size_t pixel_count = (size_t)picture->width * picture->height;
-    uint8_t *bytes = malloc(pixel_count * 3);
-    if (!bytes) return ec_fail(err, "out of memory for '%s'", path);
-    ec_tonemap_rgb(picture->rgb, bytes, pixel_count, style->exposure, style->tonemap);
-    ec_result result = ec_png_write(path, picture->width, picture->height, bytes, err);
-    free(bytes);
-    return result;
+    const bool has_alpha = format->has_alpha && style->screen.background.kind == EC_BACKDROP_TRANSPARENT;
+    return (ec_raster){width, height, has_alpha ? 4 : 3, format->is_linear ? 32 : format->has_16_bits && style->deep ? 16 : 8};
+}
+
+void ec_picture_pixels(const ec_picture *p, const ec_picture_style *style, const ec_raster *to, void *out)
+{
+    const uint64_t count = (uint64_t)p->width * p->height;
+    const float *rgb = p->clean.best ? p->clean.best : p->rgb;
+    const float *alpha = p->aov ? p->aov + EC_PLACE_ALPHA : p->constants + 1; /* 1 without first hits */
+    if (to->bits == 32) memcpy(out, rgb, 3 * sizeof *rgb * count);
+    else ec_screen_pixels(&style->screen, rgb, alpha, p->aov ? EC_FEATURE_CHANNELS : 2, count, to, out);
+}
+
+static ec_result write_pixels(const char *path, const ec_format *format, const ec_picture *picture, const ec_picture_style *style, ec_error *err)
+{
+    const ec_raster raster = ec_picture_raster(format, style, picture->width, picture->height);
+    EC_FREED void *pixels = malloc((size_t)picture->width * picture->height * ec_raster_pixel_bytes(&raster));
+    void *rows;
+    if (!pixels) return ec_fail(err, "out of memory for '%s'", path);
+    ec_picture_pixels(picture, style, &raster, pixels);
+    EC_TRY(format->begin(&rows, path, &raster, NULL, err));
+    if (format->put(rows, pixels, picture->height, err) == EC_OK) return format->end(rows, err);
+    format->abort(rows);
+    return EC_FAILED;
 }
 
 void ec_output_settle(ec_output *output)
@@ -151,8 +169,8 @@ ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const
     for (int i = 0; i < outputs->count; i++) {
         ec_output *output = &outputs->file[i];
         ec_error *first = result == EC_OK ? err : NULL; /* the first failure is told */
-        ec_result written = output->kind == EC_OUTPUT_PNG ? write_png(output->path, picture, style, first)
-                                                          : ec_picture_write_exr(output->path, picture, style, first);
+        const ec_format *format = ec_output_format(output);
+        ec_result written = format ? write_pixels(output->path, format, picture, style, first) : ec_picture_write_exr(output->path, picture, style, first);
         if (written != EC_OK) {
             result = written;
             continue;

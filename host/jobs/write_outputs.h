@@ -49,8 +49,8 @@ void ec_channels_choose(ec_channel_list *channels, ec_channel_set set, bool wide
 void ec_picture_free(ec_picture *picture); /* zero-initialised ones are fine */
 
 typedef struct ec_picture_style {
-    float exposure; /* EV, PNG only */
-    ec_tonemap tonemap;
+    ec_screen screen; /* of what is no EXR; */
+    bool deep;        /* 16 bits where the format has them */
     ec_channel_set channels; /* EXR, by ec_row_writer */
     const ec_attribute *attributes; /* EXR only */
     uint32_t attribute_count;
@@ -64,6 +64,10 @@ typedef struct ec_picture_style {
 
 /* One EXR, as ec_outputs_write does it. */
 ec_result ec_picture_write_exr(const char *path, const ec_picture *picture, const ec_picture_style *style, ec_error *err);
+
+/* The pixels of a file beside the EXR; and rows of a picture as these. */
+ec_raster ec_picture_raster(const ec_format *format, const ec_picture_style *style, uint32_t width, uint32_t height);
+void ec_picture_pixels(const ec_picture *picture, const ec_picture_style *style, const ec_raster *to, void *out);
 
 /* Once it is written: its absolute path. */
 void ec_output_settle(ec_output *output);

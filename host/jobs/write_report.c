@@ -5,6 +5,11 @@
 
 #include "jobs/frame_job.h"
 
+static ec_screen screen_of(const ec_render_report *report)
+{
+    return (ec_screen){.exposure = (float)report->exposure, .tonemap = report->tonemap, .background = report->background};
+}
+
 /* All of it at once, with its sums. */
 static ec_result write_slice(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report,
                              char sha256[EC_HASH_SIZE], ec_error *err)
@@ -18,8 +23,8 @@ static ec_result write_slice(ec_outputs *outputs, const ec_film *film, const ec_
     ec_hash_rgb(picture.rgb, (uint64_t)picture.width * picture.height, sha256);
     report->image_sha256 = sha256;
     ec_render_report_attributes(report, &attributes);
-    const ec_picture_style style = {.exposure = (float)report->exposure,
-                                    .tonemap = report->tonemap,
+    const ec_picture_style style = {.screen = screen_of(report),
+                                    .deep = report->is_png_deep,
                                     .attributes = attributes.list,
                                     .attribute_count = attributes.count,
                                     .job = slice->job,
@@ -39,8 +44,8 @@ ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, ec_ch
     memset(no_hash, '0', EC_HASH_SIZE - 1); /* as long as the one that will be known */
     report->image_sha256 = no_hash;
     ec_render_report_attributes(report, &attributes);
-    const ec_picture_style style = {.exposure = (float)report->exposure,
-                                    .tonemap = report->tonemap,
+    const ec_picture_style style = {.screen = screen_of(report),
+                                    .deep = report->is_png_deep,
                                     .channels = channels,
                                     .attributes = attributes.list,
                                     .attribute_count = attributes.count,

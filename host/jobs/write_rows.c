@@ -16,7 +16,7 @@ enum { CHUNKS_A_THREAD = 4, SEAM = EC_EXR_ROWS, REACH = EC_INTERVAL_REACH, WAITI
 struct ec_row_writer {
     ec_outputs *outputs;
     ec_exr_rows *exr[EC_OUTPUTS_MAX]; /* NULL: no EXR, or one that failed */
-    ec_png_rows *png[EC_OUTPUTS_MAX];
+    void *pixels[EC_OUTPUTS_MAX];     /* of the output's format; likewise */
     ec_error why;                     /* what failed first; empty: nothing */
     uint32_t width, height, replicates;
     ec_rare rare;
@@ -30,28 +30,32 @@ struct ec_row_writer {
     ec_channel_set wanted;
     bool wide_errors;                 /* half floats do not hold standard errors like these */
     ec_exr_part part;
-    uint8_t *bytes;                   /* the band as a PNG has it */
-    float exposure;
-    ec_tonemap tonemap;
+    void *bytes;                      /* the band as a file for the screen has it */
+    ec_picture_style style;           /* of the beginning; its texts are the caller's */
     ec_hash hash;
     ec_error_sums sums;
     ec_cut_sums cut;
     uint64_t heavy;
 };
 
+static void abort_pixels(ec_row_writer *w, int i)
+{
+    if (w->pixels[i]) ec_output_format(&w->outputs->file[i])->abort(w->pixels[i]);
+    w->pixels[i] = NULL;
+}
+
 static void fail_file(ec_row_writer *w, int i, const ec_error *why)
 {
     if (!*w->why.text) w->why = *why;
     ec_exr_rows_abort(w->exr[i]);
-    ec_png_rows_abort(w->png[i]);
+    abort_pixels(w, i);
     w->exr[i] = NULL;
-    w->png[i] = NULL;
 }
 
 static bool any_left(const ec_row_writer *w)
 {
     for (int i = 0; i < w->outputs->count; i++)
-        if (w->exr[i] || w->png[i]) return true;
+        if (w->exr[i] || w->pixels[i]) return true;
     return false;
 }
 
@@ -87,7 +91,7 @@ static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
     ec_film_sum_errors(film, &w->sums);
     w->wide_errors = are_errors_wide(&w->sums, (uint64_t)film->width * film->height);
     list_channels(w, &w->channels);
-    w->bytes = malloc((size_t)w->width * rows * 3);
+    w->bytes = malloc((size_t)w->width * rows * 12); /* floats at most */
     return w->bytes ? EC_OK : ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
 }
 
@@ -131,7 +135,6 @@ static void write_band(ec_row_writer *w)
     ec_channel_list channels;
     list_channels(w, &channels);
     const ec_exr_part part = {.channels = channels.list, .channel_count = channels.count};
-    bool is_toned = false;
     hash_task task = {&w->hash, w->band.rgb, pixels};
     pthread_t hasher;
     const bool is_beside = pthread_create(&hasher, NULL, hash_band, &task) == 0;
@@ -140,10 +143,12 @@ static void write_band(ec_row_writer *w)
     w->written += rows;
     for (int i = 0; i < w->outputs->count; i++) {
         ec_error why = {0};
-        if (w->png[i] && !is_toned) ec_tonemap_rgb(w->band.clean.best ? w->band.clean.best : w->band.rgb, w->bytes, pixels, w->exposure, w->tonemap);
-        is_toned |= w->png[i] != NULL;
         if (w->exr[i] && ec_exr_rows_put(w->exr[i], &part, rows, &why) != EC_OK) fail_file(w, i, &why);
-        if (w->png[i] && ec_png_rows_put(w->png[i], w->bytes, rows, &why) != EC_OK) fail_file(w, i, &why);
+        if (!w->pixels[i]) continue;
+        const ec_format *format = ec_output_format(&w->outputs->file[i]);
+        const ec_raster raster = ec_picture_raster(format, &w->style, w->width, w->height);
+        ec_picture_pixels(&w->band, &w->style, &raster, w->bytes);
+        if (format->put(w->pixels[i], w->bytes, rows, &why) != EC_OK) fail_file(w, i, &why);
     }
     if (is_beside) pthread_join(hasher, NULL);
 }
@@ -230,8 +235,7 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     if (film->rare) w->rare = *film->rare;
     w->limit = film->limit;
     w->wanted = style->channels;
-    w->exposure = style->exposure;
-    w->tonemap = style->tonemap;
+    w->style = *style;
     ec_hash_begin(&w->hash);
     if (create(w, film, err) != EC_OK) {
         ec_row_writer_abort(w);
@@ -242,9 +246,10 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     for (int i = 0; i < outputs->count; i++) {
         ec_error why = {0};
         const char *path = outputs->file[i].path;
-        ec_result begun = outputs->file[i].kind == EC_OUTPUT_EXR
-                              ? ec_exr_rows_begin(&w->exr[i], path, w->width, height, &w->part, 1, room, &why)
-                              : ec_png_rows_begin(&w->png[i], path, w->width, height, &style->text, &why);
+        const ec_format *format = ec_output_format(&outputs->file[i]);
+        const ec_raster raster = format ? ec_picture_raster(format, style, w->width, height) : (ec_raster){.width = 0};
+        ec_result begun = format ? format->begin(&w->pixels[i], path, &raster, &style->text, &why)
+                                 : ec_exr_rows_begin(&w->exr[i], path, w->width, height, &w->part, 1, room, &why);
         if (begun != EC_OK) fail_file(w, i, &why);
     }
     w->part.attributes = NULL; /* those of the end are given then */
@@ -308,10 +313,11 @@ ec_result ec_row_writer_close(ec_row_writer *w, const ec_attribute *attributes, 
 {
     for (int i = 0; i < w->outputs->count; i++) {
         ec_error why = {0};
-        ec_result ended = w->exr[i] ? ec_exr_rows_end(w->exr[i], attributes, attribute_count, &why) : w->png[i] ? ec_png_rows_end(w->png[i], &why) : EC_OK;
-        bool had = w->exr[i] || w->png[i];
+        ec_result ended = w->exr[i] ? ec_exr_rows_end(w->exr[i], attributes, attribute_count, &why)
+                          : w->pixels[i] ? ec_output_format(&w->outputs->file[i])->end(w->pixels[i], &why) : EC_OK;
+        bool had = w->exr[i] || w->pixels[i];
         w->exr[i] = NULL;
-        w->png[i] = NULL;
+        w->pixels[i] = NULL;
         if (ended != EC_OK) fail_file(w, i, &why);
         else if (had) ec_output_settle(&w->outputs->file[i]);
     }
@@ -326,7 +332,7 @@ void ec_row_writer_abort(ec_row_writer *w)
     if (!w) return;
     for (int i = 0; i < w->outputs->count; i++) {
         ec_exr_rows_abort(w->exr[i]);
-        ec_png_rows_abort(w->png[i]);
+        abort_pixels(w, i);
     }
     ec_film_destroy(&w->waiting);
     ec_film_destroy(&w->around);

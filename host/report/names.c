@@ -1,6 +1,7 @@
 #include "report/names.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "image/image.h"
 #include "render/render.h"
@@ -24,5 +25,13 @@ const char *const ec_scattering_names[] = {
 
 const char *const ec_terminator_names[] = {
     [EC_TERMINATOR_GEOMETRIC] = "geometric", [EC_TERMINATOR_SMOOTH] = "smooth", NULL};
+ec_background_text ec_background_name(const ec_background *b)
+{
+    ec_background_text t = {"env"};
+    if (b->kind == EC_BACKDROP_TRANSPARENT) return (ec_background_text){"transparent"};
+    if (b->kind == EC_BACKDROP_COLOR) snprintf(t.text, sizeof t.text, "#%02x%02x%02x", b->rgb[0], b->rgb[1], b->rgb[2]);
+    return t;
+}
+
 #define NAME(id, name, words) [EC_TONEMAP_##id] = name,
 const char *const ec_tonemap_names[] = {EC_TONE_CURVES(NAME) NULL};

@@ -2,6 +2,8 @@
 #ifndef EC_REPORT_NAMES_H
 #define EC_REPORT_NAMES_H
 
+#include "image/screen.h"
+
 extern const char *const ec_compile_names[];    /* ec_compile */
 extern const char *const ec_begun_names[];      /* ec_begun */
 extern const char *const ec_instancing_names[]; /* ec_instancing */
@@ -13,5 +15,11 @@ extern const char *const ec_sampler_names[];    /* ec_sampler_type */
 extern const char *const ec_scattering_names[]; /* ec_scattering */
 extern const char *const ec_terminator_names[]; /* ec_terminator */
 extern const char *const ec_tonemap_names[];    /* ec_tonemap */
+
+/* "env", "transparent" or "#3366cc". */
+typedef struct ec_background_text {
+    char text[16];
+} ec_background_text;
+ec_background_text ec_background_name(const ec_background *background);
 
 #endif

@@ -44,6 +44,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     add_viewpoint(attributes, &report->viewpoint);
     EC_ATTRIBUTES(attributes, EC_STRING("eclat.environment", report->environment));
     for (int i = 0; i < ec_setting_count; i++) add_option(attributes, &ec_settings[i], report->options);
+    ec_attributes_made(attributes, "eclat.background", "%s", ec_background_name(&report->background).text);
     EC_ATTRIBUTES(attributes, EC_REAL("eclat.png.exposure", report->exposure), EC_STRING("eclat.png.tonemap", ec_tonemap_names[report->tonemap]));
 }
 

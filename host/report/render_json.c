@@ -40,7 +40,7 @@ static void add_setting(cJSON *root, const ec_render_report *report)
             EC_STRING("camera", report->camera), EC_STRING("environment", report->environment), EC_WHOLE("width", report->options->width),
             EC_WHOLE("height", report->options->height));
     for (int i = 0; i < ec_setting_count; i++) add_option(root, &ec_settings[i], report->options);
-    EC_JSON(root, EC_REAL("exposure", report->exposure), EC_FLAG("exposure_auto", report->is_exposure_auto),
+    EC_JSON(root, EC_REAL("exposure", report->exposure), EC_FLAG("exposure_auto", report->is_exposure_auto), EC_STRING("background", ec_background_name(&report->background).text),
             EC_STRING("tonemap", ec_tonemap_names[report->tonemap]));
 }
 

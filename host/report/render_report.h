@@ -36,6 +36,8 @@ typedef struct ec_render_report {
     const char *device_why;         /* "first GPU" */
     double exposure;                /* EV, of the PNG */
     bool is_exposure_auto;
+    ec_background background;
+    bool is_png_deep;               /* 16 bits */
     ec_tonemap tonemap;
     double mean_luminance;
     uint32_t replicates;            /* that have samples; with fewer than two no error is known */
@@ -49,6 +51,7 @@ typedef struct ec_render_report {
     const char **outputs;           /* absolute paths */
     int output_count;
 } ec_render_report;
+
 
 /* NULL: its options have none. */
 static inline const ec_clamp_error *ec_render_report_clamp(const ec_render_report *report)

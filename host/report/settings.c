@@ -13,6 +13,7 @@
 #define REAL(value) .field = EC_REAL(NULL, value)
 #define NONE(value) .field = {.kind = EC_FIELD_NONE, .text = value} /* no number, as an endless depth: text says it, and JSON has null */
 
+GET(background, TEXT(o->hides_environment ? "hidden" : "env"), .is_unsaid = !o->hides_environment)
 GET(adaptive, .field = EC_FLAG(NULL, o->adaptive))
 GET(denoise, TEXT(ec_denoiser_names[o->denoise]), .is_unsaid = !o->denoise)
 GET(filter_width, REAL(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH), .is_unsaid = !(o->filter_width > 0))
@@ -80,6 +81,7 @@ const ec_setting ec_settings[] = {
     {"terminator", "terminator", "eclat.terminator", EC_IDENTITY_BY_VALUE, get_terminator},
     {"scattering", "scattering", "eclat.scattering", EC_IDENTITY_BY_CONTENT, get_scattering},
     {"light-choice", "light_choice", "eclat.lightChoice", EC_IDENTITY_BY_CONTENT, get_light_choice},
+    {"background", NULL, NULL, EC_IDENTITY_BY_VALUE, get_background}, /* reports: which */
     {"filter", "filter", "eclat.filter", EC_IDENTITY_BY_VALUE, get_filter},
     {"filter-width", "filter_width", "eclat.filterWidth", EC_IDENTITY_BY_VALUE, get_filter_width},
     {"fstop", "fstop", "eclat.fstop", EC_IDENTITY_BY_VALUE, get_fstop},

@@ -12,10 +12,10 @@ typedef struct seen {
     lane_i lit;  /* is there a surface that light falls on? */
 } seen;
 
-EC_FN v3 seen_background(const environment *env, lane_i missed, v3 d)
+EC_FN v3 seen_background(const environment *env, lane_i missed, v3 d, bool shows)
 {
     lane_f unused;
-    if (!HAS(ENVIRONMENT) || !any_lane(missed)) return v3_zero();
+    if (!HAS(ENVIRONMENT) || !shows || !any_lane(missed)) return v3_zero();
     return v3_select(missed, environment_look_up(env, d, &unused), v3_zero());
 }
 

@@ -54,9 +54,10 @@ typedef struct ec_params {
     ec_uint environment_stretch[2]; /* floor(2^64 / numbers that choose the environment), the high word first (lib/choice.h) */
     ec_uint apart;                /* do slots keep indirect light apart (radiance_of), so that it can be limited? */
     ec_float limit;               /* of the luminance of a sample's indirect light; 0: none */
+    ec_uint backdrop;             /* the environment is hidden from camera rays, which a background takes the place of */
     ec_float screen[4];           /* x and y of the picture's top left corner; what they grow by from pixel to pixel */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 320);
+EC_ASSERT_SIZE(ec_params, 324);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u

@@ -78,7 +78,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
 
     v3 emitted = v3_zero();
     lane_i emits = !TRUE_MASK;
-    if (HAS(ENVIRONMENT)) {
+    if (HAS(ENVIRONMENT) && (bounce || !params->backdrop)) {
         lane_i missed = active & !found;
         if (any_lane(missed)) {
             lane_f pdf;

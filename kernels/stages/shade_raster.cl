@@ -57,7 +57,7 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
         if (HAS(CLEARCOAT)) albedo = v3_fma(v3_splat(F(1.0f)), b.coat.share, v3_scale(albedo, 1.0f - b.coat.share));
         direct = v3_add(direct, light_ambient(params, albedo));
     }
-    v3 out = v3_add(seen_background(&env, active & !found, d), e.glow);
+    v3 out = v3_add(seen_background(&env, active & !found, d, !params->backdrop), e.glow);
     out = v3_add(out, v3_select(e.lit, direct, v3_zero()));
     radiance_add(radiance, wave, slot, out, active, invalid + EC_STAGE_SHADE);
     if (aov) {

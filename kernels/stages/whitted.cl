@@ -109,7 +109,7 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
 
     bsdf b = bsdf_make(s, surface_to_local(s, wo), false);
     lane_i mirrors = whitted_mirrors(s), goes_on = e.lit & (depth + 3.0f <= (float)params->max_depth);
-    v3 out = v3_add(seen_background(&env, active & !found, d), e.glow);
+    v3 out = v3_add(seen_background(&env, active & !found, d, bounce || !params->backdrop), e.glow);
     if (HAS(ENVIRONMENT)) out = v3_add(out, v3_select(goes_on, light_ambient(params, blinn_phong_albedo(&b, mirrors)), v3_zero()));
     radiance_add(radiance, wave, slot, v3_mul(beta, out), active, invalid + EC_STAGE_SHADE);
     queue_store_f(hits, wave, EC_HIT_PRIM, i, as_lane_f(goes_on ? prim : U(EC_NO_ID)));

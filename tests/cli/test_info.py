@@ -219,7 +219,7 @@ class Info(Case):
         self.assertEqual(rows["sheen"]["kernels"], ["shade"])
         self.assertEqual(rows["sheen"]["buffers"], [])
         self.assertEqual(rows["sobol-sampler"]["why"], "--sampler sobol")
-        self.assertEqual(rows["environment"]["why"], "the environment shines")  # the studio of a scene without light
+        self.assertEqual(rows["environment"]["why"], "the environment map shines")  # the studio of a scene without light
         self.assertIsNone(rows["clearcoat"]["why"])
         self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "connect", "accumulate", "features"])
 

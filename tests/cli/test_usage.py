@@ -290,7 +290,7 @@ class WrongOptions(Case):
         self.usage("render", "s.gltf", "--integrator", "raster", "--grid-density", "8", says="belongs to --integrator path")
 
     def test_outputs(self):
-        for name in ["a.jpg", "a", ".png", "a.exr.txt", "folder.png/"]:
+        for name in ["a.gif", "a", ".png", "a.exr.txt", "folder.png/"]:
             with self.subTest(name=name):
                 self.usage("render", "s.gltf", "-o", name, says=".exr (all data) or NAME.png")
         self.usage("render", "s.gltf", "-o", "a.png", "-o", "a.png", says="twice")

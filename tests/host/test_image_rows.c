@@ -109,7 +109,7 @@ static void png_rows(void)
     static const uint32_t puts[] = {16, 1, 36};
     ec_png_rows *rows;
     ec_error err;
-    CHECK_OK(ec_png_rows_begin(&rows, ROWS ".png", W, H, NULL, &err), err);
+    CHECK_OK(ec_png_rows_begin(&rows, ROWS ".png", &(ec_raster){W, H, 3, 8}, NULL, &err), err);
     for (uint32_t i = 0, row = 0; i < 3; row += puts[i++]) CHECK_OK(ec_png_rows_put(rows, bytes + 3 * W * row, puts[i], &err), err);
     CHECK_OK(ec_png_rows_end(rows, &err), err);
     CHECK_OK(ec_png_write(WHOLE ".png", W, H, bytes, &err), err);
@@ -131,11 +131,11 @@ static void nothing_half_written(void)
     CHECK_OK(ec_exr_rows_begin(&exr, ROWS ".exr", W, H, &part, 1, 0, &err), err);
     CHECK_OK(ec_exr_rows_put(exr, &part, 16, &err), err);
     ec_exr_rows_abort(exr);
-    CHECK_OK(ec_png_rows_begin(&png, ROWS ".png", W, H, NULL, &err), err);
+    CHECK_OK(ec_png_rows_begin(&png, ROWS ".png", &(ec_raster){W, H, 3, 8}, NULL, &err), err);
     CHECK_OK(ec_png_rows_put(png, bytes, 16, &err), err);
     ec_png_rows_abort(png);
     CHECK(stat(ROWS ".exr", &info) != 0 && stat(ROWS ".png", &info) != 0);
-    CHECK(ec_png_rows_begin(&png, ROWS ".png", 0, 5, NULL, &err) == EC_FAILED && strstr(err.text, "0 x 5"));
+    CHECK(ec_png_rows_begin(&png, ROWS ".png", &(ec_raster){0, 5, 3, 8}, NULL, &err) == EC_FAILED && strstr(err.text, "0 x 5"));
     CHECK(ec_exr_rows_begin(&exr, ECLAT_TEST_OUT "/none/rows.exr", W, H, &part, 1, 0, &err) == EC_FAILED && strstr(err.text, "create its folder"));
 }
 

@@ -45,7 +45,7 @@ static void write_png(const char *path, uint32_t rows_a_put)
 {
     ec_png_rows *rows;
     ec_error err;
-    CHECK_OK(ec_png_rows_begin(&rows, path, W, H, NULL, &err), err);
+    CHECK_OK(ec_png_rows_begin(&rows, path, &(ec_raster){W, H, 3, 8}, NULL, &err), err);
     for (uint32_t y = 0; y < H; y += rows_a_put)
         CHECK_OK(ec_png_rows_put(rows, bytes + 3 * W * y, H - y < rows_a_put ? H - y : rows_a_put, &err), err);
     CHECK_OK(ec_png_rows_end(rows, &err), err);

@@ -16,7 +16,8 @@ Path = Union[str, "os.PathLike[str]"]
 '''
 # By what help calls the value; numbers else.
 TYPES = {"WxH": "Union[tuple[int, int], str]", "X,Y,Z": "Union[Sequence[float], str]", "A:B": "Union[tuple[float, float], str]",
-         "FILE|R,G,B": "Union[Path, Sequence[float]]", "FILE": "Path", "NAME|INDEX": "Union[int, str]", "ID": "Union[int, str]",
+         "FILE|R,G,B": "Union[Path, Sequence[float]]", "NAME|FILE": "Union[Path, Sequence[float]]", "FILE": "Path",
+         "NAME|INDEX": "Union[int, str]", "ID": "Union[int, str]",
          "LIST": "Union[Sequence[str], str]", "EFFECT": "Union[Sequence[str], str]"}
 # (class, its base, command, options that are parameters by name)
 NAMED = {"error", "spp", "size", "time"}

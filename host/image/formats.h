@@ -1,0 +1,33 @@
+/* Files of pixels beside the EXR, written row by row from the top: one row of a table each. */
+#ifndef EC_IMAGE_FORMATS_H
+#define EC_IMAGE_FORMATS_H
+
+#include <stdbool.h>
+
+#include "image/image.h"
+
+/* Opened by begin, freed by end and abort. A file has its name only once it is whole. */
+typedef struct ec_format {
+    const char *endings[3]; /* of names, NULL behind the last */
+    bool has_alpha, has_16_bits, keeps_text;
+    bool is_linear;         /* floats of radiance come, 3 a pixel */
+    ec_result (*begin)(void **rows, const char *path, const ec_raster *of, const ec_png_text *text, ec_error *err);
+    ec_result (*put)(void *rows, const void *pixels, uint32_t count, ec_error *err);
+    ec_result (*end)(void *rows, ec_error *err);
+    void (*abort)(void *rows); /* NULL is fine */
+} ec_format;
+
+enum { EC_FORMAT_PNG, EC_FORMAT_JPEG, EC_FORMAT_HDR, EC_FORMAT_COUNT };
+extern const ec_format ec_formats[EC_FORMAT_COUNT];
+
+ec_result ec_jpeg_begin(void **rows, const char *path, const ec_raster *of, const ec_png_text *text, ec_error *err);
+ec_result ec_jpeg_put(void *rows, const void *pixels, uint32_t count, ec_error *err);
+ec_result ec_jpeg_end(void *rows, ec_error *err);
+void ec_jpeg_abort(void *rows);
+
+ec_result ec_hdr_begin(void **rows, const char *path, const ec_raster *of, const ec_png_text *text, ec_error *err);
+ec_result ec_hdr_put(void *rows, const void *pixels, uint32_t count, ec_error *err);
+ec_result ec_hdr_end(void *rows, ec_error *err);
+void ec_hdr_abort(void *rows);
+
+#endif

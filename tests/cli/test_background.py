@@ -1,0 +1,148 @@
+# tier: quick
+"""--background and files for the screen: PNG of 8 and 16 bits with alpha, JPEG, HDR."""
+import json
+import os
+import subprocess
+import unittest
+
+from screen import read_png, shown
+from support import QUICK, Case, eclat, quad_scene, read_exr, write_gltf
+
+W, H = 24, 16
+GREY = {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0.5, 0.5, 0.5, 1]}}
+OPTIONS = (*QUICK, "--size", f"{W}x{H}", "--env", "0.8,0.6,0.4")
+
+
+def radiance(path):
+    """Rows of (R, G, B) of a run-length encoded .hdr."""
+    with open(path, "rb") as file:
+        head, data = file.read().split(b"\n\n", 1)
+    assert head.startswith(b"#?RADIANCE"), head
+    size, data = data.split(b"\n", 1)
+    height, width = int(size.split()[1]), int(size.split()[3])
+    at, rows = 0, []
+    for _ in range(height):
+        assert data[at:at + 4] == bytes([2, 2, width >> 8, width & 255])
+        at += 4
+        line = bytearray()
+        while len(line) < 4 * width:
+            count = data[at]
+            run = [data[at + 1]] * (count - 128) if count > 128 else data[at + 1:at + 1 + count]
+            line += bytes(run)
+            at += 2 if count > 128 else 1 + count
+        rows.append([tuple(line[c * width + x] * 2.0 ** (line[3 * width + x] - 136) for c in range(3)) for x in range(width)])
+    assert at == len(data)
+    return rows
+
+
+class Background(Case):
+    def setUp(self):
+        super().setUp()
+        scene = quad_scene(material=GREY)[0]
+        scene["cameras"][0]["perspective"]["yfov"] = 0.97  # the quad's edges lie within pixels
+        self.scene = write_gltf(self.path("scene.gltf"), scene)
+
+    def render(self, *names, options=(), background=None):
+        outputs = [word for name in names for word in ("-o", self.path(name))]
+        chosen = ["--background", background] if background else []
+        run = self.assert_ok(eclat("render", self.scene, *OPTIONS, "--spp", "64", "--seed", "2", *chosen, *options, "--json", *outputs))
+        return json.loads(run.stdout)
+
+    def pixels(self, name):
+        planes = read_exr(self.path(name))[1]
+        return list(zip(planes["R"], planes["G"], planes["B"])), planes["A"]
+
+    def test_transparent_is_alpha_and_the_light_is_the_same(self):
+        for integrator in ["path", "whitted", "raster"]:
+            options = ("--integrator", integrator)
+            self.assertEqual(self.render("env.exr", options=options)["background"], "env")
+            report = self.render("clear.exr", "clear.png", background="transparent", options=options)
+            self.assertEqual(report["background"], "transparent")
+            (seen, _), (clear, alpha) = self.pixels("env.exr"), self.pixels("clear.exr")
+            self.assertTrue({0.0, 1.0} < set(alpha) and any(0 < a < 1 for a in alpha))
+            for c, e, a in zip(clear, seen, alpha):
+                if a in (0, 1):
+                    self.assertEqual(c, (0, 0, 0) if a == 0 else e)
+                else:  # its samples are those of the alpha: what is not covered was the environment
+                    for k, env in enumerate([0.8, 0.6, 0.4]):
+                        self.assertAlmostEqual(c[k] + (1 - a) * env, e[k], delta=2e-3)
+            width, height, channels, bits, rows = read_png(self.path("clear.png"))
+            self.assertEqual((width, height, channels, bits), (W, H, 4, 8))
+            for i, (c, a) in enumerate(zip(clear, alpha)):
+                there = rows[i // W][i % W * 4:i % W * 4 + 4]
+                self.assertLessEqual(abs(there[3] - 255 * a), 0.6)
+                for k, x in enumerate(shown("neutral", [v / a for v in c]) if a else (0, 0, 0)):  # not multiplied by alpha
+                    self.assertLessEqual(abs(there[k] - 255 * x), 1)
+
+    def test_a_colour_is_what_the_screen_shows(self):
+        """Behind the tone curve and the exposure, in linear light."""
+        for word, rgb in [("white", (255, 255, 255)), ("3366cc", (0x33, 0x66, 0xcc)), ("#000000", (0, 0, 0))]:
+            self.render("on.exr", "on.png", background=word, options=("--exposure", "-1", "--tonemap", "agx"))
+            clear, alpha = self.pixels("on.exr")
+            rows = read_png(self.path("on.png"))[4]
+            self.assertEqual(rows[0][:3], rgb)
+            to_linear = lambda s: s / 12.92 if s <= 0.04045 else ((s + 0.055) / 1.055) ** 2.4  # noqa: E731
+            for i, (c, a) in enumerate(zip(clear, alpha)):
+                front = [to_linear(x) for x in shown("agx", [v / a for v in c], -1)] if a else (0, 0, 0)
+                for k in range(3):
+                    value = a * front[k] + (1 - a) * to_linear(rgb[k] / 255)
+                    srgb = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
+                    self.assertLessEqual(abs(rows[i // W][i % W * 3 + k] - 255 * srgb), 1)
+
+    def test_sixteen_bits(self):
+        self.render("a.exr", "a.png", options=("--png-depth", "16", "--tonemap", "aces"))
+        width, height, channels, bits, rows = read_png(self.path("a.png"))
+        self.assertEqual((width, height, channels, bits), (W, H, 3, 16))
+        for i, c in enumerate(self.pixels("a.exr")[0]):
+            for k, x in enumerate(shown("aces", c)):
+                self.assertLessEqual(abs(rows[i // W][i % W * 3 + k] - 65535 * x), 2)
+        self.render("b.png", background="transparent", options=("--png-depth", "16"))
+        self.assertEqual(read_png(self.path("b.png"))[2:4], (4, 16))
+
+    def test_jpeg_is_the_png_but_for_its_losses(self):
+        self.render("a.png", "a.jpg", "b.JPEG", background="white")
+        rows = read_png(self.path("a.png"))[4]
+        with open(self.path("a.jpg"), "rb") as a, open(self.path("b.JPEG"), "rb") as b:
+            data = a.read()
+            self.assertEqual(data, b.read())
+        self.assertTrue(data.startswith(b"\xff\xd8\xff") and data.endswith(b"\xff\xd9"))
+        try:
+            raw = subprocess.run(["convert", self.path("a.jpg"), "-depth", "8", "rgb:-"], capture_output=True, check=True).stdout
+        except FileNotFoundError:
+            self.skipTest("no convert of ImageMagick's")
+        difference = [abs(a - b) for a, b in zip(raw, [v for row in rows for v in row])]
+        self.assertEqual(len(raw), 3 * W * H)
+        self.assertLess(sum(difference) / len(difference), 3)
+
+    def test_hdr_is_radiance(self):
+        self.render("a.exr", "a.hdr", options=("--exposure", "3", "--light", "sky:0,3"))
+        rows = radiance(self.path("a.hdr"))
+        for i, c in enumerate(self.pixels("a.exr")[0]):
+            for a, b in zip(rows[i // W][i % W], c):
+                self.assertLessEqual(abs(a - b), max(c) / 255)
+        self.render("back.exr", options=("--light", self.path("a.hdr")))  # it is read again, as an environment
+
+    def test_what_does_not_go_together(self):
+        for options, says in [(["--background", "transparent", "-o", "a.jpg"], "'a.jpg' has no alpha; write a .png or an .exr"),
+                              (["--background", "mauve"], "neither env nor transparent, white, black or an sRGB colour"),
+                              (["--background", "fff"], "neither env nor"),
+                              (["--png-depth", "12"], "--png-depth"),
+                              (["--background", "white", "--samples", "0:8", "-o", "a.exr"], "merging knows no background"),
+                              (["--frames", "0:1", "-o", "a.%d.jpg"], "cannot say which job it is of"),
+                              (["-o", "a.gif"], "must be named NAME.exr (all data) or NAME.png, NAME.jpg (picture) or NAME.hdr (radiance)")]:
+            self.assertIn(says, self.assert_one_error(eclat("render", self.scene, *OPTIONS, *options, cwd=self.folder), 2))
+        run = eclat("render", self.scene, *OPTIONS, "--spp", "1", "-q", "-o", self.path("none", "a.jpg"))
+        self.assertIn("create its folder", self.assert_one_error(run, 1))
+        self.assertEqual(os.listdir(self.folder), ["scene.gltf"])
+
+    def test_checkpoints_know_the_background(self):
+        whole = self.render("whole.exr", background="transparent", options=("--replicates", "2"))
+        kept = ("--checkpoint", self.path("kept.exr"), "--spp", "32")
+        self.render("begun.exr", background="transparent", options=("--replicates", "2", *kept))
+        run = self.assert_ok(eclat("render", "--resume", self.path("kept.exr"), "--spp", "64", "--json", "-o", self.path("rest.exr"), "-o", self.path("rest.png")))
+        self.assertEqual(json.loads(run.stdout)["image_sha256"], whole["image_sha256"])
+        self.assertEqual(read_png(self.path("rest.png"))[2], 4)
+
+
+if __name__ == "__main__":
+    unittest.main()
