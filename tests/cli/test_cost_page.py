@@ -23,12 +23,15 @@ class Page(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.path = os.path.join(folder.name, "report.html")
         figures = os.path.join(folder.name, "report.json")
-        run = eclat("cost", CORNELL, "--size", "24x24", "--budget", "12s", "-o", cls.path, "--json", figures, cwd=folder.name)
-        if run.returncode:
-            raise AssertionError(run.stderr)
-        with open(figures, encoding="utf-8") as file:
-            cls.report = json.load(file)
-        cls.curves = [r for r in cls.report["rungs"] if r.get("curve") and r["group"] not in ("effect", "lights") and any(p["error"] for p in r["curve"])]
+        for budget in (12, 24, 48, 96):  # kernels may have to be compiled
+            run = eclat("cost", CORNELL, "--size", "24x24", "--budget", f"{budget}s", "-o", cls.path, "--json", figures, cwd=folder.name)
+            if run.returncode:
+                raise AssertionError(run.stderr)
+            with open(figures, encoding="utf-8") as file:
+                cls.report = json.load(file)
+            cls.curves = [r for r in cls.report["rungs"] if r.get("curve") and r["group"] not in ("effect", "lights") and any(p["error"] for p in r["curve"])]
+            if len(cls.curves) >= 3:
+                break
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.close)
 
