@@ -46,7 +46,7 @@ static const ec_option own[] = {
      .otherwise = "a picture rendered first, for a third of the budget"},
     {.name = "seed", .metavar = "N", EC_STORED(U64, render.options.seed), .group = EC_GROUP_STUDY, .help = "another N gives another, independent study", .otherwise = "0"},
     {.name = "size", .metavar = "WxH", EC_STORED(SIZE, render.options.width), EC_TOLD(render.has_size), .group = EC_GROUP_PICTURE, .help = "width and height in pixels",
-     .otherwise = "the reference's; else " EC_TEXT(EC_COST_HEIGHT) " high, and as wide as the camera's aspect ratio requires"},
+     .otherwise = "the reference's; else " EC_TEXT(EC_COST_HEIGHT) " high, and as wide as the camera's aspect ratio requires; half or a quarter of that where the budget is short"},
 };
 
 static int list_rows(ec_option rows[EC_OPTIONS_MAX])
@@ -141,6 +141,7 @@ static ec_result run(ec_call *call, ec_error *err)
     EC_TRY_CLEANUP(ec_render_job_load(&job, err));
     study.scene = job.scene;
     study.options = request->render.options;
+    study.may_shrink = !request->render.has_size;
     result = run_study(&study, &job, err);
     if (result != EC_OK && !(study.row_count && study.rows[0].state == EC_COST_MEASURED)) goto cleanup;
     const ec_cost_report report = {.study = &study, .command = call->line, .scene = request->render.scene, .camera = job.camera_text,
@@ -156,16 +157,13 @@ cleanup:
 
 static const eclat_note notes[] = {
     {"Study", "Ctrl-C", "stop cleanly and report what is known so far (exit code 0); a second one aborts"},
-    {"Columns", "ns/sample", "nanoseconds of rendering per sample of one pixel, set-up excluded"},
-    {"Columns", "time", "the same as a multiple of the first row's; the two are rendered in turns"},
-    {"Columns", "slope", "slope of error over samples, both as logarithms; -0.50 where samples are independent"},
+    {"Columns", "time", "time of a sample as a multiple of the first row's, set-up excluded; the two are rendered in turns"},
     {"Columns", "variance", "variance of one sample, relative to the squared mean luminance, in pictures of " COST_UNIT " samples per pixel"},
     {"Columns", "bias",
      "the error that remains with unlimited samples. floor: it is certain; <: an upper bound; fades: it falls with more samples, as a denoiser's does; same bits: the picture equals the first row's; lacks: an "
      "unbiased rung that has not met rare light yet, so that its other figures are too good"},
-    {"Columns", "efficiency", "1 / (squared error x seconds) of a picture of " COST_UNIT " samples per pixel"},
     {"Columns", "to 5 % ...", "time until the error is below this. ~: extrapolated; ?: unknown; never: this is below the floor"},
-    {"Columns", "memory", "peak device memory"},
+    {"Columns", "best", "the first row, unless another one is better by more than three standard errors. Page and JSON have slope, efficiency and memory too"},
     {0}};
 
 const ec_command ec_cmd_cost = {

@@ -100,6 +100,7 @@ typedef struct ec_cost_study {
     ec_render_options options;   /* of the base: size, camera, seed */
     double start, budget;        /* ec_now() when the command began; seconds in all, from then on */
     const char *reference_file;  /* or NULL */
+    bool may_shrink;             /* options.width and height may be halved, to fit the budget */
     bool (*go_on)(void *user, const ec_cost_progress *progress); /* asked often; false ends the study well */
     void *user;
     const ec_log *log;
@@ -127,6 +128,21 @@ double ec_cost_seconds_to(const ec_cost_row *row, double target, bool *extrapola
 
 /* Where denoising pays on this scene and where it stops, in words; empty where it was not measured. */
 void ec_cost_denoise_words(const ec_cost_study *study, char *text, size_t size);
+
+/* Columns whose best is told. */
+typedef enum ec_cost_column { EC_COST_TIME, EC_COST_VARIANCE, EC_COST_TO_FIRST, EC_COST_COLUMNS = EC_COST_TO_FIRST + EC_COST_TARGETS } ec_cost_column;
+typedef struct ec_cost_figure {
+    double value, se; /* with its standard error; NaN: the row has none, or does not compete */
+} ec_cost_figure;
+/* verdict.c: the less the better. */
+ec_cost_figure ec_cost_figure_of(const ec_cost_study *study, const ec_cost_row *row, ec_cost_column column);
+/* The row that is better than the default by more than three standard errors, the best of them; 0: none is; UINT32_MAX: the default's is not known. */
+uint32_t ec_cost_best(const ec_cost_study *study, ec_cost_column column);
+/* What the study comes to, in sentences that agree with ec_cost_best. */
+void ec_cost_words(const ec_cost_study *study, char *text, size_t size);
+enum { EC_COST_WORDS = 1600 };
+/* A rung's name where it stands alone. */
+void ec_cost_label(const ec_cost_rung *rung, char *text, size_t size);
 
 /* Indices of (row, point) pairs that no other beats in both time and error, from fast to exact; returns how many. */
 typedef struct ec_cost_place {

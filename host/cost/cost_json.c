@@ -57,7 +57,9 @@ static void add_errors(cJSON *to, const ec_cost_row *row)
 static void add_rung(cJSON *rungs, const ec_cost_study *study, const ec_cost_row *row)
 {
     cJSON *to = ec_json_object(rungs, NULL);
-    EC_JSON(to, EC_STRING("id", row->rung.id), EC_STRING("group", row->rung.group), EC_STRING("group_title", row->rung.title),
+    char label[160];
+    ec_cost_label(&row->rung, label, sizeof label);
+    EC_JSON(to, EC_STRING("id", row->rung.id), EC_STRING("label", label), EC_STRING("group", row->rung.group), EC_STRING("group_title", row->rung.title),
             EC_STRING("name", row->rung.name));
     add_settings(to, &row->rung.options);
     EC_JSON(to, EC_FLAG("scene_changed", row->rung.options.without != 0), EC_STRING("state", state_name(study, row->state)),
@@ -78,6 +80,17 @@ static void add_reference(cJSON *root, const ec_cost_reference *r)
             EC_REAL("samples_per_pixel", r->samples_per_pixel ? (double)r->samples_per_pixel : NAN),
             EC_REAL("error", r->has_variance ? sqrt(r->noise) : NAN), EC_REAL("mean_luminance", r->mean_luminance),
             EC_REAL("seconds", r->seconds), EC_REAL("setup_seconds", r->setup_seconds));
+}
+
+/* Ids of the rungs that are the best of a column by evidence. */
+static void add_best(cJSON *to, const ec_cost_study *study)
+{
+    static const char *const names[EC_COST_COLUMNS] = {"time", "variance", "to 5 %", "to 2 %", "to 1 %", "to 0.5 %"};
+    cJSON *best = ec_json_object(to, "best");
+    for (int c = 0; c < EC_COST_COLUMNS; c++) {
+        const uint32_t row = ec_cost_best(study, (ec_cost_column)c);
+        ec_json_text(best, names[c], row == UINT32_MAX ? NULL : study->rows[row].rung.id);
+    }
 }
 
 static void add_pareto(cJSON *to, const ec_cost_study *study)
@@ -109,7 +122,10 @@ cJSON *ec_cost_json(const ec_cost_report *report)
     cJSON *rungs = cJSON_AddArrayToObject(root, "rungs");
     for (uint32_t i = 0; i < study->row_count; i++) add_rung(rungs, study, &study->rows[i]);
     add_pareto(root, study);
-    char words[256];
+    char words[EC_COST_WORDS];
+    add_best(root, study);
+    ec_cost_words(study, words, sizeof words);
+    ec_json_text(root, "result", words);
     ec_cost_denoise_words(study, words, sizeof words);
     ec_json_text(root, "denoiser", *words ? words : NULL);
     return root;

@@ -69,8 +69,8 @@ static void add_samplings(rung_list *list)
 static void add_roulettes(rung_list *list)
 {
     begin(list, "roulette", "Russian roulette, instead of auto");
-    add(list, "rr-0.8", "0.8 from the first surface on")->options.survival = 0.8;
-    add(list, "rr-0.5", "0.5 from the first surface on")->options.survival = 0.5;
+    add(list, "rr-0.8", "0.8 at every surface")->options.survival = 0.8;
+    add(list, "rr-0.5", "0.5 at every surface")->options.survival = 0.5;
     ec_cost_rung *off = add(list, "rr-off", "off, cut at %d segments", DEPTH_CUT);
     off->options.survival = 1;
     off->options.max_depth = DEPTH_CUT;

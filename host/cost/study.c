@@ -31,14 +31,17 @@ static double share_of(const study_state *s, uint32_t row)
     return (s->deadline - ec_now()) * weight(&s->study->rows[row].rung) / all;
 }
 
-/* Set-up and a few samples; rungs give way from the end of the list until those before them get that much. */
+enum { ENOUGH = 64 }; /* samples a pixel that a rung is to get: two pictures of EC_COST_UNIT and those before them */
+
+/* Set-up and samples enough for figures; rungs give way from the end of the list until those before them get that much. The reference tells it
+ * of the first one: a budget that goes to few rungs says something of these. */
 static void give_up_some(study_state *s, uint32_t row)
 {
     double picture = s->base.seconds_per_sample * (double)s->study->options.width * s->study->options.height;
-    double needed = 1.2 * s->setup + 16 * picture;
-    while (s->planned > row && share_of(s, row) < needed * weight(&s->study->rows[row].rung)) s->planned--;
+    double needed = 1.2 * s->setup + ENOUGH * picture;
+    while (s->planned > (row ? row : 1) && share_of(s, row) < needed * weight(&s->study->rows[row].rung)) s->planned--;
     /* Kernels may have to be compiled, and that cannot be broken off. */
-    if (ec_now() + s->slowest + 0.05 * s->study->budget > s->deadline) s->planned = row;
+    if (row && ec_now() + s->slowest + 0.05 * s->study->budget > s->deadline) s->planned = row;
 }
 
 static void explain_the_rest(study_state *s, const char *by)
@@ -75,9 +78,13 @@ static void settle_base(study_state *s)
 static ec_result measure_rows(study_state *s, ec_error *err)
 {
     ec_cost_study *study = s->study;
+    const ec_cost_reference *r = &study->reference;
+    s->setup = r->setup_seconds;
+    if (!r->source && r->samples_per_pixel)
+        s->base.seconds_per_sample = r->seconds / ((double)r->samples_per_pixel * study->options.width * study->options.height);
     for (uint32_t i = 0; i < study->row_count && ec_cost_go_on(study); i++) {
         ec_cost_row *row = &study->rows[i];
-        if (i > 0) give_up_some(s, i);
+        give_up_some(s, i);
         if (i >= s->planned) break;
         study->doing = row->rung.name;
         EC_TRY(ec_cost_measure(study, &s->base, row, share_of(s, i), s->deadline, err));
@@ -89,6 +96,30 @@ static ec_result measure_rows(study_state *s, ec_error *err)
     return EC_OK;
 }
 
+/* Errors are of a pixel, so that fewer pixels tell as much, if less surely: halved until all rungs get their samples in half of the time. */
+static ec_result fit_size(study_state *s, ec_error *err)
+{
+    enum { LEAST = 64 }; /* pixels high */
+    ec_cost_study *study = s->study;
+    ec_render_options *o = &study->options;
+    const uint32_t width = o->width, height = o->height;
+    ec_cost_rung rung = {.options = *o};
+    ec_cost_runner runner = {0};
+    ec_render_stats stats;
+    double setup, all = 0;
+    if (!study->may_shrink) return EC_OK;
+    ec_result result = ec_cost_runner_open(study, &rung, &runner, &stats, &setup, err);
+    const double rate = runner.seconds_per_sample;
+    ec_cost_runner_close(&runner);
+    EC_TRY(result);
+    for (uint32_t i = 0; i < study->row_count; i++) all += weight(&study->rows[i].rung);
+    while (o->height >= 2 * LEAST && o->width >= 2 && all * ENOUGH * rate * o->width * o->height > 0.5 * (s->deadline - ec_now())) o->width /= 2, o->height /= 2;
+    for (uint32_t i = 0; i < study->row_count; i++) study->rows[i].rung.options.width = o->width, study->rows[i].rung.options.height = o->height;
+    if (o->height < height)
+        ec_note(study->log, "pictures of %ux%u pixels in place of %ux%u, so that the budget reaches more rungs; --size takes another", o->width, o->height, width, height);
+    return EC_OK;
+}
+
 ec_result ec_cost_run(ec_cost_study *study, ec_error *err)
 {
     study_state s = {.study = study};
@@ -96,6 +127,7 @@ ec_result ec_cost_run(ec_cost_study *study, ec_error *err)
     s.planned = study->row_count;
     s.deadline = study->start + study->budget - (0.2 + 0.01 * study->budget); /* writing takes its time too */
     study->doing = "reference";
+    EC_TRY(fit_size(&s, err));
     if (study->reference_file)
         EC_TRY(ec_cost_reference_read(study, err));
     else

@@ -6,11 +6,10 @@
 #include "cost/report.h"
 #include "report/format.h"
 
-enum { CELL = 48, NAME_WIDTH = 33 };
-enum { TIME, RELATIVE, SLOPE, VARIANCE, BIAS, EFFICIENCY, TO_FIRST, MEMORY = TO_FIRST + EC_COST_TARGETS, COLUMNS };
-static const char *const titles[COLUMNS] = {"ns/sample", "time", "slope", "variance", "bias",  "efficiency",
-                                            "to 5 %",    "2 %",  "1 %",   "0.5 %",    "memory"};
-static const int widths[COLUMNS] = {10, 8, 7, 9, 15, 11, 10, 10, 10, 10, 10};
+enum { CELL = 48, NAME_WIDTH = 27, LINE = 96 };
+enum { RELATIVE, VARIANCE, BIAS, TO_FIRST, COLUMNS = TO_FIRST + EC_COST_TARGETS };
+static const char *const titles[COLUMNS] = {"time", "variance", "bias", "to 5 %", "2 %", "1 %", "0.5 %"};
+static const int widths[COLUMNS] = {7, 9, 13, 10, 10, 10, 10}; /* with the names, LINE in all */
 
 typedef struct table {
     const ec_cost_study *study;
@@ -19,33 +18,23 @@ typedef struct table {
     FILE *to;
 } table;
 
-/* The value by which a row is the best of a column: the smallest wins, NaN never does. Rungs that do not converge to the picture do not compete. */
-static double merit(const ec_cost_row *row, int column)
-{
-    bool ranked = row->state == EC_COST_MEASURED && !row->rung.is_effect && !row->unmet;
-    if (!ranked || (!row->rung.unbiased && !row->rung.fades && column != MEMORY) ||
-        (row->rung.speed_only && column != TIME && column != RELATIVE))
-        return NAN;
-    if (row->rung.fades && column < TO_FIRST) return NAN;
-    if (column == TIME || column == RELATIVE) return row->seconds_per_sample;
-    if (column == VARIANCE) return row->variance;
-    if (column == EFFICIENCY) return -row->efficiency;
-    if (column == MEMORY) return (double)row->device_bytes;
-    if (column >= TO_FIRST && column < MEMORY)
-        return isinf(row->seconds_to[column - TO_FIRST]) ? NAN : row->seconds_to[column - TO_FIRST];
-    return NAN;
-}
-
 static void find_best(table *t)
 {
-    for (int c = 0; c < COLUMNS; c++) {
-        double best = NAN;
-        t->best[c] = UINT32_MAX;
-        for (uint32_t i = 0; i < t->study->row_count; i++) {
-            double m = merit(&t->study->rows[i], c);
-            if (isfinite(m) && !(m >= best)) best = m, t->best[c] = i;
-        }
+    for (int c = 0; c < COLUMNS; c++)
+        t->best[c] = c == BIAS ? UINT32_MAX : ec_cost_best(t->study, c == RELATIVE ? EC_COST_TIME : c == VARIANCE ? EC_COST_VARIANCE : EC_COST_TO_FIRST + (uint32_t)(c - TO_FIRST));
+}
+
+/* Prints a text in lines of LINE columns, after a first word. */
+static void wrap(FILE *to, const char *first, const char *text)
+{
+    int at = fprintf(to, "%-10s", first);
+    while (*text) {
+        const size_t size = strcspn(text, " ");
+        if (at > 10 && at + 1 + (int)size > LINE) at = fprintf(to, "\n%10s", "") - 1;
+        at += fprintf(to, " %.*s", (int)size, text);
+        text += size + (text[size] == ' ');
     }
+    fputc('\n', to);
 }
 
 /* Three digits and a unit. */
@@ -87,29 +76,20 @@ static void format_bias(const ec_cost_row *row, char *text, size_t size)
 static void format_cell(const ec_cost_row *row, int column, char *text, size_t size)
 {
     text[0] = 0;
-    if (column == TIME) snprintf(text, size, "%.4g", 1e9 * row->seconds_per_sample);
     if (column == RELATIVE) snprintf(text, size, "x%.2f", row->relative_time);
-    if (column == MEMORY) snprintf(text, size, "%s", ec_bytes(row->device_bytes).text);
     if (row->rung.speed_only) {
         if (column == BIAS) snprintf(text, size, "%s", row->same_bits ? "same bits" : "BITS DIFFER");
         return;
     }
-    if (column == SLOPE) snprintf(text, size, isnan(row->fit.slope) ? "?" : "%.2f", row->fit.slope);
     if (column == VARIANCE) snprintf(text, size, "%.3g", row->variance);
     if (column == BIAS) format_bias(row, text, size);
-    if (column == EFFICIENCY && isnan(row->efficiency)) snprintf(text, size, "?");
-    if (column == EFFICIENCY && !isnan(row->efficiency)) snprintf(text, size, "%s", ec_count(row->efficiency).text);
-    if (column >= TO_FIRST && column < MEMORY) format_target(row, column - TO_FIRST, text, size);
+    if (column >= TO_FIRST) format_target(row, column - TO_FIRST, text, size);
 }
 
 static void print_row(const table *t, uint32_t index)
 {
     const ec_cost_row *row = &t->study->rows[index];
     fprintf(t->to, "%-*.*s", NAME_WIDTH, NAME_WIDTH - 1, row->rung.name);
-    if (row->state != EC_COST_MEASURED) {
-        fprintf(t->to, " %s\n", *row->note ? row->note : "not reached");
-        return;
-    }
     for (int c = 0; c < COLUMNS; c++) {
         char text[CELL], marked[CELL + 8];
         bool best = t->best[c] == index;
@@ -118,6 +98,26 @@ static void print_row(const table *t, uint32_t index)
         fprintf(t->to, "%s%*s%s", best && t->bold ? "\033[1m" : "", widths[c], marked, best && t->bold ? "\033[0m" : "");
     }
     fputs(row->invalid ? "  not finite!\n" : "\n", t->to);
+}
+
+/* Rows that were not measured, those of one reason together. */
+static void print_left(const ec_cost_study *study, FILE *to)
+{
+    for (uint32_t i = 0; i < study->row_count; i++) {
+        const char *note = study->rows[i].note, *why = *note ? note : "not reached";
+        char text[4096] = "", label[160];
+        size_t used = 0;
+        bool is_told = study->rows[i].state == EC_COST_MEASURED;
+        for (uint32_t k = 0; k < i; k++) is_told |= study->rows[k].state != EC_COST_MEASURED && !strcmp(study->rows[k].note, note);
+        if (is_told) continue;
+        for (uint32_t k = i; k < study->row_count && used + sizeof label < sizeof text; k++) {
+            if (study->rows[k].state == EC_COST_MEASURED || strcmp(study->rows[k].note, note)) continue;
+            ec_cost_label(&study->rows[k].rung, label, sizeof label);
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", label);
+        }
+        snprintf(text + used, sizeof text - used, ": %s", why);
+        wrap(to, "left out", text);
+    }
 }
 
 static void print_reference(const ec_cost_report *report, FILE *to)
@@ -136,9 +136,10 @@ static void print_reference(const ec_cost_report *report, FILE *to)
 static void print_footer(const ec_cost_study *study, FILE *to)
 {
     fprintf(to, "\ntime     as a multiple of the first row's, measured in turns with it\n"
-                "slope    of error over samples in the log-log chart; independent samples: -0.50\n"
-                "bias     floor: the error that no time removes; fades: falls with more samples; lacks: rare light not met yet, so its figures are too good\n"
-                "to 5 %%   seconds for one picture of %ux%u pixels; ~ extrapolated, ? not known, never: under its floor\n"
+                "variance of one sample, relative to the mean luminance squared\n"
+                "bias     floor: the error that no time removes; fades: falls with more samples;\n"
+                "         lacks: rare light not met yet, so its figures are too good\n"
+                "to 5 %%   time for one picture of %ux%u pixels; ~ extrapolated, ? not known, never: under its floor\n"
                 "%s%s of %s%s\n",
             study->options.width, study->options.height, study->interrupted ? "interrupted after " : "took     ", ec_seconds(study->seconds).text,
             ec_seconds(study->budget).text,
@@ -150,18 +151,23 @@ void ec_cost_table(const ec_cost_report *report, bool bold, FILE *to)
     table t = {.study = report->study, .bold = bold, .to = to};
     const char *group = "";
     find_best(&t);
+    char words[EC_COST_WORDS];
+    ec_cost_words(t.study, words, sizeof words);
+    wrap(to, "result", words);
+    ec_cost_denoise_words(t.study, words, sizeof words);
+    if (*words) wrap(to, "denoiser", words);
     fprintf(to, "device     %s\n", report->device->name);
     print_reference(report, to);
-    fprintf(to, "\n%-*s", NAME_WIDTH, bold ? "best in bold" : "best: *");
+    fprintf(to, "\n%-*s", NAME_WIDTH, bold ? "best by evidence in bold" : "best by evidence: *");
     for (int c = 0; c < COLUMNS; c++) fprintf(to, "%*s", widths[c], titles[c]);
     for (uint32_t i = 0; i < t.study->row_count; i++) {
         const ec_cost_rung *rung = &t.study->rows[i].rung;
+        if (t.study->rows[i].state != EC_COST_MEASURED) continue;
         if (strcmp(group, rung->group)) fprintf(to, "\n%s\n", rung->title);
         group = rung->group;
         print_row(&t, i);
     }
-    char words[256];
-    ec_cost_denoise_words(t.study, words, sizeof words);
-    if (*words) fprintf(to, "\ndenoiser %s\n", words);
+    fputc('\n', to);
+    print_left(t.study, to);
     print_footer(t.study, to);
 }

@@ -103,6 +103,7 @@ static ec_result give_picture(const reading *r, const cJSON *scenario, ec_entry 
     char path[PATH_MAX];
     EC_TRY(take_numbers(r, scenario, "dimensions", sides, 2, size, err));
     EC_TRY(give(r, entry, "size", err, "%.0fx%.0f", size[0], size[1]));
+    if (!cJSON_IsTrue(find(r, scenario, "renderSkybox"))) EC_TRY(give(r, entry, "background", err, "transparent"));
     if (curve) EC_TRY(give(r, entry, "tonemap", err, "%s", tone_curve(curve)));
     if (exposure) EC_TRY(give(r, entry, "exposure", err, "%.9g", log2(cJSON_GetNumberValue(exposure))));
     if (!lighting || ec_given_has(r->given, "env") || ec_given_has(r->given, "light")) return EC_OK;

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -52,7 +53,7 @@ class Denoiser(Case):
         self.assertGreater(rung["denoise_seconds"], 0)
         self.assertFalse(rung["biased"] or rung["light_not_met"])
         self.assertRegex(report["denoiser"], "^(pays down to an error of|pays at every error|does not pay)")
-        self.assertIn("denoiser " + report["denoiser"], run.stdout)
+        self.assertIn("denoiser " + report["denoiser"], " ".join(run.stdout.split()))
         self.assertRegex(run.stdout, r"best of both, --denoise .* fades")
 
 
@@ -111,11 +112,34 @@ class FullStudy(Case):
 
     @full
     def test_table(self):
-        self.assertIn("best: *", self.table)
+        self.assertIn("best by evidence: *", self.table)
         self.assertNotIn("\033", self.table)
         for rung in self.report["rungs"]:
-            self.assertIn(rung["name"][:32], self.table)
-            self.assertIn(rung["group_title"], self.table)
+            self.assertIn(rung["name"][:24] if rung["state"] == "measured" else rung["label"].split()[0], self.table)
+            if rung["state"] == "measured":
+                self.assertIn(rung["group_title"], self.table)
+        for line in self.table.splitlines():
+            self.assertLessEqual(len(line), 100, line)
+        self.assertIn(" ".join(self.report["result"].split()), " ".join(self.table.split()))
+
+    @full
+    def test_the_headline_and_the_table_say_the_same(self):
+        """A column's best is the default, or by more than three standard errors better; the sentence names that of its column."""
+        ids = {rung["id"]: rung for rung in self.report["rungs"]}
+        base = ids[PATH]
+        for column, best in self.report["best"].items():
+            if not column.startswith("to ") or best is None or best == PATH:
+                continue
+            index = ["to 5 %", "to 2 %", "to 1 %", "to 0.5 %"].index(column)
+            if "time_to" in ids[best]:
+                self.assertLess(ids[best]["time_to"][index]["seconds"], base["time_to"][index]["seconds"])
+        goal = re.match(r"An error of ([\d.]+) % at 32x32 pixels takes", self.report["result"])
+        self.assertTrue(goal, self.report["result"])
+        best = ids[self.report["best"][f"to {goal[1]} %"]]
+        if best is base:
+            self.assertRegex(self.report["result"], "It is the best of [0-9]+ ways")
+        else:
+            self.assertIn(f"With {best['label']} it takes", self.report["result"])
 
     @full
     def test_scattering_is_no_matter_where_all_is_matt(self):
@@ -149,6 +173,14 @@ class Study(Case):
         self.assertIn("budget too small", run.stdout)
 
     @full
+    def test_pictures_fit_the_budget(self):
+        """Without --size: smaller ones where time is short, which is said."""
+        run = self.assert_ok(eclat("cost", CORNELL, "--json", self.path("out.json"), "--budget", "1s"))
+        with open(self.path("out.json"), encoding="utf-8") as file:
+            report = json.load(file)
+        self.assertEqual((report["width"], report["height"]), (64, 64))
+        self.assertIn("note: pictures of 64x64 pixels in place of 256x256, so that the budget reaches more rungs; --size takes another", run.stderr)
+
     def test_reference_from_a_file(self):
         self.assert_ok(eclat("render", CORNELL, *SMALL, "--spp", "256", "-o", self.path("ref.exr"), cwd=self.folder))
         _, report = study_that_measures(PATH, 3, CORNELL, "--reference", self.path("ref.exr"))

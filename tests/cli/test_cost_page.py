@@ -23,12 +23,15 @@ class Page(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.path = os.path.join(folder.name, "report.html")
         figures = os.path.join(folder.name, "report.json")
-        run = eclat("cost", CORNELL, "--size", "24x24", "--budget", "12s", "-o", cls.path, "--json", figures, cwd=folder.name)
-        if run.returncode:
-            raise AssertionError(run.stderr)
-        with open(figures, encoding="utf-8") as file:
-            cls.report = json.load(file)
-        cls.curves = [r for r in cls.report["rungs"] if r.get("curve") and r["group"] not in ("effect", "lights") and any(p["error"] for p in r["curve"])]
+        for budget in (12, 24, 48, 96):  # kernels may have to be compiled
+            run = eclat("cost", CORNELL, "--size", "24x24", "--budget", f"{budget}s", "-o", cls.path, "--json", figures, cwd=folder.name)
+            if run.returncode:
+                raise AssertionError(run.stderr)
+            with open(figures, encoding="utf-8") as file:
+                cls.report = json.load(file)
+            cls.curves = [r for r in cls.report["rungs"] if r.get("curve") and r["group"] not in ("effect", "lights") and any(p["error"] for p in r["curve"])]
+            if len(cls.curves) >= 3:
+                break
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.close)
 
@@ -47,8 +50,7 @@ class Page(unittest.TestCase):
             Object.fromEntries([...row.querySelectorAll("td[data-value]")].map(c => [c.dataset.column, Number(c.dataset.value)]))])""")
         rungs = {r["id"]: r for r in self.report["rungs"]}
         self.assertEqual([name for name, _ in cells], list(rungs))
-        keys = {"ns/sample": "seconds_per_sample", "time": "relative_time", "slope": "slope", "variance": "variance", "efficiency 1/s": "efficiency",
-                "by relMSE": "efficiency_relmse", "set-up": "setup_seconds", "memory": "device_bytes"}
+        keys = {"time": "relative_time", "slope": "slope", "variance": "variance", "efficiency 1/s": "efficiency", "memory": "device_bytes"}
         for name, columns in cells:
             rung = rungs[name]
             for column, key in keys.items():
@@ -63,7 +65,6 @@ class Page(unittest.TestCase):
         self.show()
         text = self.browser.evaluate("""Object.fromEntries([...document.querySelectorAll("#table tr[data-id=path] td")].map(c => [c.dataset.column, c.textContent]))""")
         base = self.report["rungs"][0]
-        self.assertAlmostEqual(float(text["ns/sample"]), 1e9 * base["seconds_per_sample"], delta=5e-3 * 1e9 * base["seconds_per_sample"])
         self.assertAlmostEqual(float(text["variance"]), base["variance"], delta=5e-3 * base["variance"])
         self.assertEqual(text["slope"], f"{base['slope']:.2f} ± {base['slope_se']:.3f}" if base["slope"] is not None else "?")
 
@@ -91,6 +92,17 @@ class Page(unittest.TestCase):
             }})()""")
             self.assertGreater(seen, 4, name)
 
+    def test_the_sentence_and_the_best_are_the_json_s(self):
+        self.show(width=1300)
+        self.assertEqual(self.browser.evaluate("document.getElementById('verdict').textContent"), self.report["result"])
+        marked = self.browser.evaluate("""[...document.querySelectorAll("#table td.best")].map(c => [c.dataset.column, c.parentElement.dataset.id])""")
+        self.assertEqual(sorted(marked), sorted([column, name] for column, name in self.report["best"].items() if name))
+        self.assertEqual(sorted(self.browser.evaluate("eclat.named")), sorted(r["label"] for r in self.curves))
+
+    def test_columns_fit(self):
+        self.show(width=1300)
+        self.assertEqual(self.browser.evaluate("(t => t.scrollWidth - t.parentElement.clientWidth)(document.getElementById('table'))"), 0)
+
     def test_pareto_front_is_the_json_s(self):
         self.show()
         front = self.browser.evaluate("eclat.charts().errors.data.datasets.find(s => s.label == 'Pareto front').data.map(p => [p.x, p.y])")
@@ -107,11 +119,11 @@ class Page(unittest.TestCase):
         self.show()
         self.browser.evaluate("document.getElementById('error-chart').focus()")
         said = self.browser.evaluate("document.getElementById('error-live').textContent")
-        self.assertIn("path (default)", said)
+        self.assertIn("the default", said)
         self.browser.press("ArrowRight")
         self.assertNotEqual(self.browser.evaluate("document.getElementById('error-live').textContent"), said)
         self.browser.press("ArrowDown")
-        self.assertNotIn("path (default)", self.browser.evaluate("document.getElementById('error-live').textContent"))
+        self.assertNotIn("the default", self.browser.evaluate("document.getElementById('error-live').textContent"))
         self.browser.press("Escape")
         self.assertEqual(self.browser.evaluate("document.getElementById('error-live').textContent"), "")
         reached = []

@@ -57,12 +57,13 @@ class Scenarios(Case):
                      "toneMapping": "linear", "exposure": 0.5, "exclude": ["other"]},
                     {"name": "arrays", "model": "quad.gltf", "target": [0, 0.5, 0], "orbit": orbit, "dimensions": [20, 10]},
                     {"name": "placed", "model": "quad.gltf", "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0.5, 0, -3, 1]},
+                    {"name": "seen", "model": "quad.gltf", "orbit": {"radius": 9}, "lighting": "map.hdr", "renderSkybox": True},
                     {"name": "within", "model": "quad.gltf", "target": {"z": 2}, "orbit": {"radius": 0}}],
                    defaults={"dimensions": {"width": 24, "height": 16}, "orbit": {"theta": 0, "phi": 90, "radius": 1}})
         run, rows = self.run_all()
         self.assert_ok(run)
         self.assertEqual([(row["name"], row["width"], row["height"]) for row in rows[:-1]],
-                         [("plain", 32, 16), ("turned", 24, 16), ("arrays", 20, 10), ("placed", 24, 16), ("within", 24, 16)])
+                         [("plain", 32, 16), ("turned", 24, 16), ("arrays", 20, 10), ("placed", 24, 16), ("seen", 24, 16), ("within", 24, 16)])
 
         def same(name, *options):
             self.assert_ok(eclat("render", "models/quad.gltf", *SMALL, "-q", "-o", "alone.exr", *options, cwd=self.folder))
@@ -71,10 +72,11 @@ class Scenarios(Case):
             self.assertGreater(max(ours), 0)
             self.assertLess(sum(abs(a - b) for a, b in zip(ours, alone)) / len(ours), 1e-4)
         same("plain", "--eye", "0,0,3", "--look-at", "0,0,0", "--fov", "45", "--size", "32x16")
-        same("turned", "--eye", ",".join(map(repr, eye)), "--look-at", "0,0.5,0", "--fov", "30", "--size", "24x16", "--env", "models/map.hdr")
+        same("turned", "--eye", ",".join(map(repr, eye)), "--look-at", "0,0.5,0", "--fov", "30", "--size", "24x16", "--env", "models/map.hdr", "--background", "transparent")
         same("arrays", "--eye", ",".join(map(repr, eye)), "--look-at", "0,0.5,0", "--fov", "45", "--size", "20x10")
         same("placed", "--eye", "0.5,0,-3", "--look-at", "0.5,0,0", "--fov", "45", "--size", "24x16")
         same("within", "--eye", "0,0,2", "--look-at", "0,0,1", "--fov", "45", "--size", "24x16")
+        self.assertEqual([self.planes("out", name + ".exr")["G"][0] for name in ("turned", "seen")], [0, 0.5])
         attributes = read_exr(self.path("out", "turned.exr"))[0]
         self.assertEqual((attributes["eclat.png.tonemap"], attributes["eclat.png.exposure"]), ("none", -1))
         os.remove(self.path("out", "turned.exr"))

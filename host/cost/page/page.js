@@ -29,9 +29,7 @@ function element(tag, content, attributes = {}) {
     e.append(...[content ?? ""].flat());
     return e;
 }
-/* A rung's name as it stands alone: in the table its group's heading says the rest. */
-const labels = {sampling: "sample ", sampler: "", roulette: "rr ", scattering: "scattering ", effect: "without ", lights: "without ", accelerator: "", lanes: "lanes "};
-const label = r => (labels[r.group] ?? "") + (r.group === "base" ? "path (default)" : r.name);
+const label = r => r.label;
 
 /* Colours that differ in hue and lightness, on both grounds. */
 const hues = {
@@ -103,15 +101,40 @@ const whiskers = {id: "whiskers", afterDatasetsDraw(chart) {
         });
     });
 }};
+/* Each curve's name beside the chart, one below the other, with a line to the curve's end. */
+const names = {id: "names", afterDatasetsDraw(chart) {
+    const {ctx, chartArea} = chart, ends = [];
+    if (chart.width < 700) return; /* the list below has them */
+    chart.data.datasets.forEach((set, i) => {
+        const dots = chart.getDatasetMeta(i).data;
+        if (set.rung && !set.hidden && dots.length) ends.push({text: label(set.rung), colour: set.borderColor, x: dots[dots.length - 1].x, y: dots[dots.length - 1].y});
+    });
+    ends.sort((a, b) => a.y - b.y);
+    let free = chartArea.top;
+    ctx.font = "12px system-ui, sans-serif";
+    ctx.textBaseline = "middle";
+    ctx.lineWidth = 0.7;
+    ends.forEach((end, i) => {
+        const at = Math.max(free, Math.min(end.y, chartArea.bottom - 14 * (ends.length - i)));
+        ctx.fillStyle = ctx.strokeStyle = end.colour;
+        ctx.beginPath();
+        ctx.moveTo(end.x + 5, end.y);
+        ctx.lineTo(chartArea.right + 6, at);
+        ctx.stroke();
+        ctx.fillText(end.text.length > 20 ? `${end.text.slice(0, 19)}…` : end.text, chartArea.right + 9, at);
+        free = at + 14;
+    });
+    globalThis.eclat && (globalThis.eclat.named = ends.map(end => end.text));
+}};
 let errorChart, effectsChart;
 function drawErrors() {
     errorChart?.destroy();
     errorChart = new Chart($("error-chart"), {
         type: "scatter",
         data: {datasets: datasets()},
-        plugins: [whiskers],
+        plugins: [whiskers, names],
         options: {
-            animation: false, maintainAspectRatio: false, events: ["mousemove", "mouseout", "click", "touchstart", "touchmove"],
+            animation: false, maintainAspectRatio: false, layout: {padding: {right: $("error-box").clientWidth < 700 ? 0 : 130}}, events: ["mousemove", "mouseout", "click", "touchstart", "touchmove"],
             interaction: {mode: "nearest", intersect: false},
             scales: {x: axis("time of one picture", seconds), y: axis("error", percent)},
             plugins: {legend: {display: false}, tooltip: {
@@ -206,13 +229,12 @@ function tableEffects() {
 }
 
 /* The table */
-const ranked = r => !leavesOut(r) && r.unbiased_by_design !== false && !r.light_not_met;
 function timeTo(r, i) {
     const t = r.time_to?.[i];
     if (!t) return {text: ""};
     if (r.light_not_met) return {text: "?", value: t.seconds};
     if (t.never) return {text: "never"};
-    return {text: t.seconds === null ? "?" : (t.extrapolated ? "~ " : "") + seconds(t.seconds), value: t.seconds, merit: t.seconds};
+    return {text: t.seconds === null ? "?" : (t.extrapolated ? "~ " : "") + seconds(t.seconds), value: t.seconds};
 }
 function bias(r) {
     if (r.same_bits !== undefined) return {text: r.same_bits ? "same bits" : "BITS DIFFER"};
@@ -221,22 +243,15 @@ function bias(r) {
     return {text: r.light_not_met ? `lacks ${percent(Math.sqrt(r.bias_squared))}` : `< ${percent(bound)}`, value: r.bias_squared};
 }
 const columns = [
-    ["ns/sample", r => ({text: number(1e9 * r.seconds_per_sample), value: r.seconds_per_sample, merit: r.seconds_per_sample})],
-    ["time", r => ({text: `×${r.relative_time.toFixed(2)}${r.relative_time_se ? ` ± ${r.relative_time_se.toFixed(2)}` : ""}`, value: r.relative_time, merit: r.relative_time})],
+    ["time", r => ({text: `×${r.relative_time.toFixed(2)}${r.relative_time_se ? ` ± ${r.relative_time_se.toFixed(2)}` : ""}`, value: r.relative_time})],
     ["slope", r => r.curve ? {text: r.slope === null ? "?" : `${r.slope.toFixed(2)} ± ${r.slope_se.toFixed(3)}`, value: r.slope} : {text: ""}],
-    ["variance", r => r.curve ? {text: number(r.variance), value: r.variance, merit: r.variance} : {text: ""}],
+    ["variance", r => r.curve ? {text: number(r.variance), value: r.variance} : {text: ""}],
     ["bias", bias],
-    ["efficiency 1/s", r => r.curve ? {text: number(r.efficiency), value: r.efficiency, merit: r.efficiency && -r.efficiency} : {text: ""}],
-    ["by relMSE", r => r.curve ? {text: number(r.efficiency_relmse), value: r.efficiency_relmse, merit: r.efficiency_relmse && -r.efficiency_relmse} : {text: ""}],
+    ["efficiency 1/s", r => r.curve ? {text: number(r.efficiency), value: r.efficiency} : {text: ""}],
     ...[0, 1, 2, 3].map(i => [`to ${["5", "2", "1", "0.5"][i]} %`, r => timeTo(r, i)]),
-    ["set-up", r => ({text: seconds(r.setup_seconds), value: r.setup_seconds})],
     ["memory", r => ({text: bytes(r.device_bytes), value: r.device_bytes})],
 ];
 function fillTable() {
-    const best = columns.map(([, cell]) => {
-        const merits = measured.filter(ranked).map(r => cell(r).merit).filter(m => typeof m === "number");
-        return merits.length ? Math.min(...merits) : NaN;
-    });
     const head = element("thead", element("tr", ["rung", ...columns.map(c => c[0])].map(t => element("th", t, {scope: "col"}))));
     const body = element("tbody");
     let group = "";
@@ -245,10 +260,10 @@ function fillTable() {
         group = r.group;
         const row = element("tr", element("th", r.name, {scope: "row", title: r.name}), {"data-id": r.id});
         if (r.state !== "measured") row.append(element("td", r.note ?? r.state, {colspan: columns.length, class: "note"}));
-        else columns.forEach(([name, cell], i) => {
+        else columns.forEach(([name, cell]) => {
             const c = cell(r), td = element("td", c.text, {"data-column": name});
             if (typeof c.value === "number") td.dataset.value = c.value;
-            if (ranked(r) && c.merit === best[i]) td.className = "best";
+            if (data.best[name] === r.id) td.className = "best";
             if (c.floor) td.className = "floor";
             row.append(td);
         });
@@ -277,15 +292,7 @@ function tellStory() {
     document.title = `What accuracy costs: ${scene}`;
     $("title").textContent = `What accuracy costs: ${scene}`;
     $("summary").textContent = `${data.width} × ${data.height} pixels on ${data.device.name}, ${seconds(data.total_seconds)} of ${seconds(data.budget_seconds)} budget${data.interrupted ? ", interrupted: what was known by then" : ""}.`;
-    const able = measured.filter(r => ranked(r) && r.efficiency);
-    const winner = able.length ? able.reduce((a, b) => a.efficiency > b.efficiency ? a : b) : null;
-    const left = data.rungs.length - measured.length;
-    const words = [];
-    if (winner) words.push(`Accuracy is cheapest with ${label(winner)}${winner !== base && base?.efficiency ? `, ${number(winner.efficiency / base.efficiency, 2)} times as efficient as the default` : ""}.`);
-    const floors = curves.filter(r => r.biased);
-    if (floors.length) words.push(`No time takes ${floors.map(r => `${label(r)} under ${percent(r.error_floor, 2)}`).join(", ")}.`);
-    if (left) words.push(`${left} of ${data.rungs.length} rungs were not measured; the table says why.`);
-    $("verdict").textContent = words.join(" ");
+    $("verdict").textContent = data.result;
     const ref = data.reference;
     $("reference").textContent = !ref ? "None: interrupted before." :
         (ref.file ? `The file ${ref.file}` : `The first row's rendering, ${ref.samples_per_pixel} samples a pixel in ${seconds(ref.seconds)}, with seeds that no rung has`) +
@@ -305,4 +312,5 @@ function draw() { drawErrors(); drawEffects(); }
 darkness.addEventListener("change", draw);
 draw();
 globalThis.eclat = {data, charts: () => ({errors: errorChart, effects: effectsChart})};
+errorChart.draw();
 })();
