@@ -97,6 +97,8 @@ static ec_result run(ec_call *call, ec_error *err)
     *job = (ec_render_job){.request = request, .listener = call->listener, .takes_several = true, .ranks = call->ranks, .program = call->program,
                            .command = call->line, .job = {.argc = call->words.count - 1, .argv = call->words.list + 1, .folder = call->folder}};
     call->write = write_rendered;
+    if (call->wants_picture && call->input_count > 1)
+        return ec_usage(err, "a picture is of one scene: give one, or take no picture of several, whose names are by --output with {name}");
     if (is_series(call, request)) return run_series(call, request, start, err);
     EC_TRY(take_request(call, request, err));
     if (request->plan_ranks) return plan(job, err);

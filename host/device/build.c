@@ -45,7 +45,7 @@ static uint32_t list_entries(const ec_pipeline *p, ec_kernel_set *set, entry ent
 {
     uint32_t count = 0;
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
-        if (ec_stages[id].lanes != EC_LANES_OF_ACCEL && ec_stages[id].integrators >> p->integrator & 1) entries[count++] = stage_entry(set, (ec_stage_id)id);
+        if (ec_stages[id].lanes != EC_LANES_OF_ACCEL && ec_stage_is_of(&ec_stages[id], p->integrator, set->features)) entries[count++] = stage_entry(set, (ec_stage_id)id);
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
         for (int connect = 0; set->accels >> a & 1 && connect < 2; connect++) entries[count++] = trace_entry(set, connect, a);
     return count;

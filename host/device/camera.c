@@ -50,6 +50,7 @@ void ec_pipeline_set_view(const ec_camera *c, const ec_render_options *o, ec_par
     const float whole[] = {-1, 1, 2.0f / (float)o->width, -2.0f / (float)o->height};
     const float part[] = {(float)window[0], (float)window[3], (float)((window[1] - window[0]) / o->width), (float)((window[2] - window[3]) / o->height)};
     memcpy(params->screen, ec_has_screen_window(o) ? part : whole, sizeof whole);
+    params->film_area = fabsf((float)(half[0] * half[1]) * params->screen[2] * params->screen[3]) * (float)o->width * (float)o->height;
 }
 
 ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)

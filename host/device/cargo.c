@@ -88,6 +88,7 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
         EC_TRY(ec_scene_calls(called_for, &pack->effects, err));
         pack->effects.bits &= ~EC_FEATURE_INSTANCES;
     }
+    if (o->light_paths > 0) EC_TRY(ec_pack_casters(pack, err));
     if (o->integrator != EC_INTEGRATOR_PATH) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));
     return EC_OK;
 }
@@ -143,6 +144,23 @@ static void set_environment(const ec_pack *pack, ec_params *params)
     memcpy(params->environment_mean, pack->environment_mean, sizeof pack->environment_mean);
 }
 
+/* Steps so small that what they round off is 2^-30 of the mean radiance of the scene, about, and sums of 2^33 times that fit. */
+static void set_light_paths(const ec_render_options *o, const ec_pack *pack, ec_params *params)
+{
+    const double pixels = (double)o->width * o->height, paths = fmax(floor(o->light_paths * pixels + 0.5), 1);
+    int exponent;
+    if (!pack->caster_count) return;
+    frexp(pack->mean_radiance, &exponent);
+    params->splat_unit = ldexpf(1, exponent - 31 < -120 ? -120 : exponent - 31);
+    params->light_paths = (float)(paths / pixels);
+    params->caster_count = pack->caster_count;
+    for (uint32_t j = 0; j < pack->caster_count; j++) {
+        memcpy(params->casters[j], pack->casters[j].centre, sizeof pack->casters[j].centre);
+        params->casters[j][3] = pack->casters[j].radius;
+        params->caster_share[j] = pack->casters[j].share;
+    }
+}
+
 static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack *pack, uint64_t called, ec_params *params)
 {
     const uint32_t unlimited = o->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
@@ -164,6 +182,7 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->multiple = (called & EC_FEATURE_MULTISCATTER) != 0;
     params->light_choices = pack->light_choices;
     params->light_tree_numbers = pack->light_tree_numbers;
+    set_light_paths(o, pack, params);
     params->scene_radius = pack->scene_radius;
     params->scene_max = pack->scene_max;
 }

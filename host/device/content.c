@@ -65,7 +65,7 @@ static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
 /* Field by field what is the camera's and the environment's; what is left is settings. */
 static void add_params(SHA2_CTX *digests, ec_params p)
 {
-    p.batch = p.first_sample = p.wave = p.part = 0;
+    p.batch = p.first_sample = p.wave = p.part = p.film_rows = 0;
     p.limit = 0; /* follows from what else there is */
     TAKE(EC_CONTENT_CAMERA, camera_origin);
     TAKE(EC_CONTENT_CAMERA, camera_right);
@@ -76,6 +76,7 @@ static void add_params(SHA2_CTX *digests, ec_params p)
     TAKE(EC_CONTENT_CAMERA, lens_nearness);
     TAKE(EC_CONTENT_CAMERA, orthographic);
     TAKE(EC_CONTENT_CAMERA, screen);
+    TAKE(EC_CONTENT_CAMERA, film_area);
     TAKE(EC_CONTENT_CAMERA, camera_medium);
     TAKE(EC_CONTENT_ENVIRONMENT, environment);
     TAKE(EC_CONTENT_ENVIRONMENT, environment_mean);

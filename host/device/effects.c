@@ -17,18 +17,20 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     if (pack->light_node_count) ec_effects_call(called, EC_FEATURE_LIGHT_TREE, "%u lights are chosen among", pack->light_count);
     if (pack->lamp_node_count && options->integrator == EC_INTEGRATOR_PATH && ec_pipeline_joins(options, pack))
         ec_effects_call(called, EC_FEATURE_LAMP_PARTS, "lamps in %u parts, as their textures vary", 3 * pack->lamp_node_count);
+    if (pack->caster_count && options->light_paths > 0)
+        ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--light-paths %g, aimed at %u bodies that bend or mirror light", options->light_paths, pack->caster_count);
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
     effects->built = options->all_effects ? ec_universal_features(effects) : called->bits | options->more_effects;
     effects->built &= ~(effects->without & EC_FEATURE_PANES); /* paths through panes count on shadow rays to pass them too */
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
-        if (ec_stages[id].integrators >> options->integrator & 1) effects->launched |= 1u << id;
+        if (ec_stage_is_of(&ec_stages[id], options->integrator, called->bits)) effects->launched |= 1u << id;
     if (!ec_pipeline_joins(options, pack)) effects->launched &= ~(1u << EC_CONNECT | 1u << EC_WHITTED_LIGHT);
 }
 
 uint64_t ec_universal_features(const ec_render_effects *effects)
 {
-    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~EC_FEATURE_SOBOL); /* other random numbers, not more */
+    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURE_LIGHT_PATHS)); /* other ways, not more effects */
     return all & ~(effects->without & EC_FEATURE_PANES);
 }
 
@@ -47,7 +49,7 @@ uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features)
     const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
     if (stage->features & EC_FEATURE_AREA_LIGHTS) return f & EC_FEATURE_AREA_LIGHTS ? f : f & ~EC_FEATURE_ALPHA;
     if (!(stage->features & EC_FEATURE_ALPHA) || (f & EC_FEATURE_PANES)) return f;
-    return f & (EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION |
+    return f & (EC_FEATURE_CULLING | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION |
                 (f & EC_FEATURE_ALPHA ? EC_FEATURE_ALPHA | of_alpha : 0));
 }
 

@@ -27,6 +27,7 @@ typedef enum ec_integrator {
     EC_INTEGRATOR_COUNT
 } ec_integrator;
 
+#define EC_LIGHT_PATHS_MOST 16
 #define EC_WHITTED_DEPTH 10     /* segments of Whitted's trees where max_depth is 0 */
 #define EC_WHITTED_DEPTH_MOST 64 /* each takes 48 bytes a path in flight */
 
@@ -54,6 +55,7 @@ typedef struct ec_render_options {
     double cutoff;              /* Whitted: branches of less weight than this are not followed */
     double clamp;               /* most luminance of a sample's indirect light, in mean luminances of the picture (limit.c); 0 = no limit */
     double clamp_luminance;     /* the same in itself, where it is known beforehand; 0 = a pilot finds the picture's mean */
+    double light_paths;         /* for each camera path, where there is something that bends light sharply; 0 = none */
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
@@ -88,5 +90,7 @@ static inline uint32_t ec_render_replicates(const ec_render_options *o) { return
 
 /* What the kernels seed a render of that seed with. */
 uint32_t ec_render_seed(uint64_t seed);
+/* … and a replicate's light paths. */
+uint32_t ec_light_path_seed(uint64_t seed, uint32_t replicate);
 
 #endif

@@ -47,6 +47,7 @@ static ec_result create(ec_pipeline *p, const char *label, uint64_t bytes, cl_me
 
 static uint32_t path_fields_of(uint64_t features)
 {
+    if (features & EC_FEATURE_LIGHT_PATHS) return EC_PATH_LIGHT_FIELDS;
     return features & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS : features & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
 }
 
@@ -63,13 +64,15 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
     EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
     if (p->effects.called.bits & EC_FEATURE_MOTION)
         EC_TRY(create(p, "times of paths", field + slack, &p->buffers[EC_ARG_TIMES], err));
+    if (p->params.light_paths > 0)
+        EC_TRY(create(p, "what light paths are of", field * EC_LIGHT_SLOT_FIELDS + slack, &p->buffers[EC_ARG_LIGHT_SLOTS], err));
     if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->effects.built & EC_FEATURE_TRANSMISSION)) return EC_OK; /* only what passes light branches */
     return create(p, "ray trees", field * ec_whitted_stack_words(p->params.max_depth), &p->buffers[EC_ARG_BRANCHES], err);
 }
 
 static void release_wave(ec_pipeline *p)
 {
-    static const ec_arg of_wave[] = {EC_ARG_HITS, EC_ARG_SHADOWS, EC_ARG_RADIANCE, EC_ARG_AOV, EC_ARG_TIMES, EC_ARG_BRANCHES};
+    static const ec_arg of_wave[] = {EC_ARG_HITS, EC_ARG_SHADOWS, EC_ARG_RADIANCE, EC_ARG_AOV, EC_ARG_TIMES, EC_ARG_LIGHT_SLOTS, EC_ARG_BRANCHES};
     for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);
     for (size_t i = 0; i < sizeof of_wave / sizeof of_wave[0]; i++) ec_buffer_release(p->cl, &p->buffers[of_wave[i]]);
 }
@@ -129,6 +132,8 @@ static ec_result create_films(ec_pipeline *p, uint64_t pixels, uint64_t position
 {
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_FEATURE_FILM]);
+    ec_buffer_release(p->cl, &p->buffers[EC_ARG_SPLATS]);
+    if (p->params.light_paths > 0) EC_TRY(create(p, "splats", pixels * 4 * EC_SPLAT_WORDS, &p->buffers[EC_ARG_SPLATS], err));
     EC_TRY(create(p, "batch film", positions * 4 * EC_BATCH_FIELDS, &p->buffers[EC_ARG_BATCH_FILM], err));
     return create(p, "feature film", pixels * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err);
 }

@@ -33,9 +33,18 @@ static const ec_arg shade[] = {WAVE_ARGS,
                                EC_ARG_ENVIRONMENT_TABLE,
                                EC_ARG_LIGHT_TREE,
                                EC_ARG_LIGHT_TRAILS,
-                               EC_ARG_LAMP_PARTS};
+                               EC_ARG_LAMP_PARTS,
+                               EC_ARG_EMISSION};
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
                                  EC_ARG_NORMALS, EC_ARG_TANGENTS};
+static const ec_arg emit[] = {EC_ARG_PARAMS,   EC_ARG_SEED,        EC_ARG_FIRST_PIXEL, EC_ARG_PATH_COUNT, EC_ARG_COUNTERS,    EC_ARG_INVALID,
+                              EC_ARG_PATHS,    EC_ARG_RADIANCE,    EC_ARG_LIGHT_SLOTS, SURFACE_ARGS,      EC_ARG_MOTION,      EC_ARG_TIMES,
+                              EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_TABLE, EC_ARG_EMISSION};
+static const ec_arg shade_light[] = {WAVE_ARGS, EC_ARG_INVALID, EC_ARG_PATHS, EC_ARG_HITS, EC_ARG_NEXT, EC_ARG_SHADOWS, EC_ARG_LIGHT_SLOTS,
+                                     EC_ARG_PIXEL_FILTER, EC_ARG_CAMERA_KEYS, SURFACE_ARGS, EC_ARG_MOTION, EC_ARG_TIMES, EC_ARG_LIGHT_TABLE,
+                                     EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_TABLE, EC_ARG_LIGHT_TREE, EC_ARG_LAMP_PARTS, EC_ARG_EMISSION};
+static const ec_arg splat[] = {EC_ARG_PARAMS, EC_ARG_SEED, EC_ARG_FIRST_PIXEL, EC_ARG_BOUNCE, EC_ARG_PATH_COUNT, EC_ARG_RADIANCE,
+                               EC_ARG_LIGHT_SLOTS, EC_ARG_SPLATS};
 static const ec_arg raster_setup[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_PRIMS, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS};
 static const ec_arg raster_fill[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS, EC_ARG_TILE_LIST};
 static const ec_arg raster[] = {EC_ARG_PARAMS,     EC_ARG_SEED,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
@@ -49,7 +58,7 @@ static const ec_arg whitted[] = {WAVE_ARGS,       EC_ARG_INVALID,  EC_ARG_PATHS,
 static const ec_arg whitted_light[] = {EC_ARG_PARAMS, EC_ARG_LIGHT, EC_ARG_STEP,    EC_ARG_COUNTERS, EC_ARG_INVALID,
                                        EC_ARG_PATHS,  EC_ARG_HITS,  EC_ARG_SHADOWS, SURFACE_ARGS,    EC_ARG_LIGHT_TABLE};
 static const ec_arg accumulate[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
-                                    EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE,    EC_ARG_BATCH_FILM};
+                                    EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE,    EC_ARG_BATCH_FILM, EC_ARG_SPLATS};
 static const ec_arg store_features[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
                                         EC_ARG_PIXEL_COUNT, EC_ARG_AOV,         EC_ARG_FEATURE_FILM};
 
@@ -58,30 +67,43 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, 
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
 #define SHADING_FEATURES                                                                           \
     (EC_FEATURE_ALL & ~(EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | \
-                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION | CAMERA_FEATURES))
+                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | CAMERA_FEATURES))
+#define PATH_FEATURES                                                                              \
+    (SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | \
+     EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS)
+#define LIGHT_PATH_FEATURES (PATH_FEATURES | CAMERA_FEATURES)
 /* Shadow rays look at surfaces where there are panes, else at no more than alpha: see ec_stage_features. */
 #define SHADOW_FEATURES ((SHADING_FEATURES & ~EC_FEATURE_AREA_LIGHTS) | EC_FEATURE_PANES)
 
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
-    [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE,
-                     EC_FEATURE_SOBOL | EC_FEATURES_MEDIUM | EC_FEATURE_MOTION | CAMERA_FEATURES, ARGS(generate)},
-    [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL,
+    [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, 0,
+                     EC_FEATURE_SOBOL | EC_FEATURES_MEDIUM | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | CAMERA_FEATURES, ARGS(generate)},
+    [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, 0,
                       EC_FEATURE_CULLING | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | ALPHA_FEATURES, ARGS(intersect)},
-    [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE,
-                  SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER |
-                      EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION,
+    [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE, 0,
+                  PATH_FEATURES,
                   ARGS(shade)},
-    [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL,
-                    EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | SHADOW_FEATURES, ARGS(connect)},
-    [EC_RASTER_SETUP] = {"raster_setup", "set up triangles", EC_OF(RASTER), 1, 0, ARGS(raster_setup)},
-    [EC_RASTER_FILL] = {"raster_fill", "fill tiles", EC_OF(RASTER), 1, 0, ARGS(raster_fill)},
-    [EC_RASTER] = {"raster", "rasterise", EC_OF(RASTER), EC_LANES_OF_PIPELINE,
+    [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, 0,
+                    EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_CULLING | SHADOW_FEATURES, ARGS(connect)},
+    [EC_EMIT] = {"emit", "start light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURE_LIGHT_PATHS,
+                 LIGHT_PATH_FEATURES & ~(EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LENS), ARGS(emit)},
+    [EC_SHADE_LIGHT] = {"shade_light", "shade light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURE_LIGHT_PATHS,
+                        LIGHT_PATH_FEATURES | EC_FEATURE_CULLING, ARGS(shade_light)},
+    [EC_SPLAT] = {"splat", "add light paths' light to pixels", EC_OF(PATH), 1, EC_FEATURE_LIGHT_PATHS, 0, ARGS(splat)},
+    [EC_RASTER_SETUP] = {"raster_setup", "set up triangles", EC_OF(RASTER), 1, 0, 0, ARGS(raster_setup)},
+    [EC_RASTER_FILL] = {"raster_fill", "fill tiles", EC_OF(RASTER), 1, 0, 0, ARGS(raster_fill)},
+    [EC_RASTER] = {"raster", "rasterise", EC_OF(RASTER), EC_LANES_OF_PIPELINE, 0,
                    EC_FEATURE_SOBOL | EC_FEATURE_CULLING | ALPHA_FEATURES, ARGS(raster)},
-    [EC_SHADE_RASTER] = {"shade_raster", "shade without visibility", EC_OF(RASTER), EC_LANES_OF_PIPELINE,
+    [EC_SHADE_RASTER] = {"shade_raster", "shade without visibility", EC_OF(RASTER), EC_LANES_OF_PIPELINE, 0,
                          SHADING_FEATURES, ARGS(shade_raster)},
-    [EC_WHITTED] = {"whitted", "grow ray trees", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, SHADING_FEATURES, ARGS(whitted)},
-    [EC_WHITTED_LIGHT] = {"whitted_light", "shade one light", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, SHADING_FEATURES,
+    [EC_WHITTED] = {"whitted", "grow ray trees", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES, ARGS(whitted)},
+    [EC_WHITTED_LIGHT] = {"whitted_light", "shade one light", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES,
                           ARGS(whitted_light)},
-    [EC_ACCUMULATE] = {"accumulate", "accumulate", EC_OF_ALL, 1, 0, ARGS(accumulate)},
-    [EC_STORE_FEATURES] = {"features", "accumulate first-hit features", EC_OF_ALL, 1, 0, ARGS(store_features)},
+    [EC_ACCUMULATE] = {"accumulate", "accumulate", EC_OF_ALL, 1, 0, 0, ARGS(accumulate)},
+    [EC_STORE_FEATURES] = {"features", "accumulate first-hit features", EC_OF_ALL, 1, 0, 0, ARGS(store_features)},
 };
+
+bool ec_stage_is_of(const ec_stage_entry *stage, ec_integrator integrator, uint64_t features)
+{
+    return (stage->integrators >> integrator & 1) && (!stage->calls_for || (stage->calls_for & features));
+}

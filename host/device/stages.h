@@ -61,6 +61,9 @@ typedef enum ec_arg {
     EC_ARG_LIGHT_TREE,
     EC_ARG_LIGHT_TRAILS,
     EC_ARG_LAMP_PARTS,
+    EC_ARG_EMISSION,
+    EC_ARG_LIGHT_SLOTS, /* what light paths are of, by slot */
+    EC_ARG_SPLATS,
     EC_ARG_ENVIRONMENT_TEXELS,
     EC_ARG_ENVIRONMENT_TABLE,
     EC_ARG_COUNT
@@ -71,6 +74,9 @@ typedef enum ec_stage_id {
     EC_INTERSECT,
     EC_SHADE,
     EC_CONNECT,
+    EC_EMIT,
+    EC_SHADE_LIGHT,
+    EC_SPLAT,
     EC_RASTER_SETUP,
     EC_RASTER_FILL,
     EC_RASTER,
@@ -95,10 +101,14 @@ typedef struct ec_stage_entry {
     const char *label;         /* for messages and profiles */
     uint32_t integrators;      /* EC_OF(x): those that launch it */
     uint32_t lanes;
+    uint64_t calls_for;        /* launched with this effect alone; 0: always */
     uint64_t features;         /* bits that can change its code; others do not multiply binaries */
     uint32_t argument_count;
     const ec_arg *arguments;
 } ec_stage_entry;
+
+/* Is it there with that integrator and these effects? */
+bool ec_stage_is_of(const ec_stage_entry *stage, ec_integrator integrator, uint64_t features);
 
 extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
 

@@ -4,21 +4,18 @@
 
 #include "device/pipeline.h"
 
-/* Up to EC_SEGMENT bounces. In p->counters, rays[0] says how many paths each part holds at the start; at the end rays[0]
- * says what is left. */
-static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_bounce, ec_error *err)
+/* Counters but for rays[0], which says how many paths each part holds: zero. */
+static ec_result begin_segment(ec_pipeline *p, ec_error *err)
 {
     ec_counters *counters = &p->counters;
     memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
-    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    for (uint32_t step = 0; step < EC_SEGMENT && first_bounce + step < p->params.max_depth; step++) {
-        scalars[EC_ARG_BOUNCE] = first_bounce + step;
-        scalars[EC_ARG_STEP] = step;
-        ec_pipeline_swap_queues(p, first_bounce + step);
-        EC_TRY(ec_pipeline_trace(p, 0, first_bounce + step, scalars, err));
-        EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
-        if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, first_bounce + step, scalars, err));
-    }
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err);
+}
+
+/* rays[0] then says what is left. */
+static ec_result end_segment(ec_pipeline *p, ec_error *err)
+{
+    ec_counters *counters = &p->counters;
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     for (uint32_t step = 0; step < EC_SEGMENT; step++)
         p->rays += ec_pipeline_total(counters->rays[step]) + ec_pipeline_total(counters->shadows[step]);
@@ -26,12 +23,53 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t first_b
     return EC_OK;
 }
 
+/* Up to EC_SEGMENT bounces, of light paths if `kind` is EC_LIGHT_BOUNCE. */
+static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t first_bounce, ec_error *err)
+{
+    const bool of_light = kind != 0;
+    EC_TRY(begin_segment(p, err));
+    if (of_light && first_bounce == 0) EC_TRY(ec_pipeline_launch(p, EC_EMIT, scalars, err));
+    for (uint32_t step = 0; step < EC_SEGMENT && first_bounce + step < p->params.max_depth; step++) {
+        const uint32_t bounce = first_bounce + step;
+        scalars[EC_ARG_BOUNCE] = bounce | kind;
+        scalars[EC_ARG_STEP] = step;
+        ec_pipeline_swap_queues(p, bounce);
+        EC_TRY(ec_pipeline_trace(p, 0, bounce, scalars, err));
+        EC_TRY(ec_pipeline_launch(p, of_light ? EC_SHADE_LIGHT : EC_SHADE, scalars, err));
+        if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, bounce, scalars, err));
+        if (of_light) EC_TRY(ec_pipeline_launch(p, EC_SPLAT, scalars, err));
+    }
+    return end_segment(p, err);
+}
+
+/* From a bounce on, as long as p->counters.rays[0] tells of paths. */
+static ec_result run_bounces(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t first, ec_error *err)
+{
+    for (uint32_t bounce = first; ec_pipeline_total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
+        EC_TRY(run_segment(p, scalars, kind, bounce, err));
+    return EC_OK;
+}
+
 ec_result ec_integrate_paths(ec_pipeline *p, uint32_t *scalars, ec_error *err)
 {
     ec_pipeline_fill_parts(p, scalars[EC_ARG_PATH_COUNT]);
-    for (uint32_t bounce = 0; ec_pipeline_total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
-        EC_TRY(run_segment(p, scalars, bounce, err));
-    return EC_OK;
+    return run_bounces(p, scalars, 0, 0, err);
+}
+
+ec_result ec_pipeline_run_light_wave(ec_pipeline *p, uint32_t seed, uint32_t first, uint32_t count, ec_error *err)
+{
+    uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
+    scalars[EC_ARG_SEED] = seed;
+    scalars[EC_ARG_FIRST_PIXEL] = first;
+    scalars[EC_ARG_PATH_COUNT] = count * p->params.batch;
+    cl_mem list = p->buffers[EC_ARG_PIXEL_LIST];
+    p->buffers[EC_ARG_PIXEL_LIST] = NULL;
+    ec_pipeline_swap_queues(p, 0);
+    memset(&p->counters, 0, sizeof p->counters); /* ec_emit counts */
+    ec_result result = run_segment(p, scalars, EC_LIGHT_BOUNCE, 0, err);
+    if (result == EC_OK) result = run_bounces(p, scalars, EC_LIGHT_BOUNCE, EC_SEGMENT, err);
+    p->buffers[EC_ARG_PIXEL_LIST] = list;
+    return result;
 }
 
 ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,

@@ -78,20 +78,12 @@ static bool is_environment_there(const ec_render_job *job)
     return job->share->animation || (job->request->environment && !strcmp(key, job->share->environment_key));
 }
 
-static void drop_environment(ec_frame_share *share)
-{
-    free(share->environment.rgb);
-    ec_packed_map_free(&share->packed);
-    share->environment = (ec_environment){0};
-    share->environment_known = false;
-}
-
 /* The map of all pictures is read, scaled and turned once; a sky that is only there because one of them has no light is that one's. */
 static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error *err)
 {
     ec_frame_share *share = job->share;
     if (!share || !is_of_all || is_environment_there(job)) return EC_OK;
-    drop_environment(share);
+    ec_frame_share_drop_environment(share);
     name_environment(job->request, share->environment_key);
     if (job->scene->environment.rgb) EC_TRY(ec_pack_map(&job->scene->environment, &share->packed, err));
     share->environment = job->scene->environment;
@@ -371,33 +363,6 @@ ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
     if (!job->request->options.denoise || job->stats.is_clean) return EC_OK;
     job->stats.is_clean = true; /* once, whatever comes of it */
     return ec_denoise(&job->film, job->request->options.denoise, &job->devices[0], &job->denoised, err);
-}
-
-void ec_frame_share_leave(ec_frame_share *share)
-{
-    ec_animation_close(share->animation);
-    share->animation = NULL;
-    drop_environment(share);
-    ec_followed_free(&share->followed);
-}
-
-void ec_frame_share_free(ec_frame_share *share)
-{
-    ec_frame_share_leave(share);
-    ec_frame_share_close(share);
-    while (share->pictures.count) free(share->pictures.list[--share->pictures.count]);
-    free(share->pictures.list);
-}
-
-void ec_frame_share_picture(ec_frame_share *share, const ec_outputs *outputs)
-{
-    int which = 0;
-    for (int i = outputs->count - 1; i >= 0; i--)
-        if (outputs->file[i].kind == EC_OUTPUT_PNG) which = i;
-    char **longer = realloc(share->pictures.list, (share->pictures.count + 1) * sizeof *longer), *path = strdup(outputs->file[which].path);
-    if (longer) share->pictures.list = longer;
-    if (longer && path) longer[share->pictures.count++] = path;
-    else free(path);
 }
 
 void ec_render_job_free(ec_render_job *job)

@@ -202,6 +202,11 @@ const ec_option ec_render_rows[] = {
      .otherwise = "auto"},
     {.name = "max-depth", .metavar = "N", .set = ec_set_max_depth, .group = EC_GROUP_TRANSPORT, .integrators = TRACERS,
      .help = "maximum number of segments in a path: 1 shows emission alone, 2 adds direct light; or inf", .otherwise = "inf, ended by roulette; whitted: 10, at most 64"},
+    {.name = "light-paths", .metavar = "N", EC_RANGED(REAL, options.light_paths, 0, EC_LIGHT_PATHS_MOST), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
+     .uses = EC_OPTION_INFO,
+     .help = "trace N paths from the lights for each path from the camera, towards what bends or mirrors light sharply, and weigh what both find: caustics "
+             "converge many times sooner. Only with --sample mis, and without --adaptive and --clamp",
+     .otherwise = "0"},
     {.name = "rr", .metavar = "P", .set = ec_set_rr, .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
      .help = "Russian roulette: a survival probability at every surface, as in 0.8; auto, by throughput from the fifth segment on; or off, which requires "
              "--max-depth N",

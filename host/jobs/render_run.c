@@ -140,12 +140,6 @@ static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *er
     return EC_OK;
 }
 
-void ec_frame_share_close(ec_frame_share *share)
-{
-    for (uint32_t i = 0; share->is_open && i < share->device_count; i++) ec_cl_close(&share->cl[i]);
-    share->is_open = false;
-}
-
 ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
 {
     const ec_listener *listener = job->listener;

@@ -74,6 +74,10 @@ static ec_result check_combinations(const ec_option *options, int count, const b
     if ((asked->fstop > 0) != (asked->focus > 0))
         return ec_usage(err, "--fstop and --focus go together: how wide the lens is, and how far away it is sharp; give --%s too",
                         asked->fstop > 0 ? "focus" : "fstop");
+    if (asked->light_paths > 0 && asked->sample != EC_SAMPLE_MIS)
+        return ec_usage(err, "--light-paths and --sample %s: light paths are weighed against both other ways; leave one out", ec_sample_names[asked->sample]);
+    if (asked->light_paths > 0 && asked->clamp > 0)
+        return ec_usage(err, "--light-paths and --clamp: light paths bring the light that a clamp would take; leave one out");
     if (asked->survival == 1 && asked->max_depth == 0)
         return ec_usage(err, "--rr off belongs with a finite --max-depth: nothing else would end a path; give --max-depth N too");
     return EC_OK;
@@ -120,7 +124,9 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
 static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
-    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0);
+    if (o->light_paths > 0 && request->adaptive == EC_ADAPTIVE_ON)
+        return ec_usage(err, "--light-paths and --adaptive: light paths fall where they will, not on the pixels that are due; leave one out");
+    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && o->light_paths == 0);
     if (o->adaptive && ec_render_replicates(o) < 2)
         return ec_usage(err, "--adaptive and --replicates 1: a single replicate does not tell where noise is; give 2 or more");
     return EC_OK;

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/freed.h"
+#include "pack/casters.h"
 #include "pack/distribution.h"
 #include "pack/light_bounds.h"
 #include "pack/light_order.h"
@@ -95,6 +96,7 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
     share_out(pack);
     pack->light_node_count = 2 * lamps - 1;
     for (uint32_t i = 0; i < lamps; i++) trail_of[ids[i]] = trails[i];
+    if (pack->emission) memcpy(pack->emission + ec_emission_trails(pack->light_count), trail_of, pack->light_count * sizeof *trail_of);
     for (uint32_t p = 0; p < pack->prim_count; p++) {
         uint32_t light = pack->light_of_prim[p];
         pack->light_of_prim[p] = light == EC_NO_ID ? 0 : trail_of[light];

@@ -13,7 +13,14 @@
 #include "scene/scene.h"
 #include "shared/features.h"
 #include "shared/light_tree.h"
+#include "shared/params.h"
 #include "shared/scene_buffers.h"
+
+/* A sphere about what bends or mirrors light sharply. */
+typedef struct ec_caster {
+    float centre[3], radius; /* recentred frame */
+    float share;             /* of the light paths that are aimed at it */
+} ec_caster;
 
 typedef struct ec_pack {
     ec_scene_view plain;           /* what was packed */
@@ -44,6 +51,11 @@ typedef struct ec_pack {
     float lamp_share;              /* lamps' part of all lights' power */
     double lamp_power;             /* W, of luminance: what is shared among lamps as their pmf has it */
     uint32_t light_tree_numbers;   /* of 2^31 numbers those by which light sampling goes to the tree */
+    uint32_t caster_count;         /* 0: nothing for light paths to be aimed at, or nobody asked */
+    ec_caster casters[EC_CASTERS_MOST];
+    size_t emission_words;
+    uint32_t *emission;            /* as kernels/lib/light_path.h has it */
+    double mean_radiance;          /* of luminance, about, if all that lights emit went through the scene's sphere */
     uint32_t environment_width, environment_height;
     float *environment_texels;     /* height + 1 rows, the first one twice: R, G, B and the scale of the patch right of and below the
                                       texel's middle (kernels/lib/environment.h); NULL where the environment is constant */
@@ -103,6 +115,9 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
 bool ec_pack_wants_light_tree(const ec_pack *pack);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
+
+/* Finds casters, and which lights shine on them; before there is a light tree. */
+ec_result ec_pack_casters(ec_pack *pack, ec_error *err);
 
 /* Makes pack->lights those of integrators that sum over lights at their centres: triangles in one plane, edge to edge, as one;
  * small bodies as one point, with their radius in pdf_a; without the environment, and without those of which nothing comes. Nothing samples

@@ -61,6 +61,11 @@ static void get_clamp(const ec_render_options *o, ec_setting_value *v)
     *v = o->clamp > 0 ? (ec_setting_value){REAL(o->clamp)} : (ec_setting_value){NONE("off")};
 }
 
+static void get_light_paths(const ec_render_options *o, ec_setting_value *v)
+{
+    *v = o->light_paths > 0 ? (ec_setting_value){REAL(o->light_paths)} : (ec_setting_value){NONE("0")};
+}
+
 static void get_without(const ec_render_options *o, ec_setting_value *v)
 {
     ec_feature_names(o->without, v->made, sizeof v->made);
@@ -78,6 +83,7 @@ const ec_setting ec_settings[] = {
     {"max-depth", "max_depth", "eclat.maxDepth", EC_IDENTITY_BY_VALUE, get_max_depth},
     {"rr", "rr", "eclat.rr", EC_IDENTITY_BY_VALUE, get_rr},
     {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reports: with what it took, report/error_text.h */
+    {"light-paths", "light_paths", "eclat.lightPaths", EC_IDENTITY_BY_VALUE, get_light_paths},
     {"terminator", "terminator", "eclat.terminator", EC_IDENTITY_BY_VALUE, get_terminator},
     {"scattering", "scattering", "eclat.scattering", EC_IDENTITY_BY_CONTENT, get_scattering},
     {"light-choice", "light_choice", "eclat.lightChoice", EC_IDENTITY_BY_CONTENT, get_light_choice},

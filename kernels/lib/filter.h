@@ -3,6 +3,7 @@
 #ifndef EC_LIB_FILTER_H
 #define EC_LIB_FILTER_H
 
+#include "../shared/params.h"
 #include "geometry.h"
 #include "sampler.h"
 
@@ -22,6 +23,8 @@ typedef struct hit_filter {
 #define FILTER_GEOMETRY {prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places, motion}
 /* times: of paths, by slot. */
 #define HAS_TIMES (HAS(MOTION) && motion != 0)
+/* Do shadow rays come from the camera, to be culled as its others? Those of light paths do. */
+#define CAMERA_SHADOWS(bounce) (HAS(LIGHT_PATHS) && ((bounce) & EC_LIGHT_BOUNCE) != 0u)
 
 /* Random key of a ray: bounce counts the vertices before it, shadow rays differ from path rays. */
 EC_FN lane_u filter_key(uint seed, lane_u pixel, lane_u sample, uint bounce, bool is_shadow)

@@ -19,6 +19,7 @@ typedef struct lights {
                                   far, which come first, and of all others together */
     environment env;
     global const float *tree;  /* ec_light_node by word; NULL: by power alone */
+    global const uint *emission; /* with LIGHT_PATHS: which light sends them (light_path.h) */
 } lights;
 
 typedef struct light_sample {
@@ -32,6 +33,8 @@ typedef struct light_sample {
     v3 end_error;    /* error bound of the end point */
     v3 end_normal;   /* unit; zero where there is no surface */
     lane_i valid;
+    lane_u id;       /* with LIGHT_PATHS: which light; of a triangle 1 / area */
+    lane_f per_area;
 } light_sample;
 
 /* One light's 16 words. */
@@ -243,24 +246,28 @@ EC_FN light_sample light_sample_lamp(const light_record *l, const geometry *g, l
     return light_sample_triangle(l, g, &part, m, p, u1, u2);
 }
 
+/* What a spot sends along a direction, of what it sends along its axis; of a point all. cosine: between both. */
+EC_FN lane_f light_falloff(const light_record *l, lane_f cosine)
+{
+    lane_f cone = min(max((cosine - l->c.y) * l->c.x, F(0.0f)), F(1.0f));
+    return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT ? cone * cone : F(1.0f);
+}
+
 /* KHR_lights_punctual: inverse square with a smooth range window, cone falloff squared. */
 EC_FN light_sample light_sample_punctual(const light_record *l, lane_i m, v3 p, float scene_radius)
 {
     light_sample s;
     v3 position = l->a, direction = l->b;
     lane_i is_directional = (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_DIRECTIONAL;
-    lane_i is_spot = (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT;
     v3 to_point = v3_sub(position, p);
     v3 far = v3_scale(direction, F(-2.0f * scene_radius)); /* leaves the scene from any point in it */
     s.towards = v3_select(is_directional, far, to_point);
     lane_f d2 = v3_dot(to_point, to_point);
     s.wi = v3_select(is_directional, v3_negate(direction), v3_scale(to_point, 1.0f / sqrt(d2)));
-    lane_f cone = (-v3_dot(s.wi, direction) - l->c.y) * l->c.x;
-    cone = min(max(cone, F(0.0f)), F(1.0f));
     lane_f inverse_range = l->c.z;
     lane_f x2 = d2 * inverse_range * inverse_range;
     lane_f window = min(max(1.0f - x2 * x2, F(0.0f)), F(1.0f));
-    lane_f falloff = window / d2 * (is_spot ? cone * cone : F(1.0f));
+    lane_f falloff = window / d2 * light_falloff(l, -v3_dot(s.wi, direction));
     s.radiance = v3_scale(l->emission, is_directional ? F(1.0f) : falloff);
     s.pdf = l->pmf;
     s.is_delta = m;
@@ -339,6 +346,11 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
         lane_u stretched = count > 1u ? choice_stretch(rest, params->environment_stretch, r1) : r1; /* its share is the first */
         light_sample other = light_sample_environment(l, m & is, stretched, r2, params->scene_radius);
         s = HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) ? light_sample_select(is, other, s) : other;
+    }
+    if (HAS(LIGHT_PATHS)) {
+        v3 n = v3_cross(v3_sub(one.b, one.a), v3_sub(one.c, one.a));
+        s.id = id;
+        s.per_area = 2.0f / sqrt(v3_dot(n, n));
     }
     return s;
 }

@@ -12,7 +12,7 @@
 /* How many panes a shadow ray may pass: each is a vertex, as for a path, but not for Whitted's. */
 EC_FN uint panes_most(constant ec_params *params, uint bounce)
 {
-    uint left = params->max_depth - min(bounce + 2u, params->max_depth);
+    uint left = params->max_depth - min((bounce & ~EC_LIGHT_BOUNCE) + 2u, params->max_depth);
     return params->panes_count ? min(left, EC_PANES_MOST) : EC_PANES_MOST;
 }
 

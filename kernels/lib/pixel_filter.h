@@ -21,4 +21,38 @@ EC_FN lane_f pixel_filter_place(global const float *table, lane_f u)
     return 0.5f + (u < 0.5f ? -distance : distance);
 }
 
+/* The filter's density at this distance from the pixel's centre, along one axis. */
+EC_FN lane_f pixel_filter_density(global const float *table, lane_f distance)
+{
+    lane_u low = U(0); /* table[low] > distance >= table[low + 1]: entries fall */
+    for (uint step = EC_FILTER_STEPS / 2; step; step /= 2) {
+        lane_u middle = low + step;
+        low = gather_f(table, middle) > distance ? middle : low;
+    }
+    lane_f far = gather_f(table, low), near = gather_f(table, low + 1u), width = far - near;
+    lane_f at = (to_lane_f(low) + (far - distance) / width) / (float)EC_FILTER_STEPS;
+    return ((distance < table[0]) & (width > 0.0f)) ? 2.0f * at * at * at / ((float)EC_FILTER_STEPS * width) : F(0.0f);
+}
+
+/* A pixel that a place in the picture (pixels) counts for, along one axis: u in [0, 1) chooses by the filters' densities there, whose sum
+ * is *weight. The pixel that it lies in where there is a box. */
+EC_FN lane_f pixel_filter_choose(global const float *table, lane_f place, lane_f u, lane_f *weight)
+{
+    *weight = F(1.0f);
+    if (!HAS(PIXEL_FILTER) || !table) return floor(place);
+    lane_f first = ceil(place - 0.5f - table[0]), sum = F(0.0f), chosen = first;
+    uint count = (uint)(2.0f * table[0]) + 2u;
+    EC_LOOP
+    for (uint k = 0; k < count; k++) sum += pixel_filter_density(table, fabs(place - (first + (float)k) - 0.5f));
+    lane_f goal = u * sum, before = F(0.0f);
+    EC_LOOP
+    for (uint k = 0; k < count; k++) {
+        lane_f density = pixel_filter_density(table, fabs(place - (first + (float)k) - 0.5f));
+        chosen = ((goal >= before) & (density > 0.0f)) ? first + (float)k : chosen;
+        before += density;
+    }
+    *weight = sum;
+    return chosen;
+}
+
 #endif

@@ -166,7 +166,7 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
     if (first >= wave) return;
     turns t = turns_of(queue_left(counters->shadows[step], params->part, first), params->part, first);
     const accel a = ACCEL_ARGUMENTS;
-    hit_filter filter = {FILTER_GEOMETRY, U(0), false, 0};
+    hit_filter filter = {FILTER_GEOMETRY, U(0), CAMERA_SHADOWS(bounce), 0};
     walk walks[INTERLEAVE];
     radiance = radiance_of(params, radiance, bounce + 2);
     for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {

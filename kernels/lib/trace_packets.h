@@ -70,7 +70,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
         lane_u slot = packet_load_u(shadows, wave, EC_SHADOW_SLOT, &at);
         slot = active ? slot : U(0);
         lane_i panes = !TRUE_MASK;
-        hit_filter filter = {FILTER_GEOMETRY, U(0), false, HAS(PANES) ? &panes : 0};
+        hit_filter filter = {FILTER_GEOMETRY, U(0), CAMERA_SHADOWS(bounce), HAS(PANES) ? &panes : 0};
         if (HAS_TIMES) filter.g.time = gather_f(times, slot);
         if (HAS(ALPHA)) {
             lane_u pixel, sample;

@@ -70,7 +70,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                        p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
     uint slot = as_uint(p[EC_SHADOW_SLOT * wave]);
     lane_i panes = !TRUE_MASK;
-    hit_filter filter = {FILTER_GEOMETRY, U(0), false, HAS(PANES) ? &panes : 0};
+    hit_filter filter = {FILTER_GEOMETRY, U(0), CAMERA_SHADOWS(bounce), HAS(PANES) ? &panes : 0};
     if (HAS_TIMES) filter.g.time = F(times[slot]);
     if (HAS(ALPHA)) {
         lane_u pixel, sample;

@@ -49,6 +49,7 @@
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
 #define EC_FEATURE_LIGHT_TREE EC_FEATURE_BIT(43)
 #define EC_FEATURE_LAMP_PARTS EC_FEATURE_BIT(44)
+#define EC_FEATURE_LIGHT_PATHS EC_FEATURE_BIT(45)
 #define EC_FEATURE_MOTION EC_FEATURE_BIT(49)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
 #define EC_FEATURE_PANES EC_FEATURE_BIT(52)
@@ -97,6 +98,7 @@
     X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
     X(LIGHT_TREE, "light-tree")                                                                    \
     X(LAMP_PARTS, "lamp-parts")                                                                    \
+    X(LIGHT_PATHS, "light-paths")                                                                  \
     X(MOTION, "motion-blur")                                                                       \
     X(INSTANCES, "instances")                                                                      \
     X(PANES, "transparent-shadows")                                                                \

@@ -13,6 +13,8 @@ typedef enum ec_sample {
     EC_SAMPLE_HEMISPHERE /* only what directions meet that are uniform over the hemisphere about ns */
 } ec_sample;
 
+#define EC_CASTERS_MOST 8
+
 typedef struct ec_params {
     /* Camera, recentred frame: d = forward + x * right + y * up with x, y in [-1, 1]; right and up hold the field of view.
      * Orthographic: o = origin + x * right + y * up, d = forward. A screen window (screen, below) reaches beyond [-1, 1] or not so far. */
@@ -56,8 +58,16 @@ typedef struct ec_params {
     ec_float limit;               /* of the luminance of a sample's indirect light; 0: none */
     ec_uint backdrop;             /* the environment is hidden from camera rays, which a background takes the place of */
     ec_float screen[4];           /* x and y of the picture's top left corner; what they grow by from pixel to pixel */
+    /* Light paths (lib/light_path.h). */
+    ec_float light_paths;         /* for each camera path; 0: none */
+    ec_float film_area;           /* of the picture in the plane at distance 1, of an orthographic camera in the scene */
+    ec_float splat_unit;          /* radiance of one step of the splats' sums, a power of two */
+    ec_uint film_rows;            /* that the films hold, from film_row on */
+    ec_uint caster_count;
+    ec_float casters[EC_CASTERS_MOST][4]; /* spheres about what bends light: centre, radius */
+    ec_float caster_share[EC_CASTERS_MOST]; /* probability that a light path is aimed at one */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 324);
+EC_ASSERT_SIZE(ec_params, 504);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u
@@ -70,6 +80,14 @@ enum ec_batch_field { EC_BATCH_R, EC_BATCH_G, EC_BATCH_B, EC_BATCH_LARGEST, EC_B
 
 /* An entry of a pixel list: the pixel's number (kernels/lib/film.h), and how many samples it has. */
 #define EC_LIST_WORDS 2
+
+/* What light paths bring to a pixel in a batch, words: R, G, B as 64-bit sums in splat units, the low word first, and the largest luminance
+ * of one, a float. */
+#define EC_SPLAT_WORDS 8
+enum ec_splat_word { EC_SPLAT_R = 0, EC_SPLAT_G = 2, EC_SPLAT_B = 4, EC_SPLAT_LARGEST = 6 };
+
+/* Bounces of light paths are told from those of camera paths by this bit. */
+#define EC_LIGHT_BOUNCE 0x40000000u
 
 /* Invalid (non-finite) contributions, counted by stage in ec_counters.invalid. */
 enum ec_stage {

@@ -15,7 +15,17 @@ enum ec_path_field {
     EC_PATH_MEDIUM_FIELDS,
     EC_PATH_SX = EC_PATH_MEDIUM_FIELDS,    /* with PANES only: where light was last looked for; EC_PATH_PDF is of that point */
     EC_PATH_SY, EC_PATH_SZ,
-    EC_PATH_PANE_FIELDS
+    EC_PATH_PANE_FIELDS,
+    EC_PATH_K = EC_PATH_PANE_FIELDS,       /* with LIGHT_PATHS only: see lib/light_path.h */
+    EC_PATH_LIGHT_FIELDS
+};
+
+/* What a light path is of, by slot: with LIGHT_PATHS only. */
+enum ec_light_slot_field {
+    EC_LIGHT_SLOT_PIXEL,                   /* uint: place in the films that its shadow ray's light goes to */
+    EC_LIGHT_SLOT_LIGHT,                   /* uint: its light */
+    EC_LIGHT_SLOT_B1, EC_LIGHT_SLOT_B2,    /* where on it, if it is a triangle */
+    EC_LIGHT_SLOT_FIELDS
 };
 
 enum ec_hit_field {

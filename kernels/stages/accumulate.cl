@@ -70,8 +70,27 @@ static void write_cut(global const float *cut, uint count, float limit, global f
     out[EC_BATCH_FOURTHS] = squares;
 }
 
+static float splat_sum(global const uint *words, float unit)
+{
+    return ((float)words[1] * 4294967296.0f + (float)words[0]) * unit;
+}
+
+/* Adds what light paths brought to the pixel: of its tail the largest is known, and powers are at most what they would be if all were that. */
+static void add_splats(global const uint *splat, float unit, uint batch, global float *out)
+{
+    float rgb[3], largest = max(out[EC_BATCH_LARGEST], as_float(splat[EC_SPLAT_LARGEST]));
+    for (uint c = 0; c < 3; c++) rgb[c] = splat_sum(splat + 2 * c, unit);
+    float y = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2], most = as_float(splat[EC_SPLAT_LARGEST]);
+    if (!(most > 0.0f)) return;
+    for (uint c = 0; c < 3; c++) out[c] += rgb[c] / (float)batch;
+    float before = out[EC_BATCH_LARGEST] / largest, before2 = before * before, at_most = most / largest, count = y / largest;
+    out[EC_BATCH_SQUARES] = out[EC_BATCH_SQUARES] * before2 + at_most * count;
+    out[EC_BATCH_FOURTHS] = out[EC_BATCH_FOURTHS] * before2 * before2 + at_most * at_most * at_most * count;
+    out[EC_BATCH_LARGEST] = largest;
+}
+
 kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count,
-                          global float *radiance, global float *batch_film)
+                          global float *radiance, global float *batch_film, global const uint *splats)
 {
     uint i = get_global_id(0), wave = params->wave, batch = params->batch;
     if (i >= pixel_count) return;
@@ -86,5 +105,7 @@ kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global c
         out[c] = is_finite_bits(mean) ? mean : sum_of(in, batch, 1.0f / (float)batch); /* their sum is more than a float holds */
     }
     write_tail(radiance + i * batch, wave, batch, out);
+    if (params->light_paths > 0.0f)
+        add_splats(splats + EC_SPLAT_WORDS * ((ulong)(y - params->film_row) * params->width + x), params->splat_unit, batch, out);
     if (params->apart) write_cut(radiance + 3 * (ulong)wave + i * batch, batch, params->limit, out);
 }

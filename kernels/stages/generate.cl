@@ -30,6 +30,10 @@ kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel,
     else
         d = v3_add(d, offset);
     if (HAS(LENS) && !params->orthographic) lens_shift(&v, params->lens_nearness, random, &o, &d);
+    if (HAS(LIGHT_PATHS) && params->light_paths > 0.0f) { /* d has 1 along the axis: 1 / its length is the cosine */
+        lane_f cosine = params->orthographic ? F(1.0f) : 1.0f / sqrt(v3_dot(d, d));
+        queue_store_f(paths, wave, EC_PATH_K, i, -params->light_paths * params->film_area * cosine * cosine * cosine);
+    }
     if (!params->orthographic) d = v3_normalize(d);
 
     queue_store_v3(paths, wave, EC_PATH_OX, i, o);

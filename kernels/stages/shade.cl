@@ -5,23 +5,33 @@
 #include "../lib/dispersion.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
+#include "../lib/light_path.h"
 #include "../lib/roulette.h"
 #include "../lib/shadow.h"
 #include "../lib/terminator.h"
 
-/* Weight of light that a path meets, against light_pdf; 1 where light sampling cannot find it or is not asked to. */
-EC_FN lane_f found_weight(uint sample, lane_f path_pdf, lane_f light_pdf)
+/* Weight of light that a path meets, against light_pdf; 1 where light sampling cannot find it or is not asked to. by_light: density of light
+ * paths over that of this one. */
+EC_FN lane_f found_weight(uint sample, lane_f path_pdf, lane_f light_pdf, lane_f by_light)
 {
     lane_i sampled = (path_pdf >= 0.0f) & (light_pdf > 0.0f);
+    if (HAS(LIGHT_PATHS)) {
+        lane_f r = sampled ? light_pdf / path_pdf : F(0.0f);
+        if (sample == EC_SAMPLE_MIS) return 1.0f / fma(r, r, fma(by_light, by_light, F(1.0f)));
+    }
     if (sample == EC_SAMPLE_MIS) return sampled ? mis_weight(path_pdf, light_pdf) : F(1.0f);
     if (sample == EC_SAMPLE_LIGHT) return sampled ? F(0.0f) : F(1.0f);
     return F(1.0f);
 }
 
-/* Weight of light that a shadow ray joins to: the same shares the other way round. */
-EC_FN lane_f joined_weight(uint sample, const light_sample *l, lane_f path_pdf)
+/* Weight of light that a shadow ray joins to: the same shares the other way round. by_light: density of light paths. */
+EC_FN lane_f joined_weight(uint sample, const light_sample *l, lane_f path_pdf, lane_f by_light)
 {
     lane_f weight = F(sample == EC_SAMPLE_LIGHT ? 1.0f : 0.0f);
+    if (HAS(LIGHT_PATHS) && sample == EC_SAMPLE_MIS) {
+        lane_f p = l->is_delta ? F(0.0f) : path_pdf / l->pdf, t = by_light / l->pdf;
+        return 1.0f / fma(p, p, fma(t, t, F(1.0f)));
+    }
     if (sample == EC_SAMPLE_MIS) weight = mis_weight(l->pdf, path_pdf);
     return l->is_delta ? F(1.0f) : weight;
 }
@@ -56,14 +66,16 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const float *motion, global const float *times,
                      global const float *light_table, global const uint *light_shares,
                      global const float *environment_texels, global const uint *environment_table,
-                     global const float *light_tree, global const uint *light_trails, global const float *lamp_parts)
+                     global const float *light_tree, global const uint *light_trails, global const float *lamp_parts,
+                     global const uint *emission_table)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
-    lights light = {light_table, light_shares, {params, environment_texels, environment_table}, light_tree};
+    lights light = {light_table, light_shares, {params, environment_texels, environment_table}, light_tree, emission_table};
+    const bool by_light = HAS(LIGHT_PATHS) && params->light_paths > 0.0f;
 
     lane_i active = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
@@ -75,6 +87,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     g.parts = lamp_parts;
     lane_i found = active & (prim != EC_NO_ID);
     v3 wo = v3_negate(d);
+    lane_f k = F(0.0f);
+    if (by_light) k = queue_load_f(paths, wave, EC_PATH_K, i);
 
     v3 emitted = v3_zero();
     lane_i emits = !TRUE_MASK;
@@ -83,7 +97,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         if (any_lane(missed)) {
             lane_f pdf;
             v3 Le = environment_look_up(&light.env, d, &pdf);
-            emitted = v3_scale(Le, found_weight(params->sample, path_pdf, pdf));
+            lane_f share = F(0.0f);
+            if (by_light && any_lane(missed & (k > 0.0f))) share = k > 0.0f ? k * emission_environment(&light, pdf, o, wo) : F(0.0f);
+            emitted = v3_scale(Le, found_weight(params->sample, path_pdf, pdf, share));
             emits = missed;
         }
     }
@@ -119,7 +135,14 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             }
             lane_f pdf = light_found_pdf(&g, &h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = coat_emission(&g, &h, m, wo, surface_emission(&g, &h, m, emission));
-            Le = v3_scale(Le, found_weight(params->sample, path_pdf, pdf));
+            lane_f share = F(0.0f);
+            lane_i known = m & (k > 0.0f) & !h.placed;
+            if (by_light && any_lane(known)) {
+                lane_u id = emission_light(&light, known ? prim : U(0));
+                known = known & (id != EC_NO_ID);
+                share = k * emission_lamp(&light, known, id, triangle_per_area(h.p0, h.p1, h.p2), s.p, wo, fabs(v3_dot(s.ng, wo)));
+            }
+            Le = v3_scale(Le, found_weight(params->sample, path_pdf, pdf, known ? share : F(0.0f)));
             emitted = v3_select(m, Le, emitted);
             emits = emits | m;
         }
@@ -159,6 +182,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     v3 start = HAS(TERMINATOR) && params->terminator && normals ? terminator_origin(&g, &h, &s, &lifted) : s.p;
     v3 above = surface_offset(start, s.p_error, s.ng, wo);
 
+    lane_f way2 = F(0.0f), wo_z = b.wo.z;
+    if (by_light) {
+        v3 way = v3_sub(s.p, source);
+        way2 = v3_dot(way, way);
+    }
     lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
         lane_f pdf_bsdf;
@@ -166,12 +194,17 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         light_sample l = light_sample_one(&light, &g, joins, above, r1, r2);
         v3 wi_local = surface_to_local(&s, l.wi);
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
-        lane_f weight = joined_weight(params->sample, &l, pdf_bsdf);
+        lane_f share = F(0.0f);
+        if (by_light && any_lane(joins & (k != 0.0f))) {
+            lane_f k_here = light_path_k(params, &s, k, way2, wo, l.wi, wo_z, wi_local.z, pdf_bsdf, lifted, !TRUE_MASK);
+            share = k_here > 0.0f ? k_here * pdf_bsdf * emission_sampled(&light, &l, joins, above) : F(0.0f);
+        }
+        lane_f weight = joined_weight(params->sample, &l, pdf_bsdf, share);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
         if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
         lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local, lifted);
-        shadow_push(params, shadows, counters->shadows[step], i, above, leave(&s, above, l.wi, wi_local), &l, arriving, slot,
-                    left_behind(&s, l.wi, lifted, prim), m, invalid + EC_STAGE_SHADE);
+        shadow_push(params, shadows, counters->shadows[step], i, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot,
+                    left_behind(&s, l.wi, lifted, prim), l.target, m, invalid + EC_STAGE_SHADE);
     }
 
     sample_pair_u(random, pair + EC_PAIR_BSDF, &r1, &r2);
@@ -190,6 +223,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         alive = alive & (u_survives < survival);
         beta = v3_scale(beta, 1.0f / survival);
     }
+    lane_i straight = !TRUE_MASK; /* by a pane */
+    if (HAS(PANES)) straight = (next_way.pdf < 0.0f) & (next_way.wi.z < 0.0f) & !b.refracts;
     uint bits = mask_bits(alive);
     if (!bits) return;
     uint at = queue_reserve(counters->rays[step + 1], params->part, i, popcount(bits));
@@ -197,8 +232,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     queue_push_v3(next, wave, EC_PATH_OX, at, origin, bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);
     queue_push_v3(next, wave, EC_PATH_BR, at, beta, bits);
+    if (by_light) {
+        k = light_path_k(params, &s, k, way2, wo, wi, wo_z, next_way.wi.z, next_way.pdf, lifted, straight);
+        queue_push_f(next, wave, EC_PATH_K, at, k, bits);
+    }
     if (HAS(PANES)) {
-        lane_i straight = (next_way.pdf < 0.0f) & (next_way.wi.z < 0.0f) & !b.refracts;
         next_way.pdf = straight ? path_pdf : next_way.pdf;
         queue_push_v3(next, wave, EC_PATH_SX, at, v3_select(straight, source, origin), bits);
     }

@@ -42,5 +42,5 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
         arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
     }
     v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
-    shadow_push(params, shadows, counters->shadows[step], i, s.p, from, &l, arriving, slot, prim, lit, invalid + EC_STAGE_SHADE);
+    shadow_push(params, shadows, counters->shadows[step], i, from, shadow_end(s.p, &l), arriving, slot, prim, l.target, lit, invalid + EC_STAGE_SHADE);
 }

@@ -270,9 +270,9 @@ class Going(FramesCase):
         for name in names:
             with open(self.path(name), "rb") as file:
                 whole[name] = file.read()
-        third, flipped = len(whole[names[0]]) // 3, bytearray(whole[names[1]])
-        flipped[-third] ^= 1
-        damaged = [whole[names[0]][:-third] + b"\xff" * third, bytes(flipped), whole[names[2]][:-third],
+        part, flipped = len(whole[names[0]]) // 8, bytearray(whole[names[1]])
+        flipped[-part] ^= 1
+        damaged = [whole[names[0]][:-part] + b"\xff" * part, bytes(flipped), whole[names[2]][:-part],
                    whole[names[3]][:-30]]
         for name, content in zip(names, damaged):
             with open(self.path(name), "wb") as file:

@@ -64,7 +64,7 @@ static void check_wave(ec_cl *cl, cl_program program, uint32_t batch, uint32_t f
     }
     for (int i = 0; i < EC_BATCH_FIELDS * PIXELS; i++) film[i] = -7;
     const kernel_array arrays[] = {IN(&params, 1), SCALAR(first), IN(has_list ? list : NULL, EC_LIST_WORDS * PIXELS), SCALAR(count),
-                                   IN(radiance, 3 * wave), OUT(film, EC_BATCH_FIELDS * PIXELS)};
+                                   IN(radiance, 3 * wave), OUT(film, EC_BATCH_FIELDS * PIXELS), IN((uint32_t *)NULL, 1)};
     if (!kernel_call(cl, program, "ec_accumulate", (count + 63) / 64 * 64, 64, arrays, sizeof arrays / sizeof *arrays)) return;
     memset(is_of_wave, 0, sizeof is_of_wave);
     for (uint32_t i = 0; i < count; i++) {

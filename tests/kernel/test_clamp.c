@@ -46,7 +46,7 @@ static bool run_batch(ec_cl *cl, cl_program program, float limit, sums *expected
     for (uint32_t i = 0; i < SETS * WAVE; i++) radiance[i] = sample_of(i % WAVE / BATCH, i / WAVE >= 3);
     for (uint32_t i = 0; i < WAVE; i++) add_sample(radiance + i, limit, &expected[i / BATCH]);
     const kernel_array arrays[] = {IN(&params, 1), SCALAR(first), IN(list, EC_LIST_WORDS * PIXELS), SCALAR(count), IN(radiance, SETS * WAVE),
-                                   OUT(film_of, EC_BATCH_FIELDS * PIXELS)};
+                                   OUT(film_of, EC_BATCH_FIELDS * PIXELS), IN((uint32_t *)NULL, 1)};
     return kernel_call(cl, program, "ec_accumulate", 64, 64, arrays, sizeof arrays / sizeof *arrays);
 }
 

@@ -1,0 +1,211 @@
+#include "pack/casters.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/freed.h"
+#include "base/luminance.h"
+#include "pack/distribution.h"
+#include "pack/light_order.h"
+#include "scene/texture_range.h"
+
+#define PI 3.14159265358979323846
+#define SHARP_ROUGHNESS 0.4 /* wider lobes are met by camera paths often enough */
+#define LEAST_SHARE 0.02    /* of the light paths, for each caster and light */
+#define WORTH_SPLITTING 0.7 /* two spheres for one, where they are so much smaller together */
+
+/* Does it bend light, or mirror most of it, within a narrow lobe? Panes bend none. */
+static bool casts(const ec_scene *scene, const ec_material *m)
+{
+    float least, most;
+    ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
+    if (m->unlit || m->roughness * least > SHARP_ROUGHNESS) return false;
+    return (ec_refracts(m) && m->transmission > 0.1f) || m->metallic > 0.5f;
+}
+
+typedef struct box {
+    float low[3], high[3];
+} box;
+
+typedef struct boxes {
+    box *list;
+    size_t count;
+} boxes;
+
+static void add_point(box *b, const float p[3])
+{
+    for (int k = 0; k < 3; k++) b->low[k] = fminf(b->low[k], p[k]), b->high[k] = fmaxf(b->high[k], p[k]);
+}
+
+static const box no_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+/* Boxes of triangles that cast; those of a mesh that is kept once in each of its places. */
+static ec_result find_boxes(const ec_scene *s, boxes *all, ec_error *err)
+{
+    EC_FREED bool *is = calloc(s->material_count + 1, sizeof *is);
+    size_t most = ec_scene_flat_count(s);
+    for (uint32_t i = 0; i < s->placed_count; i++) most += s->shapes[s->placed[i].shape].count;
+    all->list = malloc((most + 1) * sizeof *all->list);
+    if (!is || !all->list) return ec_fail(err, "out of memory for %zu triangles", most);
+    for (uint32_t m = 0; m < s->material_count; m++) is[m] = casts(s, &s->materials[m]);
+    for (uint32_t t = 0; t < ec_scene_flat_count(s); t++) {
+        if (!is[s->triangle_material[t]]) continue;
+        box *b = &all->list[all->count++];
+        *b = no_box;
+        for (int v = 0; v < 3; v++) add_point(b, s->positions + 3 * (size_t)s->indices[3 * (size_t)t + v]);
+    }
+    for (uint32_t i = 0; i < s->placed_count; i++) {
+        const ec_shape *shape = &s->shapes[s->placed[i].shape];
+        for (uint32_t t = shape->first; t < shape->first + shape->count; t++) {
+            if (!is[s->triangle_material[t]]) continue;
+            box *b = &all->list[all->count++];
+            *b = no_box;
+            for (int v = 0; v < 3; v++) {
+                float p[3];
+                ec_placed_point(&s->placed[i], s->positions + 3 * (size_t)s->indices[3 * (size_t)t + v], p);
+                add_point(b, p);
+            }
+        }
+    }
+    return EC_OK;
+}
+
+typedef struct cluster {
+    size_t first, end; /* of the boxes */
+    bool is_whole;     /* not worth splitting */
+    ec_caster sphere;
+} cluster;
+
+static ec_caster sphere_about(const box *list, size_t first, size_t end)
+{
+    box all = no_box;
+    double r2 = 0;
+    ec_caster c = {.share = 0};
+    for (size_t i = first; i < end; i++) add_point(&all, list[i].low), add_point(&all, list[i].high);
+    for (int k = 0; k < 3; k++) c.centre[k] = 0.5f * (all.low[k] + all.high[k]);
+    for (size_t i = first; i < end; i++) {
+        double d2 = 0;
+        for (int k = 0; k < 3; k++) {
+            const double far = fmax(c.centre[k] - (double)list[i].low[k], list[i].high[k] - (double)c.centre[k]);
+            d2 += far * far;
+        }
+        r2 = fmax(r2, d2);
+    }
+    c.radius = (float)(sqrt(r2) * 1.0001);
+    return c;
+}
+
+/* Halves a cluster where its box is longest; into whatever of both is there. False if they are little smaller together. */
+static bool split(box *list, const cluster *c, cluster *a, cluster *b)
+{
+    box all = no_box;
+    int axis = 0;
+    for (size_t i = c->first; i < c->end; i++) add_point(&all, list[i].low), add_point(&all, list[i].high);
+    for (int k = 1; k < 3; k++)
+        if (all.high[k] - all.low[k] > all.high[axis] - all.low[axis]) axis = k;
+    const float middle = all.low[axis] + all.high[axis];
+    size_t at = c->first;
+    for (size_t i = c->first; i < c->end; i++) {
+        if (list[i].low[axis] + list[i].high[axis] >= middle) continue;
+        const box one = list[i];
+        list[i] = list[at];
+        list[at++] = one;
+    }
+    if (at == c->first || at == c->end) return false;
+    *a = (cluster){.first = c->first, .end = at, .sphere = sphere_about(list, c->first, at)};
+    *b = (cluster){.first = at, .end = c->end, .sphere = sphere_about(list, at, c->end)};
+    const double r = c->sphere.radius, ra = a->sphere.radius, rb = b->sphere.radius;
+    return ra * ra + rb * rb < WORTH_SPLITTING * r * r;
+}
+
+/* Largest first, as long as there is room for one more. */
+static uint32_t make_clusters(boxes *all, cluster clusters[EC_CASTERS_MOST])
+{
+    uint32_t count = 0;
+    if (all->count) clusters[count++] = (cluster){.end = all->count, .sphere = sphere_about(all->list, 0, all->count)};
+    while (count && count < EC_CASTERS_MOST) {
+        uint32_t largest = count;
+        for (uint32_t i = 0; i < count; i++)
+            if (!clusters[i].is_whole && (largest == count || clusters[i].sphere.radius > clusters[largest].sphere.radius)) largest = i;
+        if (largest == count) break;
+        cluster a, b;
+        clusters[largest].is_whole = !split(all->list, &clusters[largest], &a, &b);
+        if (clusters[largest].is_whole) continue;
+        clusters[largest] = a;
+        clusters[count++] = b;
+    }
+    return count;
+}
+
+/* W of luminance that a light sends to a sphere, about; power: of lamps for a pmf of 1. Lights of a range know no far. */
+static double flux(const ec_pack *pack, const ec_light_data *l, double power, const ec_caster *c)
+{
+    const uint32_t kind = l->kind & EC_LIGHT_KIND_MASK;
+    const double r2 = (double)c->radius * c->radius;
+    double d2 = 0;
+    if (kind == EC_KIND_ENVIRONMENT) return 4 * PI * PI * r2 * ec_luminance_of_floats(pack->environment_mean);
+    if (kind == EC_KIND_DIRECTIONAL) return PI * r2 * ec_luminance_of_floats(l->emission);
+    for (int k = 0; k < 3; k++) {
+        const double q = kind == EC_KIND_TRIANGLE ? (l->a[k] + (double)l->b[k] + l->c[k]) / 3 : l->a[k], d = q - c->centre[k];
+        d2 += d * d;
+    }
+    if (kind != EC_KIND_TRIANGLE && l->c[2] > 0.0f) return 0;
+    return power * l->pmf * fmin(0.5, r2 / (d2 > 0 ? d2 : r2));
+}
+
+static ec_result fill_emission(ec_pack *pack, double *weights, ec_error *err)
+{
+    const uint32_t n = pack->light_count;
+    pack->emission_words = ec_emission_prims(n) + pack->prim_count;
+    pack->emission = calloc(pack->emission_words + 1, sizeof *pack->emission);
+    if (!pack->emission) return ec_fail(err, "out of memory for %u lights", n);
+    ec_distribution_build(weights, n, (ec_distribution_entry *)pack->emission, weights);
+    for (uint32_t i = 0; i < n; i++) {
+        const float pmf = (float)weights[i];
+        memcpy(pack->emission + 2 * (size_t)n + i, &pmf, sizeof pmf);
+    }
+    memcpy(pack->emission + ec_emission_prims(n), pack->light_of_prim, pack->prim_count * sizeof *pack->emission);
+    return EC_OK;
+}
+
+ec_result ec_pack_casters(ec_pack *pack, ec_error *err)
+{
+    const uint32_t n = pack->light_count;
+    boxes all = {.count = 0};
+    cluster clusters[EC_CASTERS_MOST];
+    if (!n) return EC_OK;
+    ec_result result = find_boxes(&pack->plain.scene, &all, err);
+    const uint32_t count = result == EC_OK ? make_clusters(&all, clusters) : 0;
+    free(all.list);
+    EC_TRY(result);
+    EC_FREED double *weights = calloc(n, sizeof *weights);
+    if (!weights) return ec_fail(err, "out of memory for %u lights", n);
+    double lamps = 0, sum = 0, shares = 0, emitted = 0;
+    for (uint32_t i = 0; i < n; i++) lamps += ec_light_is_far(&pack->lights[i]) ? 0 : pack->lights[i].pmf;
+    const double power = lamps > 0 ? pack->lamp_power / lamps : 0;
+    for (uint32_t j = 0; j < count; j++) {
+        ec_caster *c = &clusters[j].sphere;
+        double own = 0;
+        for (uint32_t i = 0; i < n; i++) {
+            const double w = flux(pack, &pack->lights[i], power, c);
+            weights[i] += w;
+            own += w;
+        }
+        c->share = (float)own;
+        sum += own;
+    }
+    if (!(sum > 0) || !isfinite(sum)) return EC_OK;
+    for (uint32_t j = 0; j < count; j++) {
+        pack->casters[j] = clusters[j].sphere;
+        pack->casters[j].share = (float)(clusters[j].sphere.share / sum + LEAST_SHARE);
+        shares += pack->casters[j].share;
+    }
+    for (uint32_t j = 0; j < count; j++) pack->casters[j].share = (float)(pack->casters[j].share / shares);
+    const ec_caster scene = {.radius = pack->scene_radius};
+    for (uint32_t i = 0; i < n; i++)
+        emitted += ec_light_is_far(&pack->lights[i]) ? flux(pack, &pack->lights[i], power, &scene) : power * pack->lights[i].pmf;
+    pack->caster_count = count;
+    pack->mean_radiance = emitted / (4 * PI * PI * pack->scene_radius * pack->scene_radius);
+    return fill_emission(pack, weights, err);
+}

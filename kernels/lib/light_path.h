@@ -1,0 +1,223 @@
+/* Light paths: paths that start at lights and are joined to the camera at each of their vertices, a third way in which path tracing finds
+ * light (Veach 1997, chapter 10, with t = 1 and s > 1). They start towards spheres about what bends or mirrors light sharply, the casters.
+ *
+ * For one and the same path x_1 (seen by the camera) … x_k (on a light), let P, N and T be the densities with which directions sampled at
+ * x_k-1 find it, light sampling there, and light paths. Each way's light is weighed by the power heuristic over the three. With c and a
+ * directions at a vertex towards the camera and the light, Q the density of c where light paths sample it and P that of a,
+ *
+ *     T / P = E K,   K = M |ng a_1| / (|ng c_1| P_1) * product over i = 2 … k-1 of |ng a_i| Q_i / (|ng c_i| P_i)
+ *
+ * where M is camera paths' area at x_1 times light paths a camera path, and E light's density (emission_*). Weights need not know densities
+ * to the digit as long as all three strategies take the same ones: a BSDF that is sampled by its value has |ns a| Q = |ns c| P, times 1 /
+ * eta^2 where light is bent, since values are of basic radiance. So K stays what it is behind x_1, but for light_path_turn. It is 0 where no light path
+ * comes by: where c is the only direction that leads to a at x_1, where rays start above their facet (terminator.h), and where one of both
+ * is so low that the shading normal may have been bent (surface_seen_normal). */
+#ifndef EC_LIB_LIGHT_PATH_H
+#define EC_LIB_LIGHT_PATH_H
+
+#include "bsdf.h"
+#include "light.h"
+
+#define EC_K_MOST 1e30f
+#define EC_K_LOW 0.01f /* cosines to ns; those over it are not bent */
+
+/* Numbers of a light path: of number `path` of all those of one round of samples. seed: of the replicate's light paths. */
+EC_FN sampler light_path_sampler(uint seed, lane_u path, lane_u sample) { return sampler_make(seed, sample, path); }
+#define EC_PAIR_CASTER 0x80000001u
+
+EC_FN v3 caster_centre(constant ec_params *params, uint j)
+{
+    constant float *c = params->casters[j];
+    return v3_make(F(c[0]), F(c[1]), F(c[2]));
+}
+
+/* Density per solid angle, over all casters, of directions d from point q of a lamp: uniform in the cone about a sphere. */
+EC_FN lane_f aim_pdf(constant ec_params *params, v3 q, v3 d)
+{
+    lane_f sum = F(0.0f);
+    EC_LOOP
+    for (uint j = 0; j < params->caster_count; j++) {
+        v3 way = v3_sub(caster_centre(params, j), q);
+        lane_f d2 = v3_dot(way, way), radius = F(params->casters[j][3]), sine2 = radius * radius / d2;
+        lane_f cosine = sqrt(max(1.0f - sine2, F(0.0f)));
+        lane_f cone = v3_dot(way, d) >= cosine * sqrt(d2) ? 0.5f * EC_INV_PI * (1.0f + cosine) / sine2 : F(0.0f);
+        sum = fma(sine2 < 1.0f ? cone : F(0.25f * EC_INV_PI), F(params->caster_share[j]), sum);
+    }
+    return sum;
+}
+
+/* A direction so, to the caster about `centre`; u1, u2 in [0, 1). */
+EC_FN v3 aim_sample(v3 centre, lane_f radius, v3 q, lane_f u1, lane_f u2)
+{
+    v3 way = v3_sub(centre, q), s, t;
+    lane_f d2 = v3_dot(way, way), sine2 = radius * radius / d2, cos_phi, sin_phi = sincos_2pi(u1, &cos_phi);
+    lane_f rise = u2 * (sine2 < 1.0f ? sine2 / (1.0f + sqrt(max(1.0f - sine2, F(0.0f)))) : F(2.0f)); /* 1 - cosine */
+    v3 axis = v3_select(d2 > 0.0f, v3_scale(way, 1.0f / sqrt(d2)), v3_make(F(0.0f), F(0.0f), F(1.0f)));
+    v3_frame(axis, &s, &t);
+    lane_f sine = sqrt(max(rise * (2.0f - rise), F(0.0f)));
+    return v3_normalize(v3_fma(axis, 1.0f - rise, v3_fma(s, sine * cos_phi, v3_scale(t, sine * sin_phi))));
+}
+
+/* Density per area across d of the line through p along d: uniform over the casters' disks. */
+EC_FN lane_f aim_far_pdf(constant ec_params *params, v3 p, v3 d)
+{
+    lane_f sum = F(0.0f);
+    EC_LOOP
+    for (uint j = 0; j < params->caster_count; j++) {
+        v3 off = v3_cross(v3_sub(caster_centre(params, j), p), d);
+        float radius2 = params->casters[j][3] * params->casters[j][3];
+        sum += v3_dot(off, off) <= radius2 ? F(params->caster_share[j] * EC_INV_PI / radius2) : F(0.0f);
+    }
+    return sum;
+}
+
+/* Where such a line to the caster enters the scene. */
+EC_FN v3 aim_far_origin(constant ec_params *params, v3 centre, lane_f radius, v3 d, lane_f u1, lane_f u2)
+{
+    v3 s, t;
+    lane_f r = radius * sqrt(u2), cosine, sine = sincos_2pi(u1, &cosine);
+    v3_frame(d, &s, &t);
+    v3 on_disk = v3_fma(s, r * cosine, v3_fma(t, r * sine, centre));
+    return v3_fma(d, F(-2.0f * params->scene_radius) - radius, on_disk);
+}
+
+/* Light's density E for light paths. The table `emission`, in words: ec_distribution_entry of each light, then their probabilities, then their
+ * trails where there is a light tree, and the lights of triangles. */
+EC_FN lane_f emission_pmf(const lights *l, lane_u id)
+{
+    return as_lane_f(gather_u(l->emission, id + 2u * l->env.params->light_count));
+}
+/* The light of a triangle, or EC_NO_ID. */
+EC_FN lane_u emission_light(const lights *l, lane_u prim) { return gather_u(l->emission, prim + 4u * l->env.params->light_count); }
+
+/* Of point q of a lamp that is sampled with per_area, along d with this cosine to its normal. */
+EC_FN lane_f emission_lamp(const lights *l, lane_i m, lane_u id, lane_f per_area, v3 q, v3 d, lane_f cosine)
+{
+    lane_f pdf = emission_pmf(l, m ? id : U(0)) * per_area * aim_pdf(l->env.params, q, d) / cosine;
+    return (m & (cosine > 0.0f)) ? pdf : F(0.0f);
+}
+/* Of a far light, its direction having density pdf among its own, along d through p. */
+EC_FN lane_f emission_far(const lights *l, lane_u id, lane_f pdf, v3 p, v3 d)
+{
+    return emission_pmf(l, id) * pdf * aim_far_pdf(l->env.params, p, d);
+}
+/* Of the environment, always the first light, where light sampling has density pdf. */
+EC_FN lane_f emission_environment(const lights *l, lane_f pdf, v3 p, v3 d)
+{
+    lane_f own = pdf / F(l->env.params->environment_pmf);
+    return pdf > 0.0f ? emission_far(l, U(0), own, p, d) : F(0.0f);
+}
+
+/* 1 / area of the triangle. */
+EC_FN lane_f triangle_per_area(v3 a, v3 b, v3 c)
+{
+    v3 n = v3_cross(v3_sub(b, a), v3_sub(c, a));
+    return 2.0f / sqrt(v3_dot(n, n));
+}
+
+/* Of what light sampling has chosen for p. */
+EC_FN lane_f emission_sampled(const lights *l, const light_sample *s, lane_i m, v3 p)
+{
+    v3 d = v3_negate(s->wi);
+    lane_f e = F(0.0f);
+    if (HAS(AREA_LIGHTS)) {
+        lane_i is = m & (s->target != EC_NO_ID);
+        e = emission_lamp(l, is, s->id, s->per_area, v3_add(p, s->towards), d, fabs(v3_dot(s->end_normal, d)));
+    }
+    if (HAS(PUNCTUAL_LIGHTS)) {
+        lane_i is = m & s->is_delta, far = is & s->is_far;
+        v3 q = v3_add(p, s->towards);
+        lane_f near = emission_pmf(l, is ? s->id : U(0)) * aim_pdf(l->env.params, q, d) / v3_dot(s->towards, s->towards);
+        e = is ? (far ? emission_far(l, far ? s->id : U(0), F(1.0f), p, d) : near) : e;
+    }
+    if (HAS(ENVIRONMENT)) e = (m & s->is_far & !s->is_delta) ? emission_environment(l, s->pdf, p, d) : e;
+    return e;
+}
+
+/* Is there no light path by this vertex, that goes from wo to wi (local: z) and starts lifted or not? A wall that is narrower than directions
+ * resolve from one side only is one; so is a mirroring coat that is tilted. */
+EC_FN lane_i light_path_misses(const surface *s, lane_f wo_z, lane_f wi_z, lane_i lifted)
+{
+    lane_i passes = wi_z < 0.0f, none = (fabs(wo_z) <= EC_K_LOW) | (fabs(wi_z) <= EC_K_LOW) | (lifted & !passes);
+    if (HAS(SMOOTH) && HAS(TRANSMISSION)) {
+        lane_f there = s->eta > 0.0f ? s->alpha_ggx * fabs(s->eta - 1.0f) / s->eta : F(0.0f);
+        none = none | (passes & s->refracts & !s->displaced & (s->smooth != 0) & (there >= EC_SMOOTH_ALPHA));
+        none = none | (passes & s->refracts & !s->displaced & (s->smooth == 0) & (there < EC_SMOOTH_ALPHA));
+    }
+    if (HAS(CLEARCOAT) && HAS_BENDING) {
+        v3 away = v3_sub(s->coat_ns, s->ns);
+        none = none | ((s->coat > 0.0f) & s->coat_smooth & (v3_dot(away, away) > 0.0f));
+    }
+    return none;
+}
+
+/* |ng a| Q / (|ng c| P) at a vertex between c and a (local: z). */
+EC_FN lane_f light_path_turn(const surface *s, v3 c, v3 a, lane_f c_z, lane_f a_z)
+{
+    lane_f turn = fabs(v3_dot(s->ng, a) * c_z) / fabs(v3_dot(s->ng, c) * a_z);
+    return (s->refracts & (c_z * a_z < 0.0f)) ? turn / (s->eta * s->eta) : turn;
+}
+
+/* K behind a vertex that is left by wi with density pdf, < 0: the only direction. k: before it, < 0 where it is the first one; way2: squared
+ * length of the way from the camera to that. straight: a pane is passed, and is no vertex. */
+EC_FN lane_f light_path_k(constant ec_params *params, const surface *s, lane_f k, lane_f way2, v3 wo, v3 wi, lane_f wo_z, lane_f wi_z, lane_f pdf,
+                          lane_i lifted, lane_i straight)
+{
+    lane_f first = -k * (params->orthographic ? F(1.0f) : way2) * fabs(v3_dot(s->ng, wi)) / (fabs(v3_dot(s->ng, wo)) * pdf);
+    first = pdf > 0.0f ? min(first, F(EC_K_MOST)) : F(0.0f);
+    lane_f later = min(k * light_path_turn(s, wo, wi, wo_z, wi_z), F(EC_K_MOST));
+    lane_f next = light_path_misses(s, wo_z, wi_z, lifted) ? F(0.0f) : k < 0.0f ? first : later;
+    return straight ? k : next;
+}
+
+/* What passes a smooth surface in the single direction wi (local), by all layers. */
+EC_FN v3 bsdf_passing(const bsdf *b, lane_f wi_z)
+{
+    lane_f rest;
+    bsdf_fresnel(b, min(max(b->wo.z, F(0.0f)), F(1.0f)), &rest);
+#define PASSING_LEAVES(feature, layer) \
+    if (HAS(feature)) rest *= layer##_leaves(&b->layer, wi_z);
+    LAYERS_UP(PASSING_LEAVES)
+    if (HAS(CLEARCOAT)) rest *= 1.0f - b->coat.share;
+    return v3_scale(b->base, rest * b->transmission);
+}
+
+/* The density with which light sampling at p would have found the light path's start, `source`, which lies against d. *is_delta: nothing but
+ * light sampling and light paths finds it. */
+EC_FN lane_f light_path_joined_pdf(const lights *l, const geometry *g, lane_i m, lane_u id, lane_f b1, lane_f b2, v3 p, v3 source, v3 d)
+{
+    constant ec_params *params = l->env.params;
+    id = m ? id : U(0);
+    light_record one = light_load(l, id);
+    lane_u type = one.kind & EC_LIGHT_KIND_MASK;
+    lane_f chance = F(1.0f);
+    if (HAS(LIGHT_TREE) && l->tree) {
+        lane_i near = m & (type != EC_KIND_DIRECTIONAL) & (type != EC_KIND_ENVIRONMENT);
+        if (any_lane(near)) {
+            lane_f pmf = light_tree_pmf(l->tree, near, p, params->light_tree_numbers, gather_u(l->emission, id + 3u * params->light_count));
+            chance = near ? pmf : chance;
+        }
+    }
+    lane_f pdf = one.pmf * chance;
+    if (HAS(AREA_LIGHTS)) {
+        lane_i is = m & (type == EC_KIND_TRIANGLE);
+        if (any_lane(is)) {
+            hit_point h = hit_point_make(g, is ? one.prim : U(0), b1, b2);
+            v3 way = v3_sub(p, source), n = v3_normalize(v3_cross(v3_sub(h.p1, h.p0), v3_sub(h.p2, h.p0)));
+            h.light_pdf_a *= chance;
+            lane_f found = light_found_pdf(g, &h, is, p, v3_dot(way, way), fabs(v3_dot(n, d)));
+            pdf = is ? found : pdf;
+        }
+    }
+    if (HAS(ENVIRONMENT)) {
+        lane_i is = m & (type == EC_KIND_ENVIRONMENT);
+        lane_f found;
+        if (any_lane(is)) {
+            environment_look_up(&l->env, v3_negate(d), &found);
+            pdf = is ? found : pdf;
+        }
+    }
+    return pdf;
+}
+
+#endif

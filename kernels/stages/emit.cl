@@ -1,0 +1,113 @@
+/* Light paths begin: a caster, a light, a point on it and a direction to the caster (lib/light_path.h); of a far light its direction and a
+ * point of the caster's disk. Reads: params, lights. Writes: the path queue, those that carry light; what each slot's path is of, and zeroes the
+ * slots' radiance. Next: intersect. Slots are counted as of camera rays, with light paths in the place of pixels. */
+#include "../lib/film.h"
+#include "../lib/light_path.h"
+#include "../lib/medium.h"
+#include "../lib/queue.h"
+
+kernel void ec_emit(constant ec_params *params, uint seed, uint first_pixel, uint path_count, volatile global ec_counters *counters,
+                    volatile global uint *invalid, global float *paths, global float *radiance, global float *light_slots,
+                    global const float *prims, global const float *indices, global const float *normals, global const float *tangents,
+                    global const float *uvs, global const float *colors, global const float *materials,
+                    global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places,
+                    global const float *motion, global float *times, global const float *light_table,
+                    global const float *environment_texels, global const uint *environment_table, global const uint *emission_table)
+{
+    uint i = get_global_id(0) * LANES, wave = params->wave, count = params->light_count;
+    if (i >= path_count) return;
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
+    lights light = {light_table, 0, {params, environment_texels, environment_table}, 0, emission_table};
+    lane_u slot = LANE_NUMBERS + i, path, sample, r1, r2, first, share;
+    lane_i active = LANE_NUMBERS < path_count - i;
+    slot_to_pixel(params, first_pixel, 0, slot, &path, &sample);
+    sampler random = light_path_sampler(seed, path, sample);
+    lane_f u_caster, unused, u3, u4;
+    if (HAS(MOTION) && motion) {
+        sample_pair(random, EC_PAIR_TIME, &g.time, &unused);
+        queue_store_f(times, wave, 0, i, g.time);
+    }
+    queue_store_v3(radiance, wave, 0, i, v3_zero());
+
+    sample_pair(random, EC_PAIR_CASTER, &u_caster, &unused);
+    v3 centre = caster_centre(params, 0);
+    lane_f radius = F(params->casters[0][3]);
+    float before = params->caster_share[0];
+    EC_LOOP
+    for (uint j = 1; j < params->caster_count; j++) {
+        lane_i is = u_caster >= before;
+        centre = v3_select(is, caster_centre(params, j), centre);
+        radius = is ? F(params->casters[j][3]) : radius;
+        before += params->caster_share[j];
+    }
+    sample_pair_u(random, EC_PAIR_PIXEL, &r1, &r2);
+    lane_u id = distribution_pick(emission_table, U(0), count, r1, &first, &share);
+    lane_f u1 = choice_rest(r1 - first, share, r1), u2 = to_unit(r2);
+    sample_pair_u(random, EC_PAIR_LENS, &r1, &r2);
+    u3 = to_unit(r1);
+    u4 = to_unit(r2);
+    light_record one = light_load(&light, id);
+    if (HAS(MOTION) && motion) light_move(&g, &one);
+    lane_u type = one.kind & EC_LIGHT_KIND_MASK;
+
+    v3 o = v3_zero(), d = v3_zero(), Le = v3_zero();
+    lane_f e = F(0.0f), b1 = F(0.0f), b2 = F(0.0f);
+    if (HAS(AREA_LIGHTS)) {
+        lane_i is = active & (type == EC_KIND_TRIANGLE);
+        if (any_lane(is)) {
+            lane_f root = sqrt(u1);
+            b1 = u2 * root;
+            b2 = root - b1;
+            lane_f b0 = 1.0f - b1 - b2;
+            v3 q = v3_fma(one.c, b2, v3_fma(one.b, b1, v3_scale(one.a, b0)));
+            v3 sum = v3_fma(v3_abs(one.c), b2, v3_fma(v3_abs(one.b), b1, v3_scale(v3_abs(one.a), b0)));
+            v3 n = v3_normalize(v3_cross(v3_sub(one.b, one.a), v3_sub(one.c, one.a)));
+            d = aim_sample(centre, radius, q, u3, u4);
+            lane_f cosine = v3_dot(n, d);
+            is = is & ((cosine > 0.0f) | ((one.kind & EC_LIGHT_TWO_SIDED) != 0u));
+            Le = v3_select(is, light_radiance(&one, &g, is, b1, b2, v3_negate(d)), Le);
+            e = emission_lamp(&light, is, id, triangle_per_area(one.a, one.b, one.c), q, d, fabs(cosine));
+            o = surface_offset(q, v3_scale(sum, F(EC_GAMMA(9))), n, d);
+        }
+    }
+    if (HAS(PUNCTUAL_LIGHTS)) {
+        lane_i is = active & (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL), far = is & (type == EC_KIND_DIRECTIONAL);
+        v3 along = v3_select(far, one.b, aim_sample(centre, radius, one.a, u3, u4));
+        o = v3_select(is, v3_select(far, aim_far_origin(params, centre, radius, one.b, u3, u4), one.a), o);
+        d = v3_select(is, along, d);
+        lane_f near_e = emission_pmf(&light, id) * aim_pdf(params, o, d);
+        e = is ? (far ? emission_far(&light, id, F(1.0f), o, d) : near_e) : e;
+        Le = v3_select(is, v3_scale(one.emission, far ? F(1.0f) : light_falloff(&one, v3_dot(d, one.b))), Le);
+    }
+    if (HAS(ENVIRONMENT)) {
+        lane_i is = active & (type == EC_KIND_ENVIRONMENT);
+        if (any_lane(is)) {
+            lane_f pdf;
+            v3 found, wi = environment_sample(&light.env, r1, r2, &pdf, &found), down = v3_negate(wi);
+            v3 from = aim_far_origin(params, centre, radius, down, u1, u2);
+            o = v3_select(is, from, o);
+            d = v3_select(is, down, d);
+            Le = v3_select(is, found, Le);
+            e = is ? emission_environment(&light, pdf, from, down) : e;
+        }
+    }
+    v3 beta = v3_scale(Le, 1.0f / e);
+    lane_i alive = active & (e > 0.0f) & (v3_max_component(Le) > 0.0f), finite = v3_is_finite(beta);
+    uint bad = mask_bits(alive & !finite), bits = mask_bits(alive & finite);
+    if (bad) atomic_add(invalid + EC_STAGE_GENERATE, popcount(bad));
+    queue_store_f(light_slots, wave, EC_LIGHT_SLOT_LIGHT, i, as_lane_f(id));
+    queue_store_f(light_slots, wave, EC_LIGHT_SLOT_B1, i, b1);
+    queue_store_f(light_slots, wave, EC_LIGHT_SLOT_B2, i, b2);
+    if (!bits) return;
+    uint at = queue_reserve(counters->rays[0], params->part, i, popcount(bits));
+    lane_i is_delta = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
+    queue_push_v3(paths, wave, EC_PATH_OX, at, o, bits);
+    queue_push_v3(paths, wave, EC_PATH_DX, at, d, bits);
+    queue_push_v3(paths, wave, EC_PATH_BR, at, beta, bits);
+    queue_push_f(paths, wave, EC_PATH_PDF, at, F(EC_HUGE) * (is_delta ? F(-1.0f) : F(1.0f)), bits);
+    queue_push_f(paths, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
+    queue_push_f(paths, wave, EC_PATH_PRIM, at, as_lane_f(type == EC_KIND_TRIANGLE ? one.prim : U(EC_NO_ID)), bits);
+    queue_push_f(paths, wave, EC_PATH_MEDIUM, at, as_lane_f(U(MEDIA_NESTED(params) ? 0u : EC_NO_ID)), bits);
+    queue_push_v3(paths, wave, EC_PATH_SX, at, o, bits);
+    queue_push_f(paths, wave, EC_PATH_K, at, e, bits);
+}

@@ -1,0 +1,188 @@
+/* What a light path meets: it is joined to the camera, and goes on. Reads: path queue, hits, what slots' paths are of. Writes: the shadow queue
+ * (next: connect, splat), the pixels that its light goes to, the next path queue (next: intersect).
+ * Values are those that a camera path has there, so at each vertex the surface is looked at from both sides: for directions sampled it is
+ * seen from the light (a), for values from the camera (c). A light path carries beta = Le / E * product of value |ng c| / (|ng a| pdf), and for
+ * its weight (lib/light_path.h) E, in EC_PATH_K, and N / P of its last vertex, in EC_PATH_PDF: EC_HUGE before there is one, negative of
+ * punctual lights. */
+#include "../lib/bsdf.h"
+#include "../lib/dispersion.h"
+#include "../lib/film_point.h"
+#include "../lib/light_path.h"
+#include "../lib/roulette.h"
+#include "../lib/shadow.h"
+#include "../lib/terminator.h"
+
+#define EC_NO_VERTEX 1e38f
+#define EC_RATIO_LEAST 1e-30f
+
+EC_FN lane_i agrees(const surface *s, v3 w, v3 w_local) { return v3_dot(s->ng, w) * w_local.z > 0.0f; }
+
+kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
+                           volatile global ec_counters *counters, volatile global uint *invalid, global const float *paths,
+                           global const float *hits, global float *next, global float *shadows, global float *light_slots,
+                           global const float *filter, global const float *camera_keys, global const float *prims,
+                           global const float *indices, global const float *normals, global const float *tangents,
+                           global const float *uvs, global const float *colors, global const float *materials,
+                           global const float *texture_table, global const uint *texels, constant float *srgb,
+                           global const float *places, global const float *motion, global const float *times,
+                           global const float *light_table, global const float *environment_texels,
+                           global const uint *environment_table, global const float *light_tree, global const float *lamp_parts,
+                           global const uint *emission_table)
+{
+    uint i = get_global_id(0) * LANES, wave = params->wave;
+    if (i >= wave) return;
+    uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
+    if (!left) return;
+    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
+    lights light = {light_table, 0, {params, environment_texels, environment_table}, light_tree, emission_table};
+    const uint vertex = bounce & ~EC_LIGHT_BOUNCE;
+
+    lane_i active = LANE_NUMBERS < left;
+    v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
+    v3 beta = queue_load_v3(paths, wave, EC_PATH_BR, i);
+    lane_f ratio = queue_load_f(paths, wave, EC_PATH_PDF, i), e = queue_load_f(paths, wave, EC_PATH_K, i);
+    lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i), prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
+    slot = active ? slot : U(0);
+    if (HAS(MOTION) && motion) g.time = gather_f(times, slot);
+    g.parts = lamp_parts;
+    lane_i found = active & (prim != EC_NO_ID);
+    if (!any_lane(found)) return;
+    v3 a = v3_negate(d), source = o;
+    if (HAS(PANES) && vertex) source = queue_load_v3(paths, wave, EC_PATH_SX, i);
+
+    prim = found ? prim : U(0);
+    hit_point h = hit_point_make(&g, prim, queue_load_f(hits, wave, EC_HIT_B1, i), queue_load_f(hits, wave, EC_HIT_B2, i));
+    bool nested = MEDIA_NESTED(params);
+    surface sa;
+    surface_place(&h, a, &sa);
+    surface_frame(&g, &h, found, a, &sa);
+    if (nested) sa.bodies = found ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
+    surface_material(&g, &h, found, &sa);
+    lane_u flags = as_lane_u(material_quad(&g, &h, EC_WORD_emission).d), medium = U(EC_NO_ID);
+    if (HAS_MEDIUM) medium = medium_of(&h, &sa, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
+    if (HAS(ABSORPTION)) {
+        v3 way = v3_sub(sa.p, o);
+        beta = v3_mul(beta, medium_transmittance(&g, medium_material(&g, medium, nested), sqrt(v3_dot(way, way))));
+    }
+    lane_i scatters = found;
+    if (HAS(UNLIT)) scatters = scatters & ((flags & EC_MATERIAL_UNLIT) == 0u);
+    if (vertex + 2 > params->max_depth || !any_lane(scatters)) return;
+
+    lane_u path, sample, r1, r2;
+    slot_to_pixel(params, first_pixel, 0, slot, &path, &sample);
+    sampler random = light_path_sampler(seed, path, sample);
+    uint pair = EC_PAIR_BOUNCE(vertex);
+    lane_f u_survives, u_pass, u1, u2, unused;
+    sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass);
+    if (HAS(DISPERSION)) disperse(&g, &h, scatters, &u_pass, &sa, &beta);
+    bsdf ba = bsdf_make(&sa, surface_to_local(&sa, a), params->multiple != 0u);
+    sample_pair_u(random, pair + EC_PAIR_BSDF, &r1, &r2);
+    bsdf_direction way_on = bsdf_sample(&ba, false, to_unit(r1), chooser_make(r2), u_pass);
+    lane_i single = way_on.pdf < 0.0f, below = way_on.wi.z < 0.0f, straight = single & below & !ba.refracts;
+
+    sample_pair_u(random, pair + EC_PAIR_LIGHT, &r1, &r2);
+    u1 = to_unit(r1);
+    u2 = to_unit(r2);
+    camera_axes axes = camera_axes_make(params);
+    if (HAS(MOTION) && motion && camera_keys) axes = camera_axes_at(camera_keys, motion, g.time);
+    film_point film = film_point_of(params, &axes, filter, sa.p, u1, u2, to_unit(hash_u(r1)), to_unit(hash_u(r2)));
+
+    /* N of the first vertex. */
+    lane_i is_first = fabs(ratio) > EC_NO_VERTEX, is_delta = ratio < 0.0f;
+    lane_f n_joined = F(0.0f), e_here = e;
+    if (any_lane(scatters & is_first)) {
+        lane_u id = as_lane_u(gather_f(light_slots + EC_LIGHT_SLOT_LIGHT * wave, slot));
+        v3 between = v3_sub(sa.p, source);
+        n_joined = light_path_joined_pdf(&light, &g, scatters & is_first, id, gather_f(light_slots + EC_LIGHT_SLOT_B1 * wave, slot),
+                                         gather_f(light_slots + EC_LIGHT_SLOT_B2 * wave, slot), sa.p, source, d);
+        lane_u type = HAS(PUNCTUAL_LIGHTS) ? as_lane_u(gather_f(light_table, id * EC_LIGHT_WORDS + 12u)) & EC_LIGHT_KIND_MASK : U(EC_KIND_TRIANGLE);
+        lane_i near = is_first & ((type == EC_KIND_POINT) | (type == EC_KIND_SPOT));
+        e_here = near ? e / v3_dot(between, between) : e;
+    }
+
+    EC_LOOP
+    for (uint turn = 0; turn < 2; turn++) {
+        bool joins = turn == 0;
+        v3 c = joins ? film.to_camera : surface_to_world(&sa, way_on.wi);
+        lane_i m = scatters & (joins ? film.seen : way_on.pdf != 0.0f);
+        if (!any_lane(m) || (!joins && vertex + 3 > params->max_depth)) continue;
+        surface s;
+        v3 beta_c = beta;
+        surface_place(&h, c, &s);
+        surface_frame(&g, &h, m, c, &s);
+        lane_i crosses = v3_dot(sa.ng, c) < 0.0f;
+        if (nested) s.bodies = (crosses & sa.refracts) ? sa.beyond : sa.bodies;
+        surface_material(&g, &h, m, &s);
+        unused = F(0.5f);
+        if (HAS(DISPERSION)) disperse(&g, &h, m, &unused, &s, &beta_c);
+        v3 c_local = surface_to_local(&s, c), a_local = surface_to_local(&s, a);
+        bsdf b = bsdf_make(&s, c_local, params->multiple != 0u);
+        lane_f pdf;
+        v3 value = bsdf_eval(&b, a_local, &pdf);
+        lane_i lifted = !TRUE_MASK;
+        if (HAS(TERMINATOR) && params->terminator && normals) (void)terminator_origin(&g, &h, &s, &lifted);
+        lane_i misses = light_path_misses(&s, c_local.z, a_local.z, lifted);
+        lane_i good = agrees(&s, a, a_local) & agrees(&s, c, c_local);
+        lane_f turn_cosines = fabs(v3_dot(s.ng, c)) / fabs(v3_dot(s.ng, a));
+        lane_f n_over_p = min(n_joined / pdf, F(EC_K_MOST));
+        if (joins) {
+            m = m & good & !misses & (pdf > 0.0f);
+            if (HAS(CULLING)) {
+                lane_u prim_flags = as_lane_u(gather_f(prims, geometry_prim(&g, prim) * EC_PRIM_WORDS + 11u));
+                m = m & (s.front | ((prim_flags & EC_PRIM_SINGLE_SIDED) == 0u));
+            }
+            lane_f kappa = F(params->light_paths), area = film.area;
+            lane_f t_over_p = e_here * min(kappa * area / (turn_cosines * pdf), F(EC_K_MOST));
+            lane_f np = (is_first ? n_over_p : fabs(ratio)) / t_over_p, pp = is_delta ? F(0.0f) : 1.0f / t_over_p;
+            lane_f weight = 1.0f / fma(np, np, fma(pp, pp, F(1.0f)));
+            v3 arriving = v3_scale(v3_mul(beta_c, value), turn_cosines * weight * film.weight / (area * kappa));
+            if (HAS(ABSORPTION)) {
+                lane_u near = (s.refracts & !s.front) ? h.material : U(params->camera_medium);
+                near = nested ? s.bodies : near;
+                arriving = v3_mul(arriving, medium_transmittance(&g, medium_material(&g, near, nested), sqrt(film.way2)));
+            }
+            scatter_f(light_slots + EC_LIGHT_SLOT_PIXEL * wave, slot, as_lane_f(film.place), mask_bits(m));
+            shadow_push(params, shadows, counters->shadows[step], i, film.o, surface_offset(s.p, s.p_error, s.ng, c), arriving, slot,
+                        U(EC_NO_ID), prim, m, invalid + EC_STAGE_SHADE);
+            continue;
+        }
+        v3 factor = v3_scale(value, turn_cosines / way_on.pdf);
+        if (HAS(SMOOTH)) {
+            v3 passing = bsdf_passing(&b, a_local.z), passing_a = bsdf_passing(&ba, way_on.wi.z);
+            lane_f per_chance = v3_max_component(way_on.weight) / v3_max_component(passing_a);
+            v3 alone = v3_select(below, v3_scale(passing, per_chance), way_on.weight);
+            lane_f cosines = turn_cosines * fabs(a_local.z) / fabs(c_local.z) * ((s.refracts & below) ? s.eta * s.eta : F(1.0f));
+            factor = v3_select(single, v3_scale(alone, cosines), factor);
+            if (HAS(TRANSMISSION)) good = good & (!single | !below | (b.facets.smooth != 0));
+        }
+        v3 before = beta_c;
+        beta_c = v3_mul(beta_c, factor);
+        lane_i alive = m & good & (straight | !misses) & (single | (pdf > 0.0f));
+        lane_i finite = v3_is_finite(beta_c);
+        uint bad = mask_bits(alive & !finite);
+        if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
+        alive = alive & finite & (v3_max_component(beta_c) > 0.0f);
+        if (vertex + 1 >= params->first_roulette) {
+            lane_f survival = roulette_survival(min(v3_max_component(beta_c) / v3_max_component(before), F(1.0f)), params->survival);
+            alive = alive & (u_survives < survival);
+            beta_c = v3_scale(beta_c, 1.0f / survival);
+        }
+        uint bits = mask_bits(alive);
+        if (!bits) return;
+        lane_f np = single ? F(0.0f) : n_over_p;
+        np = is_delta ? -max(np, F(EC_RATIO_LEAST)) : np;
+        np = (is_first & !straight) ? np : ratio;
+        v3 origin = surface_offset(s.p, s.p_error, s.ng, c);
+        uint at = queue_reserve(counters->rays[step + 1], params->part, i, popcount(bits));
+        queue_push_v3(next, wave, EC_PATH_OX, at, origin, bits);
+        queue_push_v3(next, wave, EC_PATH_DX, at, c, bits);
+        queue_push_v3(next, wave, EC_PATH_BR, at, beta_c, bits);
+        queue_push_v3(next, wave, EC_PATH_SX, at, v3_select(straight, source, origin), bits);
+        queue_push_f(next, wave, EC_PATH_PDF, at, np, bits);
+        queue_push_f(next, wave, EC_PATH_SLOT, at, as_lane_f(slot), bits);
+        queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(prim), bits);
+        queue_push_f(next, wave, EC_PATH_MEDIUM, at,
+                     as_lane_f(HAS_MEDIUM ? medium_towards(&h, &sa, medium, way_on.wi.z, nested) : U(EC_NO_ID)), bits);
+        queue_push_f(next, wave, EC_PATH_K, at, straight ? e : e_here * light_path_turn(&s, c, a, c_local.z, a_local.z), bits);
+    }
+}

@@ -1,0 +1,40 @@
+/* Light that shadow rays of light paths have brought to their slots goes to its pixels. Reads: the slots' radiance, which is zeroed, and
+ * pixels. Writes: the splats. Sums are of whole numbers, so that no bit depends on the order; what is under one step is rounded up as often as
+ * it is large. Last stage of a bounce of light paths. */
+#include "../lib/film.h"
+#include "../lib/math.h"
+#include "../lib/sampler.h"
+#include "../shared/path_state.h"
+
+#if LANES != 1
+#error "one work-item a slot: build with LANES 1"
+#endif
+
+/* A 64-bit sum as two words, for devices without atomics of so many bits: whoever makes the low one overflow carries. */
+static void add_fixed(volatile global uint *words, float steps, uint r)
+{
+    steps = min(steps, 1.8e19f);
+    ulong whole = (ulong)steps;
+    whole += (float)r * 2.3283064365386963e-10f < steps - (float)whole ? 1u : 0u;
+    if (!whole) return;
+    uint low = (uint)whole, high = (uint)(whole >> 32), before = atomic_add(words, low);
+    high += before > 0xffffffffu - low ? 1u : 0u;
+    if (high) atomic_add(words + 1, high);
+}
+
+kernel void ec_splat(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint path_count, global float *radiance,
+                     global const float *light_slots, volatile global uint *splats)
+{
+    uint slot = get_global_id(0), wave = params->wave, path, sample;
+    if (slot >= path_count) return;
+    float rgb[3];
+    for (uint c = 0; c < 3; c++) rgb[c] = radiance[c * wave + slot];
+    if (rgb[0] == 0.0f && rgb[1] == 0.0f && rgb[2] == 0.0f) return;
+    for (uint c = 0; c < 3; c++) radiance[c * wave + slot] = 0.0f;
+    slot_to_pixel(params, first_pixel, 0, slot, &path, &sample);
+    volatile global uint *words = splats + EC_SPLAT_WORDS * (ulong)as_uint(light_slots[EC_LIGHT_SLOT_PIXEL * wave + slot]);
+    uint r = hash_scalar(hash_scalar(hash_scalar(path) ^ seed) + sample * 0x9e3779b9u + bounce);
+    for (uint c = 0; c < 3; c++) add_fixed(words + 2 * c, rgb[c] / params->splat_unit, r = hash_scalar(r));
+    float y = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+    if (is_finite_bits(y)) atomic_max(words + EC_SPLAT_LARGEST, as_uint(y));
+}
