@@ -37,7 +37,7 @@ class LightPaths(Case):
     def test_bits(self):
         """Whatever order, width, structure or share."""
         whole = self.render(*JOB, "--spp", "32")["image_sha256"]
-        for other in [["--lanes", "8"], ["--lanes", "1"], ["--wave", "4096"], ["--accel", "kdtree"], ["--compile", "beside"]]:
+        for other in [["--lanes", "8"], ["--lanes", "1"], ["--wave", "4096"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]]:
             with self.subTest(other=other):
                 self.assertEqual(self.render(*JOB, "--spp", "32", *other)["image_sha256"], whole)
 
