@@ -39,11 +39,11 @@ class Several(Case):
                     timeout=timeout)
         return json.loads(self.assert_ok(run).stdout)
 
-    def assert_same(self, *job, env=None):
+    def assert_same(self, *job, env=None, scene=CORNELL):
         """One device's figures and planes."""
-        one = self.render(CORNELL, *SIZE, *job, device="0", env=env)
+        one = self.render(scene, *SIZE, *job, device="0", env=env)
         planes = read_exr(self.path("a.exr"))[1]
-        several = self.render(CORNELL, *SIZE, *job, env=env)
+        several = self.render(scene, *SIZE, *job, env=env)
         self.assertEqual({key: one[key] for key in RESULT}, {key: several[key] for key in RESULT})
         self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
         self.assertNotIn("devices", one)
@@ -60,6 +60,11 @@ class Several(Case):
         """From sample 512 on a wave is two rows of tiles of the seven: every batch is cut."""
         several = self.assert_same("--spp", "1024", "--wave", str(72 * 8 * 16 * 2))
         self.assertTrue(all(one["samples_per_pixel"] > 0 for one in several["devices"]), several["devices"])
+
+    @full
+    def test_light_paths(self):
+        several = self.assert_same("--spp", "41", "--light-paths", "0.5", scene=RING)
+        self.assertEqual(len(several["devices"]), 2)
 
     @full
     def test_error(self):
