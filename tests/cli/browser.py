@@ -5,7 +5,9 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
+import unittest
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
@@ -102,3 +104,26 @@ class Browser:
         clip = {"x": 0, "y": y, "width": width, "height": height, "scale": 1}
         with open(file, "wb") as to:
             to.write(base64.b64decode(self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip=clip)["data"]))
+
+
+def skip_without():
+    """For setUpModule: nothing here can be tested without a browser."""
+    if not CHROMIUM:
+        print("skipped: no chromium")
+        sys.exit(77)
+
+
+class PageCase(unittest.TestCase):
+    """Tests of one page, which `make` writes into a folder of its own and tells the path of."""
+
+    @classmethod
+    def make(cls, folder):
+        raise NotImplementedError
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="eclat-cli-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.path = cls.make(folder.name)
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.close)

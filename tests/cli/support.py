@@ -58,6 +58,16 @@ class Case(unittest.TestCase):
         return run
 
 
+def stand_in_renderer(folder, ending):
+    """Puts a program `my-renderer SCENE OPTIONS` into a folder, and the Cornell box as scene.gltf. ending: words of the shell after its options."""
+    path = os.path.join(folder, "my-renderer")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(f'#!/bin/sh\nscene=$1\nshift\nexec {ECLAT} render "$scene" "$@" {ending}\n')
+    os.chmod(path, 0o700)
+    shutil.copy(CORNELL, os.path.join(folder, "scene.gltf"))
+    shutil.copy(CORNELL.replace(".gltf", ".bin"), folder)
+
+
 # Scenes -------------------------------------------------------------------------------------------------------------
 
 def quad_scene(uri=None, material=None):

@@ -2,41 +2,32 @@
 """The page of `eclat compare --html`, in a real browser: no complaints, no requests, every view, an order by each column, from narrow to wide."""
 import json
 import os
-import sys
-import tempfile
 import unittest
 
-from browser import CHROMIUM, Browser
+from browser import PageCase, skip_without
 from support import eclat, write_exr
 from test_compare_pictures import encode, write_png
 
 W, H = 48, 32
 FACTORS = {"same.png": 1, "dark.png": 0.7, "slightly <b>&.png": 0.95}
 
-
-def setUpModule():
-    if not CHROMIUM:
-        print("skipped: no chromium")
-        sys.exit(77)
+setUpModule = skip_without
 
 
-class Page(unittest.TestCase):
+class Page(PageCase):
     @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="eclat-cli-")
-        cls.addClassCleanup(folder.cleanup)
+    def make(cls, folder):
         ramp = [[0.05 + 0.015 * (i % W), 0.3, 0.02 * (i // W)] for i in range(W * H)]
         for name, factor in FACTORS.items():
-            write_png(os.path.join(folder.name, name), W, H, [tuple(round(255 * encode(factor * v)) for v in p) for p in ramp])
+            write_png(os.path.join(folder, name), W, H, [tuple(round(255 * encode(factor * v)) for v in p) for p in ramp])
         planes = {c: [p[k] for p in ramp] for k, c in enumerate("RGB")}
-        write_exr(os.path.join(folder.name, "b.exr"), W, H, {**planes, **{f"stderr.{c}": [0.001] * (W * H) for c in "RGB"}})
-        cls.path = os.path.join(folder.name, "out.html")
-        run = eclat("compare", *FACTORS, "b.exr", "--tonemap", "none", "--html", "out.html", "--json", cwd=folder.name)
+        write_exr(os.path.join(folder, "b.exr"), W, H, {**planes, **{f"stderr.{c}": [0.001] * (W * H) for c in "RGB"}})
+        path = os.path.join(folder, "out.html")
+        run = eclat("compare", *FACTORS, "b.exr", "--tonemap", "none", "--html", "out.html", "--json", cwd=folder)
         if run.returncode != 1:
             raise AssertionError(run.stderr)
         cls.reports = json.loads(run.stdout)
-        cls.browser = Browser()
-        cls.addClassCleanup(cls.browser.close)
+        return path
 
     def setUp(self):
         self.browser.show(self.path)

@@ -2,29 +2,21 @@
 """The page of `eclat cost -o`, in a real browser: no complaints, no requests, curves on the canvas, the JSON's numbers."""
 import json
 import os
-import sys
-import tempfile
 import unittest
 
-from browser import CHROMIUM, Browser
+from browser import PageCase, skip_without
 from support import CORNELL, eclat
 
-
-def setUpModule():
-    if not CHROMIUM:
-        print("skipped: no chromium")
-        sys.exit(77)
+setUpModule = skip_without
 
 
-class Page(unittest.TestCase):
+class Page(PageCase):
     @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="eclat-cli-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.path = os.path.join(folder.name, "report.html")
-        figures = os.path.join(folder.name, "report.json")
+    def make(cls, folder):
+        path = os.path.join(folder, "report.html")
+        figures = os.path.join(folder, "report.json")
         for budget in (12, 24, 48, 96):  # kernels may have to be compiled
-            run = eclat("cost", CORNELL, "--size", "24x24", "--budget", f"{budget}s", "-o", cls.path, "--json", figures, cwd=folder.name)
+            run = eclat("cost", CORNELL, "--size", "24x24", "--budget", f"{budget}s", "-o", path, "--json", figures, cwd=folder)
             if run.returncode:
                 raise AssertionError(run.stderr)
             with open(figures, encoding="utf-8") as file:
@@ -32,8 +24,7 @@ class Page(unittest.TestCase):
             cls.curves = [r for r in cls.report["rungs"] if r.get("curve") and r["group"] not in ("effect", "lights") and any(p["error"] for p in r["curve"])]
             if len(cls.curves) >= 3:
                 break
-        cls.browser = Browser()
-        cls.addClassCleanup(cls.browser.close)
+        return path
 
     def show(self, **how):
         self.browser.show(self.path, **how)

@@ -4,21 +4,13 @@ import ast
 import json
 import os
 import re
-import shutil
-import stat
 import unittest
 
 import support
 import wheel
-from support import CORNELL, ECLAT, SOURCE
+from support import SOURCE
 
 NOTEBOOK = os.path.join(SOURCE, "docs", "examples", "how-many-samples.ipynb")
-# A renderer that knows nothing of its noise; WRONG are options by which it errs.
-RENDERER = f"""#!/bin/sh
-scene=$1
-shift
-exec {ECLAT} render "$scene" "$@" --replicates 1 --channels A -q $WRONG
-"""
 
 
 def recipe():
@@ -65,11 +57,8 @@ class Examples(support.Case):
         self.assertTrue(os.path.exists(self.path("picture.exr")) and os.path.exists(self.path("picture.png")))
 
     def test_the_recipe(self):
-        with open(self.path("my-renderer"), "w", encoding="utf-8") as file:
-            file.write(RENDERER)
-        os.chmod(file.name, stat.S_IRWXU)
-        shutil.copy(CORNELL, self.path("scene.gltf"))
-        shutil.copy(CORNELL.replace(".gltf", ".bin"), self.folder)
+        # It knows nothing of its noise; WRONG are options by which it errs.
+        support.stand_in_renderer(self.folder, "--replicates 1 --channels A -q $WRONG")
         os.symlink(os.path.join(SOURCE, "docs"), self.path("docs"))
         reference, check = recipe()
         self.assert_ok(self.run_here("sh", "-ec", reference))

@@ -3,17 +3,9 @@
 import os
 import re
 import shutil
-import stat
 import unittest
 
-from support import CORNELL, ECLAT, ENVIRONMENT, SOURCE, Case, eclat, png_size
-
-# A renderer that saves screenshots; HOW is what it does, wrong or right.
-RENDERER = f"""#!/bin/sh
-scene=$1
-shift
-exec {ECLAT} render "$scene" "$@" -q $HOW
-"""
+from support import ECLAT, ENVIRONMENT, SOURCE, Case, eclat, png_size, stand_in_renderer
 
 
 def recipe():
@@ -30,11 +22,7 @@ class YourRenderer(Case):
         return eclat("-ec", script, program="/bin/sh", cwd=self.folder, env={"PATH": path, "HOW": how})
 
     def test_the_page(self):
-        with open(self.path("my-renderer"), "w", encoding="utf-8") as file:
-            file.write(RENDERER)
-        os.chmod(file.name, stat.S_IRWXU)
-        shutil.copy(CORNELL, self.path("scene.gltf"))
-        shutil.copy(CORNELL.replace(".gltf", ".bin"), self.folder)
+        stand_in_renderer(self.folder, "-q $HOW")  # HOW is what it does, wrong or right
         reference, quiet, noisy, many = recipe()
         self.assert_ok(self.sh(reference))
         right = "--spp 64 --seed 1"
