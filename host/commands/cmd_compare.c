@@ -58,7 +58,7 @@ static ec_result check_output(const char *option, const char *path, const ec_com
     return ec_image_check_writable(path, err);
 }
 
-/* What is said of all pairs. */
+/* The reports of all pairs, as JSON and as text. */
 typedef struct results {
     cJSON *reports, *shown; /* arrays; shown: NULL where no page is wanted */
     char *text;             /* as for a terminal */

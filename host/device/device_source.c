@@ -16,7 +16,8 @@
 /* Seeds that differ in one bit must give numbers that differ in every bit. */
 uint32_t ec_render_seed(uint64_t seed) { return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + 1) >> 16); }
 
-uint32_t ec_light_path_seed(uint64_t seed, uint32_t replicate) { return ec_render_seed(ec_random_mix(seed + EC_RANDOM_STEP) + replicate); }
+/* … and a replicate's light paths. */
+static uint32_t light_path_seed(uint64_t seed, uint32_t replicate) { return ec_render_seed(ec_random_mix(seed + EC_RANDOM_STEP) + replicate); }
 
 static uint64_t pixels_of(const ec_device_source *s) { return (uint64_t)s->pipeline.params.width * s->rows; }
 
@@ -133,23 +134,22 @@ static ec_result choose_samples(ec_device_source *s, const ec_batch_order *order
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
 }
 
-/* The light paths of a batch: those of its replicate, as many for each round of samples. False where it is given up, or has failed. */
-static bool run_light_paths(ec_device_source *s, const ec_batch_order *order, ec_error *err, ec_result *result)
+/* The light paths of a batch: those of its replicate, as many for each round of samples. */
+static ec_result run_light_paths(ec_device_source *s, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
-    const uint32_t replicate = ec_schedule_batch(s->replicates, order->index).replicate, seed = ec_light_path_seed(s->seed, replicate);
+    const uint32_t replicate = ec_schedule_batch(s->replicates, order->index).replicate, seed = light_path_seed(s->seed, replicate);
     const uint32_t paths = (uint32_t)((double)p->params.light_paths * p->params.width * p->params.height + 0.5);
-    bool goes_on = true;
-    *result = ec_buffer_zero(p->cl, p->buffers[EC_ARG_SPLATS], 0, pixels_of(s) * 4 * EC_SPLAT_WORDS, err);
-    for (uint32_t first = 0; *result == EC_OK && goes_on && first < paths;) {
-        *result = ec_tiers_step(p, err);
-        uint32_t count = p->wave / p->params.batch;
+    if (!paths) return EC_OK;
+    EC_TRY(ec_buffer_zero(p->cl, p->buffers[EC_ARG_SPLATS], 0, pixels_of(s) * 4 * EC_SPLAT_WORDS, err));
+    for (uint32_t first = 0, count; *complete && first < paths; first += count) {
+        EC_TRY(ec_tiers_step(p, err));
+        count = p->wave / p->params.batch;
         if (count > paths - first) count = paths - first;
-        if (*result == EC_OK) *result = ec_pipeline_run_light_wave(p, seed, first, count, err);
-        first += count;
-        goes_on = order->go_on(order->user, order->done);
+        EC_TRY(ec_pipeline_run_light_wave(p, seed, first, count, err));
+        *complete = order->go_on(order->user, order->done);
     }
-    return *result == EC_OK && goes_on;
+    return EC_OK;
 }
 
 static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
@@ -158,15 +158,13 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     ec_pipeline *p = &s->pipeline;
     const uint32_t seed = ec_render_seed(s->seed);
     uint32_t before;
-    ec_result result = EC_OK;
     *complete = true;
     s->base.batches = 1;
     EC_TRY(choose_samples(s, order, &before, err));
     EC_TRY(upload_list(s, order, err));
     EC_TRY(prepare(s, order, err));
     uint32_t reached = order->done;
-    *complete = p->params.light_paths == 0 || run_light_paths(s, order, err, &result);
-    EC_TRY(result);
+    EC_TRY(run_light_paths(s, order, complete, err));
     while (reached < order->count && *complete) {
         EC_TRY(take_back(s, err));
         EC_TRY(ec_tiers_step(p, err));

@@ -90,7 +90,5 @@ static inline uint32_t ec_render_replicates(const ec_render_options *o) { return
 
 /* What the kernels seed a render of that seed with. */
 uint32_t ec_render_seed(uint64_t seed);
-/* … and a replicate's light paths. */
-uint32_t ec_light_path_seed(uint64_t seed, uint32_t replicate);
 
 #endif

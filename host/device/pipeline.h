@@ -56,7 +56,7 @@ void ec_pipeline_destroy(ec_pipeline *pipeline);
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err);
-/* Light paths first … first + count - 1 of each round of params.batch samples, into the splats; seed: ec_light_path_seed. */
+/* Light paths first … first + count - 1 of each round of params.batch samples, into the splats; seed: of the replicate's light paths. */
 ec_result ec_pipeline_run_light_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first, uint32_t count, ec_error *err);
 /* Samples dropped so far, by ec_stage. */
 ec_result ec_pipeline_read_invalid(ec_pipeline *pipeline, uint32_t counts[EC_STAGE_COUNT], ec_error *err);

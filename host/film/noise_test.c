@@ -43,7 +43,7 @@ static double own_variance(const ec_measured *image, uint64_t i)
     return image->se ? (double)image->se[i] * image->se[i] : 0;
 }
 
-/* Of a value alone. */
+/* Variance by which a single value is judged: a curve bends the tails of its noise. */
 static double single_variance(const ec_measured *image, uint64_t i)
 {
     return image->tail_se ? (double)image->tail_se[i] * image->tail_se[i] : own_variance(image, i);

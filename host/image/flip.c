@@ -90,7 +90,7 @@ static void make_filters(filters *f)
     f->colour_most = pow(hyab(green, blue), qc);
 }
 
-/* Of one row the weighted values are added to another, or of a row's places to their neighbours'. */
+/* Adds the weighted values of one row to another; shifted pointers add a row's values to their neighbours'. */
 static void add_row(const float *in, double weight, uint32_t width, float *out)
 {
     const float by = (float)weight;

@@ -86,7 +86,7 @@ const double *ec_srgb_bytes(void);        /* that of i / 255.0, 256 of them: a p
 /* ec_screen_pixels before the environment. in: 3 floats a pixel; out: 3 bytes a pixel. */
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap);
 
-/* The same of one pixel times `scale`, in place, from 0 to 1 and not rounded. */
+/* Maps one pixel, multiplied by `scale`, in place: sRGB values from 0 to 1, not rounded. */
 void ec_tonemap_pixel(double rgb[3], double scale, ec_tonemap tonemap);
 
 ec_result ec_png_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgb, ec_error *err);

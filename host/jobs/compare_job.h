@@ -6,7 +6,7 @@
 #include "jobs/compare_input.h"
 #include "report/compare_report.h"
 
-/* What is asked for; zero: as they are, or as --tonemap neutral shows them if one of them is a picture for a screen. */
+/* How two pictures are compared. All zero: both are linear as they are; where one is a picture for a screen, the other is shown by --tonemap neutral. */
 typedef struct ec_compare_options {
     ec_look look;             /* of linear pictures */
     bool is_shown;            /* so, even if both are linear */

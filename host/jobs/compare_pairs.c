@@ -61,7 +61,7 @@ static void free_list(struct dirent **list, int count)
     free(list);
 }
 
-/* Of those called like it the one with the ending that comes first. */
+/* Finds the entry called like name; if there are several, the one whose ending comes first in the table. */
 static const struct dirent *find(struct dirent *const *list, int count, const char *name)
 {
     const struct dirent *found = NULL;

@@ -15,8 +15,8 @@ typedef struct ec_compare_pairs {
     uint32_t count, alone; /* alone: pictures of the first folder without one of that name in the second */
 } ec_compare_pairs;
 
-/* Of files: each but the last with the last one, the reference. Of two folders: what is called alike but for the ending, in the order of names. To be freed
- * on failure too. */
+/* Pairs each file but the last with the last, the reference; or the files of two folders whose names are alike but for the ending, in the order of
+ * names. To be freed on failure too. */
 ec_result ec_compare_pairs_of(char *const *inputs, int count, ec_compare_pairs *pairs, ec_error *err);
 void ec_compare_pairs_free(ec_compare_pairs *pairs);
 

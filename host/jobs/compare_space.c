@@ -58,7 +58,7 @@ static void scale(ec_compare_input *input, float factor)
     }
 }
 
-/* Of the one that is linear, in its look; of two such A's, which is multiplied, as B is the reference. */
+/* Finds the exposure of the linear picture, and changes its look by it. If both are linear A is multiplied, as B is the reference. */
 static ec_result fit_exposure(ec_compare_job *job, ec_look *look, ec_error *err)
 {
     if (job->a.format && job->b.format)

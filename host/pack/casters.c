@@ -40,6 +40,19 @@ static void add_point(box *b, const float p[3])
 
 static const box no_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
+/* Triangle t, where it stands; placed: NULL in the world as it is. */
+static void add_triangle(const ec_scene *s, uint32_t t, const ec_placed *placed, boxes *all)
+{
+    box *b = &all->list[all->count++];
+    *b = no_box;
+    for (int v = 0; v < 3; v++) {
+        const float *corner = s->positions + 3 * (size_t)s->indices[3 * (size_t)t + v];
+        float p[3];
+        if (placed) ec_placed_point(placed, corner, p);
+        add_point(b, placed ? p : corner);
+    }
+}
+
 /* Boxes of triangles that cast; those of a mesh that is kept once in each of its places. */
 static ec_result find_boxes(const ec_scene *s, boxes *all, ec_error *err)
 {
@@ -49,24 +62,12 @@ static ec_result find_boxes(const ec_scene *s, boxes *all, ec_error *err)
     all->list = malloc((most + 1) * sizeof *all->list);
     if (!is || !all->list) return ec_fail(err, "out of memory for %zu triangles", most);
     for (uint32_t m = 0; m < s->material_count; m++) is[m] = casts(s, &s->materials[m]);
-    for (uint32_t t = 0; t < ec_scene_flat_count(s); t++) {
-        if (!is[s->triangle_material[t]]) continue;
-        box *b = &all->list[all->count++];
-        *b = no_box;
-        for (int v = 0; v < 3; v++) add_point(b, s->positions + 3 * (size_t)s->indices[3 * (size_t)t + v]);
-    }
+    for (uint32_t t = 0; t < ec_scene_flat_count(s); t++)
+        if (is[s->triangle_material[t]]) add_triangle(s, t, NULL, all);
     for (uint32_t i = 0; i < s->placed_count; i++) {
         const ec_shape *shape = &s->shapes[s->placed[i].shape];
-        for (uint32_t t = shape->first; t < shape->first + shape->count; t++) {
-            if (!is[s->triangle_material[t]]) continue;
-            box *b = &all->list[all->count++];
-            *b = no_box;
-            for (int v = 0; v < 3; v++) {
-                float p[3];
-                ec_placed_point(&s->placed[i], s->positions + 3 * (size_t)s->indices[3 * (size_t)t + v], p);
-                add_point(b, p);
-            }
-        }
+        for (uint32_t t = shape->first; t < shape->first + shape->count; t++)
+            if (is[s->triangle_material[t]]) add_triangle(s, t, &s->placed[i], all);
     }
     return EC_OK;
 }
@@ -77,12 +78,18 @@ typedef struct cluster {
     ec_caster sphere;
 } cluster;
 
-static ec_caster sphere_about(const box *list, size_t first, size_t end)
+static box box_about(const box *list, size_t first, size_t end)
 {
     box all = no_box;
+    for (size_t i = first; i < end; i++) add_point(&all, list[i].low), add_point(&all, list[i].high);
+    return all;
+}
+
+static ec_caster sphere_about(const box *list, size_t first, size_t end)
+{
+    const box all = box_about(list, first, end);
     double r2 = 0;
     ec_caster c = {.share = 0};
-    for (size_t i = first; i < end; i++) add_point(&all, list[i].low), add_point(&all, list[i].high);
     for (int k = 0; k < 3; k++) c.centre[k] = 0.5f * (all.low[k] + all.high[k]);
     for (size_t i = first; i < end; i++) {
         double d2 = 0;
@@ -99,9 +106,8 @@ static ec_caster sphere_about(const box *list, size_t first, size_t end)
 /* Halves a cluster where its box is longest; into whatever of both is there. False if they are little smaller together. */
 static bool split(box *list, const cluster *c, cluster *a, cluster *b)
 {
-    box all = no_box;
+    const box all = box_about(list, c->first, c->end);
     int axis = 0;
-    for (size_t i = c->first; i < c->end; i++) add_point(&all, list[i].low), add_point(&all, list[i].high);
     for (int k = 1; k < 3; k++)
         if (all.high[k] - all.low[k] > all.high[axis] - all.low[axis]) axis = k;
     const float middle = all.low[axis] + all.high[axis];

@@ -51,11 +51,18 @@ static void put_page(FILE *to, const char *page, const ec_page_part *parts)
     fputs(page, to);
 }
 
+/* How every page begins: nothing comes from elsewhere. */
+static const char head[] = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"eclat\">\n"
+                           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; "
+                           "script-src 'unsafe-inline'\">\n<link rel=\"icon\" href=\"data:,\">\n";
+
 ec_result ec_page_write(const char *path, const char *page, const ec_page_part *parts, ec_error *err)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
+    if (to) fputs(head, to);
     if (to) put_page(to, page, parts);
     bool good = to && !ferror(to);
     if (to) good = fclose(to) == 0 && good;

@@ -15,7 +15,7 @@ typedef struct ec_page_part {
     const cJSON *json;  /* for a script element: nothing in it ends that */
 } ec_page_part;
 
-/* parts: a name of NULL ends them; each @NAME@ of the page is among them. All of the file or none of it. */
+/* page: from its title on, within the head. parts: a name of NULL ends them; each @NAME@ of the page is among them. All of the file or none of it. */
 ec_result ec_page_write(const char *path, const char *page, const ec_page_part *parts, ec_error *err);
 
 /* *text: a PNG as a data URI. rgb: 3 bytes a pixel. */

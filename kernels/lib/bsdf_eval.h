@@ -103,6 +103,18 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     return f;
 }
 
+/* What passes a smooth surface in its single direction, wi_z along ns, of light that comes along wo. */
+EC_FN v3 bsdf_passing(const bsdf *b, lane_f wi_z)
+{
+    lane_f rest;
+    bsdf_fresnel(b, min(max(b->wo.z, F(0.0f)), F(1.0f)), &rest);
+#define PASSING_LEAVES(feature, layer) \
+    if (HAS(feature)) rest *= layer##_leaves(&b->layer, wi_z);
+    LAYERS_UP(PASSING_LEAVES)
+    if (HAS(CLEARCOAT)) rest *= 1.0f - b->coat.share;
+    return v3_scale(b->base, rest * b->transmission);
+}
+
 /* Does it send light in single directions only? */
 EC_FN lane_i bsdf_is_single(const bsdf *b)
 {

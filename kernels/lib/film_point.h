@@ -4,6 +4,7 @@
 
 #include "camera_axes.h"
 #include "film.h"
+#include "lens.h"
 #include "pixel_filter.h"
 #include "sampler.h"
 
@@ -21,11 +22,7 @@ EC_FN film_point film_point_of(constant ec_params *params, const camera_axes *v,
                                lane_f u_y)
 {
     film_point f;
-    v3 lens = v3_zero(), in_plane;
-    if (HAS(LENS) && !params->orthographic) {
-        lane_f radius = sqrt(u1), cosine, sine = sincos_2pi(u2, &cosine);
-        lens = v3_fma(v->lens_right, radius * cosine, v3_scale(v->lens_up, radius * sine));
-    }
+    v3 lens = HAS(LENS) && !params->orthographic ? lens_point(v, u1, u2) : v3_zero(), in_plane;
     f.o = v3_add(v->origin, lens);
     v3 way = v3_sub(p, f.o);
     lane_f depth = v3_dot(way, v->forward), cosine = F(1.0f);

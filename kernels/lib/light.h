@@ -348,9 +348,8 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
         s = HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) ? light_sample_select(is, other, s) : other;
     }
     if (HAS(LIGHT_PATHS)) {
-        v3 n = v3_cross(v3_sub(one.b, one.a), v3_sub(one.c, one.a));
         s.id = id;
-        s.per_area = 2.0f / sqrt(v3_dot(n, n));
+        s.per_area = motion_per_area(one.a, one.b, one.c);
     }
     return s;
 }

@@ -90,32 +90,25 @@ EC_FN lane_f emission_pmf(const lights *l, lane_u id)
 /* The light of a triangle, or EC_NO_ID. */
 EC_FN lane_u emission_light(const lights *l, lane_u prim) { return gather_u(l->emission, prim + 4u * l->env.params->light_count); }
 
-/* Of point q of a lamp that is sampled with per_area, along d with this cosine to its normal. */
+/* E of point q of a lamp whose area is 1 / per_area, along d with this cosine to its normal. */
 EC_FN lane_f emission_lamp(const lights *l, lane_i m, lane_u id, lane_f per_area, v3 q, v3 d, lane_f cosine)
 {
     lane_f pdf = emission_pmf(l, m ? id : U(0)) * per_area * aim_pdf(l->env.params, q, d) / cosine;
     return (m & (cosine > 0.0f)) ? pdf : F(0.0f);
 }
-/* Of a far light, its direction having density pdf among its own, along d through p. */
+/* E of a far light, its direction having density pdf among its own, along d through p. */
 EC_FN lane_f emission_far(const lights *l, lane_u id, lane_f pdf, v3 p, v3 d)
 {
     return emission_pmf(l, id) * pdf * aim_far_pdf(l->env.params, p, d);
 }
-/* Of the environment, always the first light, where light sampling has density pdf. */
+/* E of the environment, always the first light, where light sampling has density pdf. */
 EC_FN lane_f emission_environment(const lights *l, lane_f pdf, v3 p, v3 d)
 {
     lane_f own = pdf / F(l->env.params->environment_pmf);
     return pdf > 0.0f ? emission_far(l, U(0), own, p, d) : F(0.0f);
 }
 
-/* 1 / area of the triangle. */
-EC_FN lane_f triangle_per_area(v3 a, v3 b, v3 c)
-{
-    v3 n = v3_cross(v3_sub(b, a), v3_sub(c, a));
-    return 2.0f / sqrt(v3_dot(n, n));
-}
-
-/* Of what light sampling has chosen for p. */
+/* E of what light sampling has chosen for p. */
 EC_FN lane_f emission_sampled(const lights *l, const light_sample *s, lane_i m, v3 p)
 {
     v3 d = v3_negate(s->wi);
@@ -141,8 +134,8 @@ EC_FN lane_i light_path_misses(const surface *s, lane_f wo_z, lane_f wi_z, lane_
     lane_i passes = wi_z < 0.0f, none = (fabs(wo_z) <= EC_K_LOW) | (fabs(wi_z) <= EC_K_LOW) | (lifted & !passes);
     if (HAS(SMOOTH) && HAS(TRANSMISSION)) {
         lane_f there = s->eta > 0.0f ? s->alpha_ggx * fabs(s->eta - 1.0f) / s->eta : F(0.0f);
-        none = none | (passes & s->refracts & !s->displaced & (s->smooth != 0) & (there >= EC_SMOOTH_ALPHA));
-        none = none | (passes & s->refracts & !s->displaced & (s->smooth == 0) & (there < EC_SMOOTH_ALPHA));
+        lane_i differs = s->smooth ? there >= EC_SMOOTH_ALPHA : there < EC_SMOOTH_ALPHA;
+        none = none | (passes & s->refracts & !s->displaced & differs);
     }
     if (HAS(CLEARCOAT) && HAS_BENDING) {
         v3 away = v3_sub(s->coat_ns, s->ns);
@@ -170,20 +163,7 @@ EC_FN lane_f light_path_k(constant ec_params *params, const surface *s, lane_f k
     return straight ? k : next;
 }
 
-/* What passes a smooth surface in the single direction wi (local), by all layers. */
-EC_FN v3 bsdf_passing(const bsdf *b, lane_f wi_z)
-{
-    lane_f rest;
-    bsdf_fresnel(b, min(max(b->wo.z, F(0.0f)), F(1.0f)), &rest);
-#define PASSING_LEAVES(feature, layer) \
-    if (HAS(feature)) rest *= layer##_leaves(&b->layer, wi_z);
-    LAYERS_UP(PASSING_LEAVES)
-    if (HAS(CLEARCOAT)) rest *= 1.0f - b->coat.share;
-    return v3_scale(b->base, rest * b->transmission);
-}
-
-/* The density with which light sampling at p would have found the light path's start, `source`, which lies against d. *is_delta: nothing but
- * light sampling and light paths finds it. */
+/* The density with which light sampling at p would have found the light path's start, `source`, which lies against d. */
 EC_FN lane_f light_path_joined_pdf(const lights *l, const geometry *g, lane_i m, lane_u id, lane_f b1, lane_f b2, v3 p, v3 source, v3 d)
 {
     constant ec_params *params = l->env.params;

@@ -19,14 +19,8 @@ EC_FN uint panes_most(constant ec_params *params, uint bounce)
 /* What goes straight on of light that comes along wo: the value of that single direction, as bsdf_sample weighs it. */
 EC_FN v3 bsdf_straight(const bsdf *b)
 {
-    lane_f rest;
-    bsdf_fresnel(b, min(max(b->wo.z, F(0.0f)), F(1.0f)), &rest);
-#define PANE_LEAVES(feature, layer) \
-    if (HAS(feature)) rest *= layer##_leaves(&b->layer, b->wo.z);
-    LAYERS_UP(PANE_LEAVES)
-    if (HAS(CLEARCOAT)) rest *= 1.0f - b->coat.share;
     lane_i straight = b->facets.smooth & !b->refracts & (b->wo.z > 0.0f);
-    return v3_scale(b->base, straight ? rest * b->transmission : F(0.0f));
+    return v3_select(straight, bsdf_passing(b, b->wo.z), v3_zero());
 }
 
 /* A shadow ray along d (any length) has met triangle prim (lanes m): what is left of its light, 0 where nothing passes. *o becomes

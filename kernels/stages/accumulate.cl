@@ -78,12 +78,13 @@ static float splat_sum(global const uint *words, float unit)
 /* Adds what light paths brought to the pixel: of its tail the largest is known, and powers are at most what they would be if all were that. */
 static void add_splats(global const uint *splat, float unit, uint batch, global float *out)
 {
-    float rgb[3], largest = max(out[EC_BATCH_LARGEST], as_float(splat[EC_SPLAT_LARGEST]));
-    for (uint c = 0; c < 3; c++) rgb[c] = splat_sum(splat + 2 * c, unit);
-    float y = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2], most = as_float(splat[EC_SPLAT_LARGEST]);
+    float most = as_float(splat[EC_SPLAT_LARGEST]), largest = max(out[EC_BATCH_LARGEST], most);
     if (!(most > 0.0f)) return;
-    for (uint c = 0; c < 3; c++) out[c] += rgb[c] / (float)batch;
-    float before = out[EC_BATCH_LARGEST] / largest, before2 = before * before, at_most = most / largest, count = y / largest;
+    v3 rgb = v3_make(splat_sum(splat + EC_SPLAT_R, unit), splat_sum(splat + EC_SPLAT_G, unit), splat_sum(splat + EC_SPLAT_B, unit));
+    out[EC_BATCH_R] += rgb.x / (float)batch;
+    out[EC_BATCH_G] += rgb.y / (float)batch;
+    out[EC_BATCH_B] += rgb.z / (float)batch;
+    float y = luminance(rgb), before = out[EC_BATCH_LARGEST] / largest, before2 = before * before, at_most = most / largest, count = y / largest;
     out[EC_BATCH_SQUARES] = out[EC_BATCH_SQUARES] * before2 + at_most * count;
     out[EC_BATCH_FOURTHS] = out[EC_BATCH_FOURTHS] * before2 * before2 + at_most * at_most * at_most * count;
     out[EC_BATCH_LARGEST] = largest;

@@ -66,7 +66,7 @@ kernel void ec_emit(constant ec_params *params, uint seed, uint first_pixel, uin
             lane_f cosine = v3_dot(n, d);
             is = is & ((cosine > 0.0f) | ((one.kind & EC_LIGHT_TWO_SIDED) != 0u));
             Le = v3_select(is, light_radiance(&one, &g, is, b1, b2, v3_negate(d)), Le);
-            e = emission_lamp(&light, is, id, triangle_per_area(one.a, one.b, one.c), q, d, fabs(cosine));
+            e = emission_lamp(&light, is, id, motion_per_area(one.a, one.b, one.c), q, d, fabs(cosine));
             o = surface_offset(q, v3_scale(sum, F(EC_GAMMA(9))), n, d);
         }
     }

@@ -140,7 +140,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             if (by_light && any_lane(known)) {
                 lane_u id = emission_light(&light, known ? prim : U(0));
                 known = known & (id != EC_NO_ID);
-                share = k * emission_lamp(&light, known, id, triangle_per_area(h.p0, h.p1, h.p2), s.p, wo, fabs(v3_dot(s.ng, wo)));
+                share = k * emission_lamp(&light, known, id, motion_per_area(h.p0, h.p1, h.p2), s.p, wo, fabs(v3_dot(s.ng, wo)));
             }
             Le = v3_scale(Le, found_weight(params->sample, path_pdf, pdf, known ? share : F(0.0f)));
             emitted = v3_select(m, Le, emitted);

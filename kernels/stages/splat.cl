@@ -27,14 +27,15 @@ kernel void ec_splat(constant ec_params *params, uint seed, uint first_pixel, ui
 {
     uint slot = get_global_id(0), wave = params->wave, path, sample;
     if (slot >= path_count) return;
-    float rgb[3];
-    for (uint c = 0; c < 3; c++) rgb[c] = radiance[c * wave + slot];
-    if (rgb[0] == 0.0f && rgb[1] == 0.0f && rgb[2] == 0.0f) return;
+    v3 rgb = v3_make(radiance[slot], radiance[wave + slot], radiance[2 * wave + slot]);
+    if (v3_max_component(rgb) == 0.0f) return;
     for (uint c = 0; c < 3; c++) radiance[c * wave + slot] = 0.0f;
     slot_to_pixel(params, first_pixel, 0, slot, &path, &sample);
     volatile global uint *words = splats + EC_SPLAT_WORDS * (ulong)as_uint(light_slots[EC_LIGHT_SLOT_PIXEL * wave + slot]);
     uint r = hash_scalar(hash_scalar(hash_scalar(path) ^ seed) + sample * 0x9e3779b9u + bounce);
-    for (uint c = 0; c < 3; c++) add_fixed(words + 2 * c, rgb[c] / params->splat_unit, r = hash_scalar(r));
-    float y = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+    add_fixed(words + EC_SPLAT_R, rgb.x / params->splat_unit, r = hash_scalar(r));
+    add_fixed(words + EC_SPLAT_G, rgb.y / params->splat_unit, r = hash_scalar(r));
+    add_fixed(words + EC_SPLAT_B, rgb.z / params->splat_unit, r = hash_scalar(r));
+    float y = luminance(rgb);
     if (is_finite_bits(y)) atomic_max(words + EC_SPLAT_LARGEST, as_uint(y));
 }
