@@ -11,6 +11,7 @@
 #include "base/vec3.h"
 #include "jobs/blank.h"
 #include "jobs/defaults.h"
+#include "jobs/denoise_choice.h"
 #include "jobs/numbers.h"
 #include "jobs/option.h"
 #include "render/strips.h"
@@ -297,23 +298,11 @@ static ec_result load_both(ec_render_job *job, ec_error *err)
     return f.result != EC_OK ? EC_FAILED : result;
 }
 
-/* Before the first sample: an hour's picture is not to end without what was asked for. */
-static ec_result find_denoiser(const ec_render_job *job, ec_error *err)
-{
-    ec_denoiser found;
-    const ec_denoiser asked = job->request->options.denoise;
-    if (asked == EC_DENOISER_NONE) return EC_OK;
-    EC_TRY(ec_denoiser_find(asked, &found, err));
-    if (asked == EC_DENOISER_AUTO && found == EC_DENOISER_ATROUS)
-        ec_note(&job->listener->log,
-                "Intel's Open Image Denoise is not installed ('pip install pyoidn'); --denoise filters by itself, which leaves more of the noise");
-    return EC_OK;
-}
-
 ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const double start = ec_now();
-    EC_TRY(find_denoiser(job, err));
+    ec_denoiser found;
+    EC_TRY(ec_require_denoiser(job->request->options.denoise, &found, &job->listener->log, err));
     if (job->share) {
         take_devices(job);
         EC_TRY(load_scene(job, err));

@@ -138,7 +138,6 @@ static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
     if (!request->options.denoise) return EC_OK;
     if (replicates < EC_JUDGE_REPLICATES)
         return ec_usage(err, "--denoise and --replicates %u: one half of the replicates judges the other; give %d or more", replicates, EC_JUDGE_REPLICATES);
-    if (request->has_slice) return ec_usage(err, "--denoise and --samples: a slice is a part of a picture, and a denoiser wants the whole; leave one out");
     return EC_OK;
 }
 
