@@ -105,13 +105,13 @@ const ec_option ec_render_rows[] = {
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
-     .help = "write FILE: an .exr (linear, with errors: --channels), a .png or .jpg for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
+     .help = "write FILE: an .exr (linear, with errors: --channels), a .png, .jpg, .avif or .jxl for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
              "scene's base name, {folder} for its folder's: several scenes need one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
     {.name = "png-depth", .metavar = "BITS", EC_CHOSEN(png_depth, ec_png_depths), .group = EC_GROUP_PICTURE,
-     .help = "bits of each channel of a .png: 8 or 16", .otherwise = "8"},
+     .help = "bits of each channel of a .png or .jxl: 8 or 16", .otherwise = "8"},
     {.name = "screen-window", .metavar = "L,R,B,T", .set = ec_set_screen_window, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_INFO,
      .help = "show what lies between left, right, bottom and top in the camera's image plane: 0,0 is its axis, 1 half the height of its view. For lens "
              "shift, crops, and pixels that are not square",

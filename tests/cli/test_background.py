@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shutil
 import subprocess
 import unittest
 
@@ -146,6 +147,30 @@ class Background(Case):
         difference = [abs(a - b) for a, b in zip(raw, [v for row in rows for v in row])]
         self.assertEqual(len(raw), 3 * W * H)
         self.assertLess(sum(difference) / len(difference), 3)
+
+    def test_avif_and_jxl_are_the_png(self):
+        """Where the build has the libraries; else the refusal names them."""
+        decoders = {"avif": ("avifdec", lambda a, b: ("avifdec", a, b)), "jxl": ("djxl", lambda a, b: ("djxl", a, b))}
+        built = {}
+        for name in decoders:
+            run = eclat("render", self.scene, *OPTIONS, "--spp", "8", "--background", "transparent", "-q", "-o", self.path(f"a.{name}"), "-o", self.path("a.png"))
+            built[name] = run.returncode == 0
+            if not built[name]:
+                self.assertIn(f"takes lib{name}, which this eclat was built without; write a .png, or build eclat with lib{name}-dev", self.assert_one_error(run, 2))
+                continue
+            program, command = decoders[name]
+            if not shutil.which(program):
+                continue
+            subprocess.run(command(self.path(f"a.{name}"), self.path("back.png")), check=True, capture_output=True)
+            a, b = read_png(self.path("a.png")), read_png(self.path("back.png"))
+            self.assertEqual(a[:3], b[:3])
+            worst = max(abs(x - y) for p, q in zip(a[4], b[4]) for i, (x, y) in enumerate(zip(p, q)) if p[i | 3] == 255)
+            self.assertLessEqual(worst, 0 if name == "jxl" else 12)
+            self.assertEqual([p[3::4] for p in a[4]], [q[3::4] for q in b[4]])
+            left = os.listdir(self.folder)
+            self.assertEqual(sorted(left), sorted(set(left) & {"scene.gltf", "a.png", "back.png", "a.avif", "a.jxl"}))
+        if not any(built.values()):
+            self.skipTest("built without libavif and libjxl")
 
     def test_hdr_is_radiance(self):
         self.render("a.exr", "a.hdr", options=("--exposure", "3", "--light", "sky:0,3"))
