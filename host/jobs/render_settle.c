@@ -132,6 +132,16 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
+/* A shadow is a part of the alpha, of the whole picture. */
+static ec_result check_ground(const ec_render_request *request, ec_error *err)
+{
+    if (request->ground != EC_GROUND_SHADOW) return EC_OK;
+    if (request->options.integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--ground=shadow belongs to --integrator path; leave it out or choose that");
+    if (!request->options.hides_environment)
+        return ec_usage(err, "--ground=shadow: the environment would stand before it; give --background transparent, a colour or blur");
+    return EC_OK;
+}
+
 static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
 {
     const uint32_t replicates = ec_render_replicates(&request->options);
@@ -217,6 +227,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(settle_files(request, err));
     EC_TRY(settle_adaptive(request, err));
     EC_TRY(settle_denoise(request, err));
+    EC_TRY(check_ground(request, err));
     request->capped = limits->spp == 0 && ec_render_has_limit(limits);
     if (!ec_render_has_limit(limits)) limits->spp = EC_DEFAULT_SPP;
     return EC_OK;
@@ -230,6 +241,7 @@ const char *ec_render_whole_for(const ec_render_request *r)
     if (r->options.error_target > 0) return "--error"; /* of the whole image */
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
+    if (r->ground == EC_GROUND_SHADOW) return "--ground=shadow"; /* two more pictures */
     if (r->exposure.is_auto) return "--exposure auto"; /* by all pixels */
     if (r->checkpoint) return "--checkpoint";
     if (r->snapshot) return "--snapshot";
