@@ -5,23 +5,16 @@
 #include "slot_layers.h"
 #include "surface.h"
 
-EC_FN void scatter_v3(global float *out, uint wave, lane_u slot, v3 v, uint bits)
+EC_FN void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, v3 n, lane_f depth, lane_f alpha, uint bits)
 {
-    scatter_f(out, slot, v.x, bits);
-    scatter_f(out + wave, slot, v.y, bits);
-    scatter_f(out + 2 * wave, slot, v.z, bits);
-}
-
-/* What the ray from o has found on the lanes of m: those of `found` a surface, the others nothing. */
-EC_FN void store_features(constant ec_params *params, global float *aov, lane_u slot, v3 o, const surface *s, lane_i found, lane_i m)
-{
-    uint wave = params->wave, bits = mask_bits(m);
-    v3 way = v3_sub(s->p, o);
-    lane_f nothing = F(0.0f);
-    scatter_v3(aov, wave, slot, v3_select(found, s->base, v3_zero()), bits);
-    scatter_v3(aov + 3 * wave, wave, slot, v3_select(found, s->ns, v3_zero()), bits);
-    scatter_f(aov + 6 * wave, slot, found ? sqrt(v3_dot(way, way)) : nothing, bits);
-    scatter_f(aov + 7 * wave, slot, found ? F(1.0f) : nothing, bits);
+    scatter_f(aov, slot, albedo.x, bits);
+    scatter_f(aov + wave, slot, albedo.y, bits);
+    scatter_f(aov + 2 * wave, slot, albedo.z, bits);
+    scatter_f(aov + 3 * wave, slot, n.x, bits);
+    scatter_f(aov + 4 * wave, slot, n.y, bits);
+    scatter_f(aov + 5 * wave, slot, n.z, bits);
+    scatter_f(aov + 6 * wave, slot, depth, bits);
+    scatter_f(aov + 7 * wave, slot, alpha, bits);
 }
 
 EC_FN void store_layer(constant ec_params *params, global float *radiance, uint layer, lane_u slot, v3 v, uint bits)

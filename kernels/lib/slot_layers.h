@@ -23,14 +23,10 @@ EC_FN uint layer_of_segments(constant ec_params *params, uint segments)
     return params->layer_of[segments > EC_DIRECT_SEGMENTS ? EC_LAYER_INDIRECT : EC_LAYER_DIRECT];
 }
 
-/* Adds light of paths of so many segments, and of these light groups, to the samples' slots; what is not finite is dropped and counted. */
-EC_FN void light_add(constant ec_params *params, global float *radiance, uint segments, lane_u slot, lane_u group, v3 light, lane_i m,
-                     volatile global uint *invalid)
+/* Adds light of paths of so many segments, and of these light groups, to its layers; what is not finite is dropped. */
+EC_FN void layers_add(constant ec_params *params, global float *radiance, uint segments, lane_u slot, lane_u group, v3 light, lane_i m)
 {
-    uint wave = params->wave;
-    radiance_add(radiance_of(params, radiance, segments), wave, slot, light, m, invalid);
-    if (!HAS(LAYERS)) return;
-    uint bits = mask_bits(m & v3_is_finite(light)), layer = layer_of_segments(params, segments);
+    uint wave = params->wave, bits = mask_bits(m & v3_is_finite(light)), layer = layer_of_segments(params, segments);
     if (layer) scatter_add_3(layer_at(params, radiance, layer), wave, slot, light.x, light.y, light.z, bits);
     if (params->layer_groups)
         scatter_add_3(layer_at(params, radiance, params->layer_groups), wave, slot + group * (3u * wave), light.x, light.y, light.z, bits);

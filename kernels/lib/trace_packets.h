@@ -103,6 +103,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                 skip = walks ? h.prim : skip;
             }
         }
-        light_add(params, radiance, bounce + 2, slot, slot_group(word), light, open, invalid + EC_STAGE_CONNECT);
+        radiance_add(radiance_of(params, radiance, bounce + 2), wave, slot, light, open, invalid + EC_STAGE_CONNECT);
+        if (HAS(LAYERS)) layers_add(params, radiance, bounce + 2, slot, slot_group(word), light, open);
     }
 }

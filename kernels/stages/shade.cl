@@ -155,12 +155,20 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         scatters = scatters & !m;
     }
     if (any_lane(emits)) {
-        lane_u group = U(0);
-        if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, found ? divide(h.material, EC_MATERIAL_WORDS) + (1u + params->light_count) : U(0));
-        light_add(params, radiance, bounce + 1, slot, group, v3_mul(beta, emitted), emits, invalid + EC_STAGE_SHADE);
+        radiance_add(radiance_of(params, radiance, bounce + 1), wave, slot, v3_mul(beta, emitted), emits, invalid + EC_STAGE_SHADE);
+        if (HAS(LAYERS)) {
+            lane_u group = U(0);
+            if (light_groups) group = gather_u(light_groups, found ? divide(h.material, EC_MATERIAL_WORDS) + (1u + params->light_count) : U(0));
+            layers_add(params, radiance, bounce + 1, slot, group, v3_mul(beta, emitted), emits);
+        }
     }
 
-    if (aov && bounce == 0) store_features(params, aov, slot, o, &s, found, active);
+    if (aov && bounce == 0) {
+        v3 seen = v3_sub(s.p, o);
+        lane_f depth = sqrt(v3_dot(seen, seen));
+        store_features(aov, wave, slot, v3_select(found, s.base, v3_zero()), v3_select(found, s.ns, v3_zero()),
+                       found ? depth : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
+    }
     if (HAS(LAYERS) && bounce == 0) store_surface_layers(params, radiance, slot, &h, &s, found);
     /* This vertex ends segment bounce + 1; light sampled here would arrive over segment bounce + 2. */
     if (bounce + 2 > params->max_depth || !any_lane(scatters)) return;

@@ -60,6 +60,10 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
     v3 out = v3_add(seen_background(&env, active & !found, d, !params->backdrop), e.glow);
     out = v3_add(out, v3_select(e.lit, direct, v3_zero()));
     radiance_add(radiance, wave, slot, out, active, invalid + EC_STAGE_SHADE);
-    if (aov) store_features(params, aov, slot, o, &s, found, active);
+    if (aov) {
+        v3 way = v3_sub(s.p, o);
+        store_features(aov, wave, slot, v3_select(found, s.base, v3_zero()), v3_select(found, s.ns, v3_zero()),
+                       found ? sqrt(v3_dot(way, way)) : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
+    }
     if (HAS(LAYERS)) store_surface_layers(params, radiance, slot, &e.h, &s, found);
 }

@@ -103,7 +103,9 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
         beta = v3_mul(beta, medium_transmittance(&g, medium_material(&g, medium, nested), distance));
         queue_store_v3(paths, wave, EC_PATH_BR, i, beta);
     }
-    if (aov && bounce == 0) store_features(params, aov, slot, o, s, found, active);
+    if (aov && bounce == 0)
+        store_features(aov, wave, slot, v3_select(found, s->base, v3_zero()), v3_select(found, s->ns, v3_zero()),
+                       found ? distance : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
     if (HAS(LAYERS) && bounce == 0) store_surface_layers(params, radiance, slot, &e.h, s, found);
 
     bsdf b = bsdf_make(s, surface_to_local(s, wo), false);
