@@ -9,15 +9,18 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/vec3.h"
+#include "jobs/backdrop.h"
 #include "jobs/blank.h"
 #include "jobs/defaults.h"
 #include "jobs/denoise_choice.h"
 #include "jobs/numbers.h"
 #include "jobs/option.h"
+#include "jobs/shadow.h"
 #include "render/strips.h"
 #include "report/scene_report.h"
 #include "gltf/reader.h"
 #include "scene/built_in.h"
+#include "scene/ground.h"
 
 /* A slice is its sums: a PNG alone would throw them away. */
 static ec_result check_slice_output(const ec_render_request *request, ec_error *err)
@@ -269,7 +272,9 @@ static ec_result load_scene(ec_render_job *job, ec_error *err)
     const ec_render_request *request = job->request;
     if (job->share && job->share->animation) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, log, err));
-    return ec_render_job_light(job, err);
+    if (request->ground == EC_GROUND_MATTE) EC_TRY(ec_scene_add_ground(job->scene, err));
+    EC_TRY(ec_render_job_light(job, err));
+    return request->ground == EC_GROUND_SHADOW ? ec_shadow_check(job->scene, err) : EC_OK;
 }
 
 typedef struct finder {
@@ -298,6 +303,19 @@ static ec_result load_both(ec_render_job *job, ec_error *err)
     return f.result != EC_OK ? EC_FAILED : result;
 }
 
+static ec_result find_layers(ec_render_job *job, ec_error *err)
+{
+    ec_render_request *request = job->request;
+    ec_render_options *o = &request->options;
+    if (request->light_groups) EC_TRY(ec_light_groups_find(job->scene, request->light_groups, &job->groups, err));
+    o->groups = &job->groups;
+    o->layers.group_count = job->groups.count;
+    o->layers.count = (uint32_t)__builtin_popcount(o->layers.kinds) + job->groups.count;
+    memcpy(o->layers.groups, job->groups.names, sizeof o->layers.groups);
+    if (o->layers.count && job->ranks) return ec_usage(err, "--channels direct, indirect, position or uv, and --light-groups, are for one process; leave them out, or mpirun");
+    return EC_OK;
+}
+
 ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const double start = ec_now();
@@ -310,7 +328,10 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
         EC_TRY(load_both(job, err));
     }
     job->load_seconds = ec_now() - start;
+    EC_TRY(find_layers(job, err));
     EC_TRY(prepare_camera(job, err));
+    if (job->request->background.kind == EC_BACKDROP_BLUR)
+        EC_TRY(ec_backdrop_make(job->scene, &job->request->options, (double)job->request->background.degrees, &job->behind, err));
     job->is_blank = ec_warn_of_blank(job);
     return check_memory(job, err);
 }
@@ -336,6 +357,9 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .is_exposure_auto = request->exposure.is_auto,
         .tonemap = request->tonemap,
         .background = request->background,
+        .behind = request->background.kind == EC_BACKDROP_BLUR ? &job->behind : NULL,
+        .has_shadow = request->ground == EC_GROUND_SHADOW,
+        .shadow_error = job->shadow_error,
         .is_png_deep = request->png_depth != 0,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),
@@ -357,9 +381,11 @@ ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
 void ec_render_job_free(ec_render_job *job)
 {
     ec_scene_free(job->scene);
+    ec_light_groups_free(&job->groups);
     ec_film_destroy(&job->film);
     ec_row_writer_abort(job->rows);
     ec_stored_free(&job->stored);
     ec_given_free(&job->before);
+    free(job->behind.rgb);
     free(job->whole_command);
 }

@@ -21,6 +21,7 @@ typedef struct ec_render_job {
     const char *program;         /* as it was called; NULL: the job has no checkpoint */
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
+    ec_light_groups groups;      /* of the scene. Owned */
     ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
     ec_peers peers;            /* the same as the render has them */
     ec_frame_share *share;       /* NULL: it is the only picture of its job */
@@ -32,8 +33,10 @@ typedef struct ec_render_job {
     uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
     ec_denoised denoised;        /* of the film, with options.denoise */
+    ec_behind behind;            /* with a blurred background. Owned */
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
+    double shadow_error;         /* with a ground that catches shadows: of its alpha (shadow.h); NaN: not known */
     ec_render_stats stats;
     double load_seconds;         /* until devices and scene were there */
     char camera_text[256];

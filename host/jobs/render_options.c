@@ -42,15 +42,20 @@ const ec_option ec_render_rows[] = {
 
     /* Picture */
     {.name = "background", .metavar = "WHAT", .set = ec_set_background, .group = EC_GROUP_PICTURE,
-     .help = "what the camera sees where no surface is: env, the environment; transparent, which the alpha of a .png and an .exr says; white, black or RRGGBB, "
-             "an sRGB colour in files for the screen. The light stays the same, and so does what surfaces mirror",
+     .help = "what the camera sees where no surface is: env, the environment; transparent, which the alpha of a .png and an .exr says; blur or blur:R, the "
+             "environment blurred by R degrees, " EC_TEXT(EC_BLUR) " for blur alone; white, black or RRGGBB, an sRGB colour. Blur and colours are those of files for the screen. The light stays the same, and so does what surfaces mirror",
      .otherwise = "env", .not_in_window = "a window shows the environment"},
     {.name = "camera", .metavar = "NAME|INDEX", EC_STORED(TEXT, camera), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA | EC_OPTION_COST,
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
     {.name = "channels", .metavar = "LIST", .set = ec_set_channels, .group = EC_GROUP_PICTURE,
      .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
-             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, or one of a layer as in stderr.Y. Slices hold all of them",
+             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, or one of a layer as in stderr.Y. Slices hold all; "
+             "the last four have to be named",
      .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
+    {.name = "light-groups", .metavar = "LIST", EC_STORED(TEXT, light_groups), .group = EC_GROUP_PICTURE, .integrators = PATHS,
+     .help = "layers of the EXR for the light of each group, which add up to the picture: names of lights' nodes, of materials that emit and environment, with commas "
+             "between them; NAME=A+B puts several into one, all makes a group of each. What is left over is in rest. eclat mix weighs them anew",
+     .not_in_window = "a window shows the sum"},
     {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = ec_set_denoise, .choices = ec_denoiser_names, .group = EC_GROUP_PICTURE,
      .integrators = PATHS, .uses = EC_OPTION_WINDOW,
      .help = "denoise the picture, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "
@@ -91,6 +96,10 @@ const ec_option ec_render_rows[] = {
      .help = "render with a thin lens instead of a pinhole; the diameter of its aperture is its focal length divided by N, for a sensor 24 mm high and the "
              "camera's field of view; requires --focus",
      .otherwise = "a pinhole"},
+    {.name = "ground", .metavar = "KIND", .value_optional = true, .set = ec_set_ground, .choices = ec_ground_names, .group = EC_GROUP_PICTURE,
+     .help = "lay a ground under the scene, at its lowest point: matte, like --ground alone, a grey floor; shadow, one that is not seen but for the shadows "
+             "on it, which the alpha of a .png and an .exr holds (requires --background)",
+     .otherwise = "none", .not_in_window = "a window shows the scene as it is"},
     {.name = "light", .metavar = "NAME|FILE", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
      .help = "the same as --env. studio: grey walls and soft boxes around a subject that faces +z; sky:AZ,EL: a clear sky with its sun AZ degrees from +z "
@@ -101,13 +110,13 @@ const ec_option ec_render_rows[] = {
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
-     .help = "write FILE: an .exr (linear, with errors: --channels), a .png or .jpg for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
+     .help = "write FILE: an .exr (linear, with errors: --channels), a .png, .jpg, .avif or .jxl for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
              "scene's base name, {folder} for its folder's: several scenes need one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
     {.name = "png-depth", .metavar = "BITS", EC_CHOSEN(png_depth, ec_png_depths), .group = EC_GROUP_PICTURE,
-     .help = "bits of each channel of a .png: 8 or 16", .otherwise = "8"},
+     .help = "bits of each channel of a .png or .jxl: 8 or 16", .otherwise = "8"},
     {.name = "screen-window", .metavar = "L,R,B,T", .set = ec_set_screen_window, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_INFO,
      .help = "show what lies between left, right, bottom and top in the camera's image plane: 0,0 is its axis, 1 half the height of its view. For lens "
              "shift, crops, and pixels that are not square",

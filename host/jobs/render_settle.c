@@ -132,6 +132,16 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
+/* A shadow is a part of the alpha, of the whole picture. */
+static ec_result check_ground(const ec_render_request *request, ec_error *err)
+{
+    if (request->ground != EC_GROUND_SHADOW) return EC_OK;
+    if (request->options.integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--ground=shadow belongs to --integrator path; leave it out or choose that");
+    if (!request->options.hides_environment)
+        return ec_usage(err, "--ground=shadow: the environment would stand before it; give --background transparent, a colour or blur");
+    return EC_OK;
+}
+
 static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
 {
     const uint32_t replicates = ec_render_replicates(&request->options);
@@ -182,6 +192,26 @@ static ec_result settle_channels(const ec_render_request *request, ec_error *err
     return any_exr ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
 }
 
+/* Sums of the past, and what one rank sends another, have no layers. */
+static ec_result settle_layers(ec_render_request *request, ec_error *err)
+{
+    ec_render_options *o = &request->options;
+    const uint32_t of_light = 1u << EC_LAYER_DIRECT | 1u << EC_LAYER_INDIRECT;
+    o->layers.kinds = ec_channels_layers(request->channels);
+    const bool any_light = request->light_groups || (o->layers.kinds & of_light);
+    const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : "channels position or uv";
+    if (!any_light && !o->layers.kinds) return EC_OK;
+    const char *other = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
+    if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", what, other);
+    if (o->clamp > 0) return ec_usage(err, "--%s and --clamp: a clamp takes light from the sum, and no layer says which; leave one out", what);
+    if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths know no layers; leave one out", what);
+    if (any_light && o->integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--%s belongs to --integrator path; leave it out or choose that", what);
+    if (o->wave > EC_LAYER_WAVE_MOST) return ec_usage(err, "--%s: --wave can be %u at most; give fewer", what, EC_LAYER_WAVE_MOST);
+    bool any_exr = request->outputs.count == 0;
+    for (int i = 0; i < request->outputs.count; i++) any_exr |= request->outputs.file[i].kind == EC_OUTPUT_EXR;
+    return any_exr ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
+}
+
 /* An alpha wants a place, and a frame says of what job it is. */
 static ec_result settle_files(const ec_render_request *request, ec_error *err)
 {
@@ -214,9 +244,11 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(check_scenarios(request, err));
     EC_TRY(settle_slice(request, err));
     EC_TRY(settle_channels(request, err));
+    EC_TRY(settle_layers(request, err));
     EC_TRY(settle_files(request, err));
     EC_TRY(settle_adaptive(request, err));
     EC_TRY(settle_denoise(request, err));
+    EC_TRY(check_ground(request, err));
     request->capped = limits->spp == 0 && ec_render_has_limit(limits);
     if (!ec_render_has_limit(limits)) limits->spp = EC_DEFAULT_SPP;
     return EC_OK;
@@ -230,6 +262,7 @@ const char *ec_render_whole_for(const ec_render_request *r)
     if (r->options.error_target > 0) return "--error"; /* of the whole image */
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
+    if (r->ground == EC_GROUND_SHADOW) return "--ground=shadow"; /* two more pictures */
     if (r->exposure.is_auto) return "--exposure auto"; /* by all pixels */
     if (r->checkpoint) return "--checkpoint";
     if (r->snapshot) return "--snapshot";
