@@ -75,6 +75,7 @@ typedef struct ec_cost_row {
     double seconds_to[EC_COST_TARGETS]; /* NaN: unknown; INFINITY: never */
     bool extrapolated[EC_COST_TARGETS]; /* beyond the largest picture taken */
     float *picture;              /* thumbnail of the last one of the most samples: 3 a pixel, owned */
+    uint8_t *stages[EC_COST_LEVELS_MOST]; /* by point, tone-mapped thumbnail of its last picture: 3 a pixel, owned; NULL: broken off */
 } ec_cost_row;
 
 typedef struct ec_cost_reference {
@@ -119,6 +120,7 @@ void ec_cost_free(ec_cost_study *study);
 
 /* pictures.c: a thumbnail, 3 floats a pixel; malloc'ed, NULL when out of memory. */
 float *ec_cost_shrink(const ec_render_options *options, const float *rgb);
+uint8_t *ec_cost_stage(const ec_render_options *options, const float *rgb); /* the same, tone-mapped: 3 bytes a pixel */
 
 /* rungs.c: the rungs that this scene has, most telling first; malloc'ed. */
 ec_result ec_cost_list(const ec_scene *scene, const ec_render_options *base, ec_cost_row **rows, uint32_t *count, ec_error *err);

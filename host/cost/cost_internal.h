@@ -77,7 +77,9 @@ typedef struct ec_cost_base {
 } ec_cost_base;
 ec_result ec_cost_measure(ec_cost_study *study, ec_cost_base *base, ec_cost_row *row, double share, double latest, ec_error *err);
 
-/* pictures.c: {"reference": uri, id of each rung: [picture, error map]}, as data URIs of small PNG files. */
+/* pictures.c: {"reference": uri, id of each rung: [picture, error map], "stages": {id: [picture or null for each point]}}, as data URIs of
+ * small PNG files. Those of the stages are made smaller, so that together they have at most EC_COST_STAGE_PIXELS: some 6 MB of a page. */
+enum { EC_COST_STAGE_PIXELS = 1500000 };
 ec_result ec_cost_pictures(const ec_cost_study *study, cJSON **images, ec_error *err);
 
 /* runner.c: false when the user wants to stop */

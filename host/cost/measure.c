@@ -78,7 +78,10 @@ static ec_result take_level(measurement *m, uint32_t samples, double end, bool *
         EC_TRY(take_picture(m, samples, err));
     }
     ec_cost_tally_end(&m->tally, m->row);
-    return EC_OK;
+    if (m->runner->stopped || !m->tally.level_batches) return EC_OK;
+    uint8_t **stage = &m->row->stages[m->row->point_count - 1];
+    *stage = ec_cost_stage(&m->study->options, m->runner->mean);
+    return *stage ? EC_OK : ec_fail(err, "out of memory for a picture");
 }
 
 static ec_result take_levels(measurement *m, double end, ec_error *err)

@@ -32,6 +32,18 @@ float *ec_cost_shrink(const ec_render_options *o, const float *rgb)
     return small;
 }
 
+uint8_t *ec_cost_stage(const ec_render_options *o, const float *rgb)
+{
+    const thumbnail t = thumbnail_of(o);
+    const uint64_t pixels = (uint64_t)t.width * t.height;
+    float *small = ec_cost_shrink(o, rgb);
+    uint8_t *bytes = malloc(3 * pixels);
+    if (small && bytes) ec_tonemap_rgb(small, bytes, pixels, 0, EC_TONEMAP_NEUTRAL);
+    else free(bytes), bytes = NULL;
+    free(small);
+    return bytes;
+}
+
 /* to: an object or an array; key: NULL for an array */
 static ec_result add(cJSON *to, const char *key, const thumbnail *t, const uint8_t *rgb, ec_error *err)
 {
@@ -62,6 +74,44 @@ static ec_result add_all(const ec_cost_study *study, const thumbnail *t, const f
     return EC_OK;
 }
 
+static uint32_t count_stages(const ec_cost_study *study)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < study->row_count; i++)
+        for (uint32_t k = 0; k < study->rows[i].point_count; k++) count += study->rows[i].stages[k] != NULL;
+    return count;
+}
+
+/* One row's, every step-th pixel. */
+static ec_result add_row_stages(const ec_cost_row *row, uint32_t width, const thumbnail *t, uint8_t *bytes, cJSON *to, ec_error *err)
+{
+    for (uint32_t k = 0; k < row->point_count; k++) {
+        if (!row->stages[k]) {
+            cJSON_AddItemToArray(to, cJSON_CreateNull());
+            continue;
+        }
+        for (uint32_t y = 0; y < t->height; y++)
+            for (uint32_t x = 0; x < t->width; x++)
+                memcpy(bytes + 3 * ((size_t)y * t->width + x), row->stages[k] + 3 * t->step * ((size_t)y * width + x), 3);
+        EC_TRY(add(to, NULL, t, bytes, err));
+    }
+    return EC_OK;
+}
+
+static ec_result add_stages(const ec_cost_study *study, const thumbnail *full, uint8_t *bytes, cJSON *to, ec_error *err)
+{
+    const uint64_t count = count_stages(study);
+    thumbnail t = {full->width, full->height, 1};
+    while (count * t.width * t.height > EC_COST_STAGE_PIXELS && t.width > 1 && t.height > 1) {
+        t.step++;
+        t.width = (full->width + t.step - 1) / t.step, t.height = (full->height + t.step - 1) / t.step;
+    }
+    for (uint32_t i = 0; i < study->row_count; i++)
+        if (study->rows[i].point_count)
+            EC_TRY(add_row_stages(&study->rows[i], full->width, &t, bytes, cJSON_AddArrayToObject(to, study->rows[i].rung.id), err));
+    return EC_OK;
+}
+
 ec_result ec_cost_pictures(const ec_cost_study *study, cJSON **images, ec_error *err)
 {
     *images = cJSON_CreateObject();
@@ -71,6 +121,7 @@ ec_result ec_cost_pictures(const ec_cost_study *study, cJSON **images, ec_error 
     uint8_t *bytes = malloc(3 * (size_t)t.width * t.height);
     ec_result result = reference && bytes ? add_all(study, &t, reference, bytes, *images, err)
                                           : ec_fail(err, "out of memory for the pictures of a report");
+    if (result == EC_OK) result = add_stages(study, &t, bytes, cJSON_AddObjectToObject(*images, "stages"), err);
     free(reference);
     free(bytes);
     return result;

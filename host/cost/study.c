@@ -142,7 +142,10 @@ ec_result ec_cost_run(ec_cost_study *study, ec_error *err)
 
 void ec_cost_free(ec_cost_study *study)
 {
-    for (uint32_t i = 0; i < study->row_count; i++) free(study->rows[i].picture);
+    for (uint32_t i = 0; i < study->row_count; i++) {
+        free(study->rows[i].picture);
+        for (uint32_t k = 0; k < EC_COST_LEVELS_MOST; k++) free(study->rows[i].stages[k]);
+    }
     free(study->rows);
     ec_cost_reference_free(&study->reference);
     study->rows = NULL;

@@ -29,5 +29,5 @@ int64_t ec_scene_node_of(const ec_scene *s, uint32_t id)
         if (s->parts[middle].first <= id) low = middle + 1;
         else high = middle;
     }
-    return low ? (int64_t)s->parts[low - 1].node : -1;
+    return low && s->parts[low - 1].node != EC_NO_NODE ? (int64_t)s->parts[low - 1].node : -1;
 }

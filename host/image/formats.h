@@ -4,12 +4,14 @@
 
 #include <stdbool.h>
 
-#include "image/image.h"
+#include "image/gather.h"
 
 /* Opened by begin, freed by end and abort. A file has its name only once it is whole. */
 typedef struct ec_format {
     const char *endings[3]; /* of names, NULL behind the last */
     bool has_alpha, has_16_bits, keeps_text;
+    ec_encode *const *encode; /* of formats that are encoded whole; what it points to is NULL where the build lacks the library, */
+    const char *library;    /* of this name */
     bool is_linear;         /* floats of radiance come, 3 a pixel */
     ec_result (*begin)(void **rows, const char *path, const ec_raster *of, const ec_png_text *text, ec_error *err);
     ec_result (*put)(void *rows, const void *pixels, uint32_t count, ec_error *err);
@@ -17,7 +19,7 @@ typedef struct ec_format {
     void (*abort)(void *rows); /* NULL is fine */
 } ec_format;
 
-enum { EC_FORMAT_PNG, EC_FORMAT_JPEG, EC_FORMAT_HDR, EC_FORMAT_COUNT };
+enum { EC_FORMAT_PNG, EC_FORMAT_JPEG, EC_FORMAT_HDR, EC_FORMAT_AVIF, EC_FORMAT_JXL, EC_FORMAT_COUNT };
 extern const ec_format ec_formats[EC_FORMAT_COUNT];
 
 ec_result ec_jpeg_begin(void **rows, const char *path, const ec_raster *of, const ec_png_text *text, ec_error *err);

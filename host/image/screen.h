@@ -4,19 +4,22 @@
 
 #include <stdint.h>
 
+#include "image/behind.h"
 #include "image/tone_curve.h"
 
-typedef enum ec_backdrop { EC_BACKDROP_ENVIRONMENT, EC_BACKDROP_TRANSPARENT, EC_BACKDROP_COLOR } ec_backdrop;
+typedef enum ec_backdrop { EC_BACKDROP_ENVIRONMENT, EC_BACKDROP_TRANSPARENT, EC_BACKDROP_COLOR, EC_BACKDROP_BLUR } ec_backdrop;
 
 typedef struct ec_background {
     ec_backdrop kind;
     uint8_t rgb[3]; /* of a colour: sRGB, as the screen has it */
+    float degrees;  /* of a blur: its standard deviation */
 } ec_background;
 
 typedef struct ec_screen {
     float exposure; /* EV */
     ec_tonemap tonemap;
     ec_background background;
+    const ec_behind *behind; /* of a blur */
 } ec_screen;
 
 /* A grid of pixels, rows from the top. */
@@ -30,7 +33,7 @@ static inline uint32_t ec_raster_pixel_bytes(const ec_raster *r) { return r->cha
 
 /* Linear Rec. 709 radiance, 3 floats a pixel, to 8 or 16 bits of sRGB: rgb * 2^exposure, tone curve, exact sRGB curve; non-finite values become 0.
  * alpha, every stride-th float: the part of each pixel that surfaces cover, whose light alone rgb then is; looked at where the background is not the
- * environment. A colour lies behind what the tone curve has made. */
-void ec_screen_pixels(const ec_screen *screen, const float *rgb, const float *alpha, uint32_t stride, uint64_t count, const ec_raster *to, void *out);
+ * environment. A colour lies behind what the tone curve has made, a blurred environment before it. first: number of the first pixel in the picture, row by row. */
+void ec_screen_pixels(const ec_screen *screen, const float *rgb, const float *alpha, uint32_t stride, uint64_t first, uint64_t count, const ec_raster *to, void *out);
 
 #endif

@@ -54,7 +54,7 @@ static void put(double x, const ec_raster *to, uint8_t *out, uint32_t channel)
     out[2 * channel + 1] = (uint8_t)value;
 }
 
-void ec_screen_pixels(const ec_screen *s, const float *rgb, const float *alpha, uint32_t stride, uint64_t count, const ec_raster *to, void *out)
+void ec_screen_pixels(const ec_screen *s, const float *rgb, const float *alpha, uint32_t stride, uint64_t first, uint64_t count, const ec_raster *to, void *out)
 {
     const double scale = exp2(s->exposure);
     const bool covers = s->background.kind != EC_BACKDROP_ENVIRONMENT, shows = s->background.kind == EC_BACKDROP_COLOR;
@@ -62,10 +62,11 @@ void ec_screen_pixels(const ec_screen *s, const float *rgb, const float *alpha, 
     for (int c = 0; c < 3; c++) behind[c] = ec_srgb_to_linear(s->background.rgb[c] / 255.0);
 #pragma omp parallel for schedule(static) if (count > 1 << 14)
     for (uint64_t i = 0; i < count; i++) {
-        const double covered = covers ? fmin(fmax(alpha[stride * i], 0), 1) : 1;
+        const double alone = covers ? fmin(fmax(alpha[stride * i], 0), 1) : 1, covered = s->behind ? 1 : alone;
         uint8_t *pixel = (uint8_t *)out + i * ec_raster_pixel_bytes(to);
-        double light[3];
-        for (int c = 0; c < 3; c++) light[c] = covered > 0 ? expose(rgb[3 * i + (uint64_t)c], scale / covered) : 0;
+        double light[3], far[3] = {0};
+        if (s->behind && alone < 1) ec_behind_look(s->behind, (uint32_t)((first + i) % to->width), (uint32_t)((first + i) / to->width), far);
+        for (int c = 0; c < 3; c++) light[c] = covered > 0 ? expose(rgb[3 * i + (uint64_t)c] + (1 - alone) * far[c], scale / covered) : 0;
         ec_tone_curve_apply(s->tonemap, light);
         for (uint32_t c = 0; c < 3; c++) put(srgb_encode(shows ? covered * light[c] + (1 - covered) * behind[c] : light[c]), to, pixel, c);
         if (to->channels == 4) put(covered, to, pixel, 3);
@@ -75,5 +76,5 @@ void ec_screen_pixels(const ec_screen *s, const float *rgb, const float *alpha, 
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap)
 {
     const ec_screen screen = {.exposure = exposure_ev, .tonemap = tonemap};
-    ec_screen_pixels(&screen, in, NULL, 0, pixel_count, &(ec_raster){.channels = 3, .bits = 8}, out);
+    ec_screen_pixels(&screen, in, NULL, 0, 0, pixel_count, &(ec_raster){.channels = 3, .bits = 8}, out);
 }

@@ -5,6 +5,9 @@
 #define EC_DEFAULT_SPP 256      /* stop rule when none of --spp, --time and --error is given */
 #define EC_DEFAULT_HEIGHT 512   /* pixels; the width follows the camera's aspect ratio */
 #define EC_LIVE_HEIGHT 600      /* pixels of a live session, likewise */
+#define EC_BLUR 10              /* degrees of a blurred background */
+#define EC_BLUR_LEAST 0.5
+#define EC_BLUR_MOST 60
 #define EC_DEFAULT_EVERY 60     /* seconds between two checkpoints */
 #define EC_DEFAULT_BUDGET 120   /* seconds of `eclat cost` */
 #define EC_COST_HEIGHT 256      /* pixels there: errors are of a pixel, so that few tell as much as many */

@@ -101,7 +101,7 @@ static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
 static void drop_scene(void *user)
 {
     ec_render_job *job = user;
-    if (!job->share || !job->share->animation) ec_scene_drop_data(job->scene);
+    if ((!job->share || !job->share->animation) && job->request->ground != EC_GROUND_SHADOW) ec_scene_drop_data(job->scene);
 }
 
 static bool keep_all(ec_render_job *job, const ec_film *film, const ec_past *past)

@@ -9,14 +9,18 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/vec3.h"
+#include "jobs/backdrop.h"
 #include "jobs/blank.h"
 #include "jobs/defaults.h"
+#include "jobs/denoise_choice.h"
 #include "jobs/numbers.h"
 #include "jobs/option.h"
+#include "jobs/shadow.h"
 #include "render/strips.h"
 #include "report/scene_report.h"
 #include "gltf/reader.h"
 #include "scene/built_in.h"
+#include "scene/ground.h"
 
 /* A slice is its sums: a PNG alone would throw them away. */
 static ec_result check_slice_output(const ec_render_request *request, ec_error *err)
@@ -268,7 +272,9 @@ static ec_result load_scene(ec_render_job *job, ec_error *err)
     const ec_render_request *request = job->request;
     if (job->share && job->share->animation) EC_TRY(ec_animation_show(job->share->animation, &request->choice, &job->scene, log, err));
     else EC_TRY(ec_scene_load_choice(request->scene, &request->choice, &job->scene, log, err));
-    return ec_render_job_light(job, err);
+    if (request->ground == EC_GROUND_MATTE) EC_TRY(ec_scene_add_ground(job->scene, err));
+    EC_TRY(ec_render_job_light(job, err));
+    return request->ground == EC_GROUND_SHADOW ? ec_shadow_check(job->scene, err) : EC_OK;
 }
 
 typedef struct finder {
@@ -310,23 +316,11 @@ static ec_result find_layers(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* Before the first sample: an hour's picture is not to end without what was asked for. */
-static ec_result find_denoiser(const ec_render_job *job, ec_error *err)
-{
-    ec_denoiser found;
-    const ec_denoiser asked = job->request->options.denoise;
-    if (asked == EC_DENOISER_NONE) return EC_OK;
-    EC_TRY(ec_denoiser_find(asked, &found, err));
-    if (asked == EC_DENOISER_AUTO && found == EC_DENOISER_ATROUS)
-        ec_note(&job->listener->log,
-                "Intel's Open Image Denoise is not installed ('pip install pyoidn'); --denoise filters by itself, which leaves more of the noise");
-    return EC_OK;
-}
-
 ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const double start = ec_now();
-    EC_TRY(find_denoiser(job, err));
+    ec_denoiser found;
+    EC_TRY(ec_require_denoiser(job->request->options.denoise, &found, &job->listener->log, err));
     if (job->share) {
         take_devices(job);
         EC_TRY(load_scene(job, err));
@@ -336,6 +330,8 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     job->load_seconds = ec_now() - start;
     EC_TRY(find_layers(job, err));
     EC_TRY(prepare_camera(job, err));
+    if (job->request->background.kind == EC_BACKDROP_BLUR)
+        EC_TRY(ec_backdrop_make(job->scene, &job->request->options, (double)job->request->background.degrees, &job->behind, err));
     job->is_blank = ec_warn_of_blank(job);
     return check_memory(job, err);
 }
@@ -361,6 +357,9 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .is_exposure_auto = request->exposure.is_auto,
         .tonemap = request->tonemap,
         .background = request->background,
+        .behind = request->background.kind == EC_BACKDROP_BLUR ? &job->behind : NULL,
+        .has_shadow = request->ground == EC_GROUND_SHADOW,
+        .shadow_error = job->shadow_error,
         .is_png_deep = request->png_depth != 0,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),
@@ -387,5 +386,6 @@ void ec_render_job_free(ec_render_job *job)
     ec_row_writer_abort(job->rows);
     ec_stored_free(&job->stored);
     ec_given_free(&job->before);
+    free(job->behind.rgb);
     free(job->whole_command);
 }

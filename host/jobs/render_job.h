@@ -33,8 +33,10 @@ typedef struct ec_render_job {
     uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
     ec_denoised denoised;        /* of the film, with options.denoise */
+    ec_behind behind;            /* with a blurred background. Owned */
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
+    double shadow_error;         /* with a ground that catches shadows: of its alpha (shadow.h); NaN: not known */
     ec_render_stats stats;
     double load_seconds;         /* until devices and scene were there */
     char camera_text[256];

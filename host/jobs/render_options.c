@@ -42,8 +42,8 @@ const ec_option ec_render_rows[] = {
 
     /* Picture */
     {.name = "background", .metavar = "WHAT", .set = ec_set_background, .group = EC_GROUP_PICTURE,
-     .help = "what the camera sees where no surface is: env, the environment; transparent, which the alpha of a .png and an .exr says; white, black or RRGGBB, "
-             "an sRGB colour in files for the screen. The light stays the same, and so does what surfaces mirror",
+     .help = "what the camera sees where no surface is: env, the environment; transparent, which the alpha of a .png and an .exr says; blur or blur:R, the "
+             "environment blurred by R degrees, " EC_TEXT(EC_BLUR) " for blur alone; white, black or RRGGBB, an sRGB colour. Blur and colours are those of files for the screen. The light stays the same, and so does what surfaces mirror",
      .otherwise = "env", .not_in_window = "a window shows the environment"},
     {.name = "camera", .metavar = "NAME|INDEX", EC_STORED(TEXT, camera), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA | EC_OPTION_COST,
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
@@ -96,6 +96,10 @@ const ec_option ec_render_rows[] = {
      .help = "render with a thin lens instead of a pinhole; the diameter of its aperture is its focal length divided by N, for a sensor 24 mm high and the "
              "camera's field of view; requires --focus",
      .otherwise = "a pinhole"},
+    {.name = "ground", .metavar = "KIND", .value_optional = true, .set = ec_set_ground, .choices = ec_ground_names, .group = EC_GROUP_PICTURE,
+     .help = "lay a ground under the scene, at its lowest point: matte, like --ground alone, a grey floor; shadow, one that is not seen but for the shadows "
+             "on it, which the alpha of a .png and an .exr holds (requires --background)",
+     .otherwise = "none", .not_in_window = "a window shows the scene as it is"},
     {.name = "light", .metavar = "NAME|FILE", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
      .help = "the same as --env. studio: grey walls and soft boxes around a subject that faces +z; sky:AZ,EL: a clear sky with its sun AZ degrees from +z "
@@ -106,13 +110,13 @@ const ec_option ec_render_rows[] = {
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
-     .help = "write FILE: an .exr (linear, with errors: --channels), a .png or .jpg for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
+     .help = "write FILE: an .exr (linear, with errors: --channels), a .png, .jpg, .avif or .jxl for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
              "scene's base name, {folder} for its folder's: several scenes need one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
     {.name = "png-depth", .metavar = "BITS", EC_CHOSEN(png_depth, ec_png_depths), .group = EC_GROUP_PICTURE,
-     .help = "bits of each channel of a .png: 8 or 16", .otherwise = "8"},
+     .help = "bits of each channel of a .png or .jxl: 8 or 16", .otherwise = "8"},
     {.name = "screen-window", .metavar = "L,R,B,T", .set = ec_set_screen_window, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_INFO,
      .help = "show what lies between left, right, bottom and top in the camera's image plane: 0,0 is its axis, 1 half the height of its view. For lens "
              "shift, crops, and pixels that are not square",

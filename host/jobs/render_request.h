@@ -24,6 +24,9 @@ typedef struct ec_camera_change {
 /* auto: where an error is asked for. */
 typedef enum ec_adaptive { EC_ADAPTIVE_AUTO, EC_ADAPTIVE_ON, EC_ADAPTIVE_OFF } ec_adaptive;
 
+/* Under the scene: nothing, a matte floor, or what catches its shadows alone (shadow.h). */
+typedef enum ec_ground { EC_GROUND_NONE, EC_GROUND_MATTE, EC_GROUND_SHADOW } ec_ground;
+
 typedef struct ec_render_request {
     const char *scene;
     ec_scene_choice choice;
@@ -44,6 +47,7 @@ typedef struct ec_render_request {
     const char *light_groups;  /* names; NULL: none */
     ec_exposure exposure;
     ec_background background;
+    ec_ground ground;
     unsigned png_depth;        /* of ec_png_depths: 8 or 16 bits */
     ec_frame_range frames;     /* of a sequence; not given: one picture */
     uint32_t orbit;            /* frames in which the camera goes round the scene once; 0: it stays */

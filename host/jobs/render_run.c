@@ -1,4 +1,5 @@
 /* A job that is ready is rendered: on which devices, and what is said of it before. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,9 @@
 #include "cl/workarounds.h"
 #include "jobs/given.h"
 #include "jobs/render_job.h"
+#include "jobs/shadow.h"
+
+enum { LEAST_OF_SHADOW = 16 }; /* samples a pixel: two of each replicate */
 
 /* Samples a pixel that a checkpoint has; 0: there is none. */
 static uint64_t samples_there(const ec_render_job *job)
@@ -140,6 +144,20 @@ static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *er
     return EC_OK;
 }
 
+/* The picture is worth more than its shadow. */
+static void cast_shadow(ec_render_job *job, ec_cl *cl)
+{
+    const ec_listener *listener = job->listener;
+    ec_error why = {0};
+    uint64_t spp = job->stats.samples_per_pixel;
+    job->shadow_error = NAN;
+    if (job->request->ground != EC_GROUND_SHADOW || !job->film.batch_count) return;
+    if (spp < LEAST_OF_SHADOW) spp = LEAST_OF_SHADOW;
+    if (ec_shadow_cast(cl, job->scene, &job->request->options, (uint32_t)spp, listener->progress, listener->user, &job->film, &job->shadow_error, &listener->log,
+                       &why) != EC_OK)
+        ec_warn(&listener->log, "no shadow is in the alpha: %s", why.text);
+}
+
 ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
 {
     const ec_listener *listener = job->listener;
@@ -159,6 +177,7 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     free(going_on);
     ec_result result = ec_render_course(devices, job->device_count, job->scene, &job->request->options, &course,
                                         listener->progress, listener->user, &job->film, &job->stats, log, err);
+    cast_shadow(job, devices);
     listener->end(listener->user);
     for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
     if (job->share && job->share->animation) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);

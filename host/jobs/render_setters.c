@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "film/denoiser.h"
 #include "jobs/defaults.h"
+#include "jobs/denoise_choice.h"
 #include "jobs/numbers.h"
 #include "jobs/render_request.h"
 #include "jobs/option.h"
@@ -20,6 +20,7 @@
 
 const char *const ec_adaptive_names[] = {[EC_ADAPTIVE_AUTO] = "auto", [EC_ADAPTIVE_ON] = "on", [EC_ADAPTIVE_OFF] = "off", NULL};
 const char *const ec_png_depths[] = {"8", "16", NULL};
+const char *const ec_ground_names[] = {[EC_GROUND_NONE] = "none", [EC_GROUND_MATTE] = "matte", [EC_GROUND_SHADOW] = "shadow", NULL};
 const char *const ec_effects_names[] = {"needed", "all", NULL};
 
 SETTER(at)
@@ -65,12 +66,14 @@ SETTER(parallel)
 
 SETTER(screen_window) { return ec_parse_window(option, value, SCREEN_MOST, REQUEST->options.screen_window, err); }
 
-/* --denoise without a value means auto. */
-SETTER(denoise)
+SETTER(denoise) { return ec_parse_denoise(option, value, &REQUEST->options.denoise, err); }
+
+/* --ground without a value is matte. */
+SETTER(ground)
 {
-    uint32_t index = EC_DENOISER_AUTO;
-    if (value) EC_TRY(ec_parse_choice(option, value, ec_denoiser_names, &index, err));
-    REQUEST->options.denoise = (ec_denoiser)index;
+    uint32_t index = EC_GROUND_MATTE;
+    if (value) EC_TRY(ec_parse_choice(option, value, ec_ground_names, &index, err));
+    REQUEST->ground = (ec_ground)index;
     return EC_OK;
 }
 
@@ -83,21 +86,27 @@ SETTER(adaptive)
     return EC_OK;
 }
 
-/* transparent, env, a name or six hexadecimal digits. */
+/* transparent, env, blur[:R], a name or six hexadecimal digits. */
 SETTER(background)
 {
     static const struct { const char *name; ec_background is; } names[] = {
-        {"env", {.kind = EC_BACKDROP_ENVIRONMENT}}, {"transparent", {.kind = EC_BACKDROP_TRANSPARENT}},
-        {"white", {EC_BACKDROP_COLOR, {255, 255, 255}}}, {"black", {.kind = EC_BACKDROP_COLOR}}};
+        {"env", {.kind = EC_BACKDROP_ENVIRONMENT}}, {"transparent", {.kind = EC_BACKDROP_TRANSPARENT}}, {"blur", {.kind = EC_BACKDROP_BLUR, .degrees = EC_BLUR}},
+        {"white", {.kind = EC_BACKDROP_COLOR, .rgb = {255, 255, 255}}}, {"black", {.kind = EC_BACKDROP_COLOR}}};
     ec_background *background = &REQUEST->background;
     const char *digits = value + (*value == '#');
     bool is_known = strlen(digits) == 6 && strspn(digits, "0123456789abcdefABCDEF") == 6;
     const unsigned long number = is_known ? strtoul(digits, NULL, 16) : 0;
-    *background = (ec_background){EC_BACKDROP_COLOR, {(uint8_t)(number >> 16), (uint8_t)(number >> 8), (uint8_t)number}};
+    *background = (ec_background){.kind = EC_BACKDROP_COLOR, .rgb = {(uint8_t)(number >> 16), (uint8_t)(number >> 8), (uint8_t)number}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(value, names[i].name)) *background = names[i].is, is_known = true;
+    if (!strncmp(value, "blur:", 5)) {
+        double degrees;
+        EC_TRY(ec_parse_real(option, value + 5, EC_BLUR_LEAST, EC_BLUR_MOST, &degrees, err));
+        *background = (ec_background){.kind = EC_BACKDROP_BLUR, .degrees = (float)degrees};
+        is_known = true;
+    }
     REQUEST->options.hides_environment = background->kind != EC_BACKDROP_ENVIRONMENT;
-    return is_known ? EC_OK : ec_usage(err, "--%s: '%s' is neither env nor transparent, white, black or an sRGB colour as 3366cc", option, value);
+    return is_known ? EC_OK : ec_usage(err, "--%s: '%s' is neither env nor transparent, blur, blur:R, white, black or an sRGB colour as 3366cc", option, value);
 }
 
 SETTER(frames) { return ec_frame_range_parse(option, value, &REQUEST->frames, err); }

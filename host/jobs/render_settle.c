@@ -132,13 +132,22 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
+/* A shadow is a part of the alpha, of the whole picture. */
+static ec_result check_ground(const ec_render_request *request, ec_error *err)
+{
+    if (request->ground != EC_GROUND_SHADOW) return EC_OK;
+    if (request->options.integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--ground=shadow belongs to --integrator path; leave it out or choose that");
+    if (!request->options.hides_environment)
+        return ec_usage(err, "--ground=shadow: the environment would stand before it; give --background transparent, a colour or blur");
+    return EC_OK;
+}
+
 static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
 {
     const uint32_t replicates = ec_render_replicates(&request->options);
     if (!request->options.denoise) return EC_OK;
     if (replicates < EC_JUDGE_REPLICATES)
         return ec_usage(err, "--denoise and --replicates %u: one half of the replicates judges the other; give %d or more", replicates, EC_JUDGE_REPLICATES);
-    if (request->has_slice) return ec_usage(err, "--denoise and --samples: a slice is a part of a picture, and a denoiser wants the whole; leave one out");
     return EC_OK;
 }
 
@@ -239,6 +248,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(settle_files(request, err));
     EC_TRY(settle_adaptive(request, err));
     EC_TRY(settle_denoise(request, err));
+    EC_TRY(check_ground(request, err));
     request->capped = limits->spp == 0 && ec_render_has_limit(limits);
     if (!ec_render_has_limit(limits)) limits->spp = EC_DEFAULT_SPP;
     return EC_OK;
@@ -252,6 +262,7 @@ const char *ec_render_whole_for(const ec_render_request *r)
     if (r->options.error_target > 0) return "--error"; /* of the whole image */
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
+    if (r->ground == EC_GROUND_SHADOW) return "--ground=shadow"; /* two more pictures */
     if (r->exposure.is_auto) return "--exposure auto"; /* by all pixels */
     if (r->checkpoint) return "--checkpoint";
     if (r->snapshot) return "--snapshot";

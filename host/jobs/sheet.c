@@ -2,16 +2,18 @@
 
 #include <math.h>
 #include <png.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "image/exr_header.h"
 #include "image/image.h"
+#include "image/label.h"
 #include "jobs/numbers.h"
 #include "report/names.h"
 
-enum { CELL = 192, GAP = 8, GROUND = 32, SIDE_MOST = 32768 };
+enum { CELL = 192, GAP = 8, GROUND = 32, INK = 208, SIDE_MOST = 32768 };
 
 typedef struct small {
     uint32_t width, height;
@@ -79,25 +81,38 @@ static void shrink(small *picture)
     *picture = less;
 }
 
-/* In cells that the largest one fills, each in the middle of its own. */
-static ec_result write(const char *path, const small *pictures, uint32_t count, ec_error *err)
+/* A file's name without its folder and ending. */
+static void draw_name(const char *file, uint32_t x, uint32_t y, uint32_t width, uint8_t *sheet, uint64_t stride)
 {
+    char name[256];
+    const char *slash = strrchr(file, '/');
+    snprintf(name, sizeof name, "%s", slash ? slash + 1 : file);
+    char *dot = strrchr(name, '.');
+    if (dot) *dot = 0;
+    ec_label_draw(name, x, y, width, INK, sheet, stride);
+}
+
+/* In cells that the largest one fills, each in the middle of its own, with its name below. */
+static ec_result write(const char *path, const small *pictures, char *const *files, uint32_t count, ec_error *err)
+{
+    const uint32_t line = ec_label_height();
     uint32_t wide = 1, high = 1;
     for (uint32_t i = 0; i < count; i++) {
         if (pictures[i].width > wide) wide = pictures[i].width;
         if (pictures[i].height > high) high = pictures[i].height;
     }
     const uint32_t across = (uint32_t)fmax(1, fmin(count, ceil(sqrt(1.5 * count * high / wide)))), down = count ? (count + across - 1) / across : 1;
-    const uint64_t width = GAP + (uint64_t)across * (wide + GAP), height = GAP + (uint64_t)down * (high + GAP);
+    const uint64_t width = GAP + (uint64_t)across * (wide + GAP), height = GAP + (uint64_t)down * (high + line + GAP);
     if (width > SIDE_MOST || height > SIDE_MOST) return ec_fail(err, "cannot write '%s': %u pictures are too many for one sheet; make several with --shard", path, count);
     uint8_t *sheet = malloc(3 * width * height);
     if (!sheet) return ec_fail(err, "cannot write '%s': out of memory for %u pictures", path, count);
     memset(sheet, GROUND, 3 * width * height);
     for (uint32_t i = 0; i < count; i++) {
         const small *p = &pictures[i];
-        const uint64_t left = GAP + i % across * (wide + GAP) + (wide - p->width) / 2, top = GAP + i / across * (high + GAP) + (high - p->height) / 2;
+        const uint64_t left = GAP + i % across * (wide + GAP) + (wide - p->width) / 2, row = GAP + i / across * (high + line + GAP), top = row + (high - p->height) / 2;
         for (uint32_t y = 0; p->rgb && y < p->height; y++)
             memcpy(sheet + 3 * ((top + y) * width + left), p->rgb + 3 * (uint64_t)y * p->width, 3 * (size_t)p->width);
+        draw_name(files[i], GAP + i % across * (wide + GAP), (uint32_t)row + high, wide, sheet, width);
     }
     ec_result result = ec_png_write(path, (uint32_t)width, (uint32_t)height, sheet, err);
     free(sheet);
@@ -114,7 +129,7 @@ ec_result ec_sheet_write(const char *path, char *const *files, uint32_t count, e
         if (is_png ? read_png(files[i], &pictures[i]) : read_exr(files[i], &pictures[i])) shrink(&pictures[i]);
         else pictures[i] = (small){0};
     }
-    ec_result result = write(path, pictures, count, err);
+    ec_result result = write(path, pictures, files, count, err);
     for (uint32_t i = 0; i < count; i++) free(pictures[i].rgb);
     free(pictures);
     return result;

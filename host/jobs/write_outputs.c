@@ -173,7 +173,7 @@ void ec_picture_pixels(const ec_picture *p, const ec_picture_style *style, const
     const float *rgb = p->clean.best ? p->clean.best : p->rgb;
     const float *alpha = p->aov ? p->aov + EC_PLACE_ALPHA : p->constants + 1; /* 1 without first hits */
     if (to->bits == 32) memcpy(out, rgb, 3 * sizeof *rgb * count);
-    else ec_screen_pixels(&style->screen, rgb, alpha, p->aov ? EC_FEATURE_CHANNELS : 2, count, to, out);
+    else ec_screen_pixels(&style->screen, rgb, alpha, p->aov ? EC_FEATURE_CHANNELS : 2, (uint64_t)p->first * p->width, count, to, out);
 }
 
 static ec_result write_pixels(const char *path, const ec_format *format, const ec_picture *picture, const ec_picture_style *style, ec_error *err)

@@ -13,6 +13,7 @@
 /* Float planes of a film or of some of its rows, ready to be written and hashed. 64 bytes a pixel, 20 where no error is known. */
 typedef struct ec_picture {
     uint32_t width, height;
+    uint32_t first;    /* row of the whole that it begins with */
     float *rgb;        /* 3 per pixel, owned */
     /* The error of each pixel; all NULL with fewer than two replicates. Owned. */
     float *stderr_rgb; /* 3 per pixel */

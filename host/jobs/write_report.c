@@ -7,7 +7,7 @@
 
 static ec_screen screen_of(const ec_render_report *report)
 {
-    return (ec_screen){.exposure = (float)report->exposure, .tonemap = report->tonemap, .background = report->background};
+    return (ec_screen){.exposure = (float)report->exposure, .tonemap = report->tonemap, .background = report->background, .behind = report->behind};
 }
 
 /* All of it at once, with its sums. */

@@ -140,6 +140,7 @@ static void write_band(ec_row_writer *w)
     const bool is_beside = pthread_create(&hasher, NULL, hash_band, &task) == 0;
     if (!is_beside) hash_band(&task);
     w->heavy += w->band.heavy_count;
+    w->band.first = w->written;
     w->written += rows;
     for (int i = 0; i < w->outputs->count; i++) {
         ec_error why = {0};

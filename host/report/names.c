@@ -30,6 +30,7 @@ ec_background_text ec_background_name(const ec_background *b)
     ec_background_text t = {"env"};
     if (b->kind == EC_BACKDROP_TRANSPARENT) return (ec_background_text){"transparent"};
     if (b->kind == EC_BACKDROP_COLOR) snprintf(t.text, sizeof t.text, "#%02x%02x%02x", b->rgb[0], b->rgb[1], b->rgb[2]);
+    if (b->kind == EC_BACKDROP_BLUR) snprintf(t.text, sizeof t.text, "blur:%g", (double)b->degrees);
     return t;
 }
 

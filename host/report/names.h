@@ -18,7 +18,7 @@ extern const char *const ec_tonemap_names[];    /* ec_tonemap */
 
 /* "env", "transparent" or "#3366cc". */
 typedef struct ec_background_text {
-    char text[16];
+    char text[24];
 } ec_background_text;
 ec_background_text ec_background_name(const ec_background *background);
 

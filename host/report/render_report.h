@@ -37,6 +37,9 @@ typedef struct ec_render_report {
     double exposure;                /* EV, of the PNG */
     bool is_exposure_auto;
     ec_background background;
+    const ec_behind *behind;        /* NULL: no blurred environment is */
+    bool has_shadow;                /* alpha has that on a ground, */
+    double shadow_error;            /* with this standard error; NaN: not known */
     bool is_png_deep;               /* 16 bits */
     ec_tonemap tonemap;
     double mean_luminance;

@@ -132,6 +132,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
         fprintf(to, "geometry %" PRIu64 " triangles in %u instances, %" PRIu64 " of them stored\n", stats->triangles,
                 stats->instances, stats->stored_triangles);
     print_heavy(report, to);
+    if (report->has_shadow && isfinite(report->shadow_error)) fprintf(to, "shadow   standard error %.4f of the alpha of the ground's pixels\n", report->shadow_error);
     if (report->is_exposure_auto) fprintf(to, "exposure %+.2f stops, by auto\n", report->exposure);
     fprintf(to, "stopped  %s\n", stop_in_words(stats->stopped_by));
     if (!stats->share_count)

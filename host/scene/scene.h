@@ -145,8 +145,9 @@ ec_result ec_scene_names_find(const ec_scene_names *names, const char *what, con
 
 /* Triangles from this id up to the next part's are of one node: an index in the file. */
 typedef struct ec_part {
-    uint32_t first, node;
+    uint32_t first, node; /* EC_NO_NODE: of none */
 } ec_part;
+#define EC_NO_NODE UINT32_MAX
 
 typedef struct ec_scene {
     /* Vertices; optional streams are NULL where no primitive has them. A vertex without a normal or tangent has

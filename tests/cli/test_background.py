@@ -1,7 +1,9 @@
 # tier: quick
 """--background and files for the screen: PNG of 8 and 16 bits with alpha, JPEG, HDR."""
 import json
+import math
 import os
+import shutil
 import subprocess
 import unittest
 
@@ -89,6 +91,38 @@ class Background(Case):
                     srgb = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
                     self.assertLessEqual(abs(rows[i // W][i % W * 3 + k] - 255 * srgb), 1)
 
+    def test_a_blurred_environment_is_what_the_screen_shows(self):
+        """A map of radiance 1 + n.d: its blur by a von Mises-Fisher distribution is 1 + (coth k - 1 / k) n.d, k = 1 / R^2 (Mardia and Jupp, 9.3.9)."""
+        turn, n, width, height = math.radians(40), (0.6, 0.3, 0.5), 256, 128
+        at = lambda d: 1 + sum(a * b for a, b in zip(n, d))  # noqa: E731
+        data = bytearray()
+        for y in range(height):
+            for x in range(width):
+                phi, theta = 2 * math.pi * ((x + 0.5) / width - 0.5), math.pi * (y + 0.5) / height
+                value = at((math.cos(phi) * math.sin(theta), math.cos(theta), math.sin(phi) * math.sin(theta)))
+                data += bytes([min(255, round(value * 128))] * 3 + [129])
+        with open(self.path("map.hdr"), "wb") as file:
+            file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width) + data)
+        options = ("--env", self.path("map.hdr"), "--env-rotate", "40", "--tonemap", "none", "--exposure", "-1", "--png-depth", "16")
+        for degrees in (20, 50):
+            self.assertEqual(self.render("blur.exr", "blur.png", background=f"blur:{degrees}", options=options)["background"], f"blur:{degrees}")
+            kappa = 1 / math.radians(degrees) ** 2
+            share = 1 / math.tanh(kappa) - 1 / kappa
+            clear, alpha = self.pixels("blur.exr")
+            rows, tall = read_png(self.path("blur.png"))[4], math.tan(0.97 / 2)
+            for i, (c, a) in enumerate(zip(clear, alpha)):
+                d = ((2 * (i % W + 0.5) / W - 1) * tall * W / H, (1 - 2 * (i // W + 0.5) / H) * tall, -1)
+                norm = math.sqrt(sum(k * k for k in d))
+                turned = (math.cos(turn) * d[0] - math.sin(turn) * d[2], d[1], math.sin(turn) * d[0] + math.cos(turn) * d[2])
+                far = 1 + share * (at([k / norm for k in turned]) - 1)
+                for k in range(3):
+                    value = min(1, 0.5 * (c[k] + (1 - a) * far))
+                    srgb = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
+                    self.assertAlmostEqual(rows[i // W][i % W * 3 + k] / 65535, srgb, delta=4e-3)
+        self.render("env.png"), self.render("alike.png", background="blur")  # of one colour
+        for a, b in zip(read_png(self.path("env.png"))[4], read_png(self.path("alike.png"))[4]):
+            self.assertLessEqual(max(abs(x - y) for x, y in zip(a, b)), 2)
+
     def test_sixteen_bits(self):
         self.render("a.exr", "a.png", options=("--png-depth", "16", "--tonemap", "aces"))
         width, height, channels, bits, rows = read_png(self.path("a.png"))
@@ -114,6 +148,30 @@ class Background(Case):
         self.assertEqual(len(raw), 3 * W * H)
         self.assertLess(sum(difference) / len(difference), 3)
 
+    def test_avif_and_jxl_are_the_png(self):
+        """Where the build has the libraries; else the refusal names them."""
+        decoders = {"avif": ("avifdec", lambda a, b: ("avifdec", a, b)), "jxl": ("djxl", lambda a, b: ("djxl", a, b))}
+        built = {}
+        for name in decoders:
+            run = eclat("render", self.scene, *OPTIONS, "--spp", "8", "--background", "transparent", "-q", "-o", self.path(f"a.{name}"), "-o", self.path("a.png"))
+            built[name] = run.returncode == 0
+            if not built[name]:
+                self.assertIn(f"takes lib{name}, which this eclat was built without; write a .png, or build eclat with lib{name}-dev", self.assert_one_error(run, 2))
+                continue
+            program, command = decoders[name]
+            if not shutil.which(program):
+                continue
+            subprocess.run(command(self.path(f"a.{name}"), self.path("back.png")), check=True, capture_output=True)
+            a, b = read_png(self.path("a.png")), read_png(self.path("back.png"))
+            self.assertEqual(a[:3], b[:3])
+            worst = max(abs(x - y) for p, q in zip(a[4], b[4]) for i, (x, y) in enumerate(zip(p, q)) if p[i | 3] == 255)
+            self.assertLessEqual(worst, 0 if name == "jxl" else 12)
+            self.assertEqual([p[3::4] for p in a[4]], [q[3::4] for q in b[4]])
+            left = os.listdir(self.folder)
+            self.assertEqual(sorted(left), sorted(set(left) & {"scene.gltf", "a.png", "back.png", "a.avif", "a.jxl"}))
+        if not any(built.values()):
+            self.skipTest("built without libavif and libjxl")
+
     def test_hdr_is_radiance(self):
         self.render("a.exr", "a.hdr", options=("--exposure", "3", "--light", "sky:0,3"))
         rows = radiance(self.path("a.hdr"))
@@ -124,8 +182,9 @@ class Background(Case):
 
     def test_what_does_not_go_together(self):
         for options, says in [(["--background", "transparent", "-o", "a.jpg"], "'a.jpg' has no alpha; write a .png or an .exr"),
-                              (["--background", "mauve"], "neither env nor transparent, white, black or an sRGB colour"),
+                              (["--background", "mauve"], "neither env nor transparent, blur, blur:R, white, black or an sRGB colour"),
                               (["--background", "fff"], "neither env nor"),
+                              (["--background", "blur:90"], "--background"),
                               (["--png-depth", "12"], "--png-depth"),
                               (["--background", "white", "--samples", "0:8", "-o", "a.exr"], "merging knows no background"),
                               (["--frames", "0:1", "-o", "a.%d.jpg"], "cannot say which job it is of"),

@@ -106,6 +106,32 @@ class Page(PageCase):
         pictured = [r for r in self.report["rungs"] if r.get("curve")]
         self.assertEqual(sizes, [[24, 24, True]] * (1 + 2 * len(pictured)))
 
+    def test_slider_through_time(self):
+        """At each of its stops every rung shows its picture of the most samples that is done by then, or says when its first is."""
+        self.show()
+        pictured = [r for r in self.report["rungs"] if r.get("curve")]
+        times = sorted({p["seconds"] for r in pictured for p in r["curve"]})
+        self.assertEqual(self.browser.evaluate("Number(document.getElementById('time').max)"), len(times) - 1)
+        seen = set()
+        for index in (0, len(times) // 2, len(times) - 1):
+            shown = self.browser.evaluate(f"""(t => (t.value = {index}, t.dispatchEvent(new Event("input")), [...document.querySelectorAll("#times figure")].map(f =>
+                [f.querySelector("img").checkVisibility() ? f.querySelector("img").src : null, f.querySelector("span").textContent])))(document.getElementById("time"))""")
+            self.assertEqual(len(shown), len(pictured))
+            for rung, (source, caption) in zip(pictured, shown):
+                done = [i for i, p in enumerate(rung["curve"]) if p["seconds"] <= times[index]]
+                self.assertEqual(source is None, not done, rung["id"])
+                if done:
+                    self.assertEqual(source, self.browser.evaluate(f"JSON.parse(document.getElementById('images').textContent).stages['{rung['id']}'][{done[-1]}]"))
+                    self.assertTrue(caption.startswith(f"{rung['curve'][done[-1]]['samples_per_pixel']} samples"), caption)
+            seen.add(str(shown))
+        self.assertEqual(len(seen), 3)
+        sizes = self.browser.evaluate("Promise.all([...document.querySelectorAll('#times img')].map(i => i.decode().then(() => [i.naturalWidth, i.naturalHeight])))")
+        self.assertEqual(sizes, [[24, 24]] * len(pictured))
+        self.assertIn("10 s", self.browser.evaluate("document.getElementById('times-reach').textContent"))
+        for stop in self.browser.evaluate("[...document.querySelectorAll('#time-stops button')].map(b => (b.click(), [Number(b.dataset.seconds), document.getElementById('time').value]))"):
+            self.assertEqual(int(stop[1]), max(i for i, t in enumerate(times) if t <= stop[0]))
+        self.assertLess(os.path.getsize(self.path), 3_000_000)
+
     def test_keyboard(self):
         self.show()
         self.browser.evaluate("document.getElementById('error-chart').focus()")

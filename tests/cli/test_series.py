@@ -9,6 +9,7 @@ import zlib
 from support import QUICK, Case, eclat, move_node, png_size, quad_scene, read_exr, write_gltf
 
 SMALL = ["--size", "24x16", "--spp", "4", *QUICK]
+LINE = 12 if os.path.exists("/usr/include/stb/stb_easy_font.h") else 0  # of names on a contact sheet
 
 
 def glowing(strength):
@@ -142,12 +143,32 @@ class Series(Case):
             self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.png", "c.png"] if i == 1 else ["a.png", "b.png", "c.png"])
 
     def test_a_contact_sheet(self):
-        """Three pictures of 24 x 16, white, grey and dark grey in their middle, with gaps of 8: from the top left."""
+        """Three pictures of 24 x 16, white, grey and dark grey in their middle, with gaps of 8: from the top left. Below each its name, in a line of 12."""
         self.assert_ok(self.render("a.gltf", "b.gltf", "c.gltf", "-q", "-o", "out/{name}.exr", "--tonemap", "none", "--sheet", "sheet.png"))
         width, height, rows = read_png(self.path("sheet.png"))
-        self.assertEqual((width, height), (2 * 32 + 8, 2 * 24 + 8))
-        middle = [rows[y][3 * x] for x, y in ((20, 16), (52, 16), (20, 40), (52, 40), (4, 4))]
+        line = height - (2 * 24 + 8)
+        self.assertEqual(line, 2 * LINE)
+        self.assertEqual(width, 2 * 32 + 8)
+        lower = 40 + line // 2
+        middle = [rows[y][3 * x] for x, y in ((20, 16), (52, 16), (20, lower), (52, lower), (4, 4))]
         self.assertEqual(middle, [255, 188, 137, 32, 32])
+        if not line:
+            self.skipTest("no font: libstb-dev is not there")
+        letters = [[[rows[y][3 * x] for x in range(left, left + 24)] for y in range(top, top + LINE)] for left, top in ((8, 24), (40, 24), (8, 60), (40, 60))]
+        ink = [{(x - min(i for row in rows for i, v in enumerate(row) if v > 32), y) for y, row in enumerate(rows) for x, v in enumerate(row) if v > 32}
+               if any(v > 32 for row in rows for v in row) else set() for rows in letters]
+        self.assertEqual(ink[3], set())  # there is no fourth picture
+        self.assertEqual(len({frozenset(i) for i in ink}), 4)  # a, b and c
+        self.assertTrue(all(5 <= len(i) <= 30 for i in ink[:3]), ink)
+
+    def test_long_names_are_cut_on_a_sheet(self):
+        name = "very-long-name-" * 10
+        write_gltf(self.path(name + "\u00e9.gltf"), glowing(1))
+        self.assert_ok(self.render("a.gltf", name + "\u00e9.gltf", "-q", "-o", "out/{name}.png", "--sheet", "sheet.png"))
+        width, height, rows = read_png(self.path("sheet.png"))
+        self.assertEqual(width, 2 * 32 + 8)
+        for y in range(24, height):  # nothing leaves its cell
+            self.assertEqual({rows[y][3 * x] for x in (*range(8), *range(32, 40), *range(64, 72))}, {32})
 
     def test_a_sheet_shrinks_light_not_codes(self):
         """An edge in the middle of a cell: the mean light of both sides is 0.5, as a code 188."""
@@ -159,7 +180,7 @@ class Series(Case):
         self.assert_ok(eclat("render", "half.gltf", "--size", "384x384", "--spp", "1", *QUICK, "-q", "-o", "out/{name}.png", "--tonemap", "none", "--sheet",
                              "sheet.png", cwd=self.folder))
         width, height, rows = read_png(self.path("sheet.png"))
-        self.assertEqual((width, height), (208, 208))
+        self.assertEqual(width, 208)
         row = [rows[100][3 * x] for x in range(208)]
         self.assertEqual(row, [32] * 8 + [255] * 96 + [188] + [0] * 95 + [32] * 8)
 
@@ -235,7 +256,7 @@ class Series(Case):
         self.assertEqual([row.get("frame") for row in rows], [0, 1, None, 0, 1, None])
         self.assertEqual(last["rendered"], 2)
         self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.0.png", "a.1.png", "b.0.png", "b.1.png"])
-        self.assertEqual(png_size(self.path("sheet.png")), (2 * 32 + 8, 2 * 24 + 8))
+        self.assertEqual(png_size(self.path("sheet.png")), (2 * 32 + 8, 2 * 24 + 8 + 2 * LINE))
 
 
 if __name__ == "__main__":

@@ -286,6 +286,45 @@ function showPictures() {
     }
 }
 
+/* A slider through the times at which some rung's picture is done. */
+const staged = measured.filter(r => r.curve && images.stages?.[r.id]?.some(s => s)).map(r => (
+    {rung: r, points: r.curve.map((p, i) => ({...p, src: images.stages[r.id][i]})).filter(p => p.src)}));
+const times = [...new Set(staged.flatMap(s => s.points.map(p => p.seconds)))].sort((a, b) => a - b);
+const lastBy = time => times.findLastIndex(t => t <= time);
+function showTime(index) {
+    const now = times[index];
+    $("time").value = index;
+    $("time").setAttribute("aria-valuetext", seconds(now));
+    $("time-said").textContent = seconds(now);
+    for (const {points, image, empty, caption} of staged) {
+        const p = points.findLast(p => p.seconds <= now);
+        image.hidden = !p;
+        empty.hidden = !!p;
+        if (p) image.src = p.src;
+        caption.textContent = p ? `${p.samples_per_pixel} samples a pixel, ${seconds(p.seconds)}, error ${percent(p.error)}` : "";
+    }
+}
+function slideThroughTime() {
+    if (!times.length) { $("times-section").hidden = true; return; }
+    for (const s of staged) {
+        s.image = element("img", "", {alt: `Picture of ${label(s.rung)} by then`});
+        s.empty = element("div", `none before ${seconds(s.points[0].seconds)}`, {class: "none", style: `aspect-ratio: ${data.width} / ${data.height}`});
+        s.caption = element("span");
+        $("times").append(element("figure", [s.image, s.empty, element("figcaption", [element("b", label(s.rung)), element("br"), s.caption])]));
+    }
+    const last = times[times.length - 1], decades = [0.001, 0.01, 0.1, 1, 10, 60, 600, 3600], beyond = [1, 10, 60].filter(t => t > last);
+    $("times-reach").textContent = `The longest picture that the budget allowed took ${seconds(last)}`
+        + (beyond.length ? `: of ${beyond.map(t => t === 60 ? "1 min" : seconds(t)).join(" and ")} there is none; a larger --budget reaches further.` : ".");
+    $("time").max = times.length - 1;
+    $("time").addEventListener("input", () => showTime(Number($("time").value)));
+    for (const t of decades.filter(t => t >= times[0] && t <= last)) {
+        const button = element("button", t === 60 ? "1 min" : seconds(t), {type: "button", "data-seconds": t});
+        button.addEventListener("click", () => showTime(lastBy(t)));
+        $("time-stops").append(button, " ");
+    }
+    showTime(times.length - 1);
+}
+
 /* Words around them */
 function tellStory() {
     const scene = data.scene.split("/").pop();
@@ -307,6 +346,7 @@ tellStory();
 listCurves();
 fillTable();
 tableEffects();
+slideThroughTime();
 showPictures();
 function draw() { drawErrors(); drawEffects(); }
 darkness.addEventListener("change", draw);
