@@ -3,12 +3,14 @@
 
 #include "commands/command.h"
 #include "jobs/defaults.h"
+#include "jobs/denoise_choice.h"
 #include "jobs/outputs.h"
 #include "report/merge_report.h"
 #include "report/names.h"
 
 typedef struct merge_request {
     ec_outputs outputs;
+    ec_denoiser denoise;
     ec_exposure exposure;
     ec_tonemap tonemap;
     bool partial;
@@ -16,7 +18,15 @@ typedef struct merge_request {
 
 #define REQUEST merge_request
 
+static ec_result set_denoise(void *target, const char *option, const char *value, ec_error *err)
+{
+    return ec_parse_denoise(option, value, &((merge_request *)target)->denoise, err);
+}
+
 static const ec_option options[] = {
+    {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = set_denoise, .choices = ec_denoiser_names,
+     .help = "denoise the picture and judge the denoiser, as eclat render --denoise does. The slice that begins with sample 0 has the first hits that it "
+             "goes by: of 64 samples a pixel where that was rendered with --denoise, else of 8", .otherwise = "off"},
     {.name = "exposure", .metavar = "EV|auto", EC_RANGED(EXPOSURE, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST),
      .help = EC_EXPOSURE_HELP, .otherwise = "0"},
     {.name = "json", .help = "print one JSON object instead of text"},
@@ -57,6 +67,7 @@ static ec_result tell(const ec_call *call, ec_error *err)
                                     .limit = ec_merged_clamp(m),
                                     .luminance = (double)m->slices.all.film.limit,
                                     .clamp = m->clamp,
+                                    .denoised = ec_merged_denoised(m),
                                     .image_sha256 = m->sha256,
                                     .outputs = outputs,
                                     .output_count = request->outputs.count,
@@ -78,7 +89,7 @@ static ec_result run(ec_call *call, ec_error *err)
     merge_request *request = call->request;
     call->write = write_merged;
     EC_TRY(check(call, &request->outputs, err));
-    EC_TRY(ec_merged_make(call->inputs, call->input_count, request->partial, call->line, &call->merged, &call->listener->log, err));
+    EC_TRY(ec_merged_make(call->inputs, call->input_count, request->partial, request->denoise, call->line, &call->merged, &call->listener->log, err));
     if (request->outputs.count) EC_TRY(write_merged(call, &request->outputs, err));
     return tell(call, err);
 }

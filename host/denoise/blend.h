@@ -8,7 +8,7 @@ enum { EC_BLEND_TILE = 16 };
 
 /* Sums over pixels of a tile. */
 typedef struct ec_tile_sums {
-    double pixels, clean, noisy, apart, noise;
+    double pixels, clean, noisy, apart, noise, variance, plains; /* the last two: of (clean - noisy) / 2 */
 } ec_tile_sums;
 
 typedef struct ec_blend_tile {
@@ -20,7 +20,7 @@ typedef struct ec_blend_tile {
 /* Pixels between the middles of four tiles, or beyond the outer ones: sums of what their weights make of the error, which is quadratic in them. Corners
  * are left and right above, left and right below. */
 typedef struct ec_blend_cell {
-    double square[4][4], linear[4], variance[4];
+    double square[4][4], linear[4], variance[4], plains[4];
 } ec_blend_cell;
 
 typedef struct ec_blend {
@@ -42,7 +42,8 @@ void ec_blend_choose(ec_blend *blend);
 static inline ec_tile_sums ec_blend_sums(const ec_blend_tile *t)
 {
     const ec_tile_sums *a = &t->half[0], *b = &t->half[1];
-    return (ec_tile_sums){a->pixels + b->pixels, a->clean + b->clean, a->noisy + b->noisy, a->apart + b->apart, a->noise + b->noise};
+    return (ec_tile_sums){a->pixels + b->pixels, a->clean + b->clean, a->noisy + b->noisy, a->apart + b->apart, a->noise + b->noise,
+                          a->variance + b->variance, a->plains + b->plains};
 }
 
 /* At a pixel, between the tiles: the weight; the mean squared error of the denoised picture, at least that of its noise; and of the pixel's variance the

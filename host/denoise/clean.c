@@ -19,15 +19,6 @@ typedef struct row_sums {
     double noise;
 } row_sums;
 
-static void join(ec_judged_sum *into, const ec_judged_sum *from)
-{
-    into->square += from->square;
-    into->variance += from->variance;
-    into->squares += from->squares;
-    into->noisy += from->noisy;
-    into->least += from->least;
-}
-
 static void write_pixel(work *w, uint64_t i, const ec_blend_at *at, const double *noisy)
 {
     for (uint64_t c = 3 * i; c < 3 * i + 3; c++) {
@@ -51,9 +42,12 @@ static void finish_row(work *w, uint32_t y, ec_judged *judged, ec_pixel *pixels,
         const double a = at.weight, b = 1 - a, variance = j->clean_variance + j->noisy_variance;
         write_pixel(w, first + x, &at, pixels[x].mean);
         sums->noise += j->noise;
-        ec_judged_add(&sums->clean, j->clean, j->clean_variance, 0, j->noise);
-        ec_judged_add(&sums->best, a * j->clean + b * j->noisy - a * b * j->apart + at.optimism * variance,
-                      a * a * j->clean_variance + b * b * j->noisy_variance, b * b * j->noisy, a * a * j->noise);
+        const double plain = a * a * j->clean_plain + b * b * j->noisy_plain;
+        const ec_judged_sum clean = {j->clean, j->clean_variance, j->clean_plain, j->clean_plain * j->clean_plain, 0, j->noise};
+        const ec_judged_sum best = {a * j->clean + b * j->noisy - a * b * j->apart + at.optimism * variance,
+                                    a * a * j->clean_variance + b * b * j->noisy_variance, plain, plain * plain, b * b * j->noisy, a * a * j->noise};
+        ec_judged_join(&sums->clean, &clean);
+        ec_judged_join(&sums->best, &best);
     }
 }
 
@@ -82,8 +76,8 @@ static ec_result judge(work *w, row_sums *all, ec_error *err)
         for (uint32_t y = first; y < end; y++) finish_row(w, y, judged + (size_t)band * width, pixels + (size_t)band * width, &rows[y]);
     }
     for (uint32_t y = 0; made && y < height; y++) {
-        join(&all->clean, &rows[y].clean);
-        join(&all->best, &rows[y].best);
+        ec_judged_join(&all->clean, &rows[y].clean);
+        ec_judged_join(&all->best, &rows[y].best);
         all->noise += rows[y].noise;
     }
     free(rows);

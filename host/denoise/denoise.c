@@ -51,7 +51,7 @@ ec_result ec_denoiser_find(ec_denoiser asked, ec_denoiser *found, ec_error *err)
 static const char *why_not(const ec_film *film, const ec_film_error *noisy)
 {
     if (ec_film_replicates(film) < EC_JUDGE_REPLICATES) return "it takes 4 samples a pixel, and --replicates 4 or more, of which one half judges the other";
-    if (!film->aov) return "its first hits are not known, by which a denoiser goes";
+    if (!film->aov) return "first hits, by which a denoiser goes, are of the slice that begins with sample 0, which is not here";
     if (!(noisy->mean_luminance > 0)) return "the picture is black";
     return NULL;
 }

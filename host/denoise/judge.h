@@ -2,6 +2,8 @@
 #ifndef EC_DENOISE_JUDGE_H
 #define EC_DENOISE_JUDGE_H
 
+#include <math.h>
+
 #include "film/film.h"
 
 enum { EC_JUDGE_REPLICATES = 4 }; /* that it takes: two in each half */
@@ -16,7 +18,8 @@ typedef struct ec_judged {
     double clean, noisy;           /* squared errors of the denoised picture, the mean of both denoised halves, and of the noisy one */
     double apart;                  /* squared difference of the two, which is known */
     double noise;                  /* squared standard error of the denoised one: what is left of `clean` is bias */
-    double clean_variance, noisy_variance; /* of the two estimates */
+    double clean_variance, noisy_variance; /* of the two estimates: without bias … */
+    double clean_plain, noisy_plain;       /* … and by the replicates' variance as it is: too large where samples are rare and bright, never too small by one that came once */
 } ec_judged;
 
 /* Row `row`; denoised: both halves as a denoiser made them, 3 floats a pixel. */
@@ -27,19 +30,23 @@ typedef struct ec_stated_error {
     double error, low95, high95;   /* high95 infinite: light may be missing that no sample has met (film/rare.h) */
 } ec_stated_error;
 
-/* Sums over pixels: square errors, and the variance of that sum; squares: of these variances, pixel by pixel; noisy: the part of the square errors that
+/* Sums over pixels: square errors; their variance, without bias and plain, and the squares of the plain ones; noisy: the part of the square errors that
  * the noisy picture makes; least: what is known of the denoised one's noise, which the error is not under. Begin with zeros. */
 typedef struct ec_judged_sum {
-    double square, variance, squares, noisy, least;
+    double square, variance, plain, plains, noisy, least;
 } ec_judged_sum;
-static inline void ec_judged_add(ec_judged_sum *sum, double square, double variance, double noisy, double least)
+static inline void ec_judged_join(ec_judged_sum *into, const ec_judged_sum *next)
 {
-    sum->square += square;
-    sum->variance += variance;
-    sum->squares += variance * variance;
-    sum->noisy += noisy;
-    sum->least += least;
+    into->square += next->square;
+    into->variance += next->variance;
+    into->plain += next->plain;
+    into->plains += next->plains;
+    into->noisy += next->noisy;
+    into->least += next->least;
 }
+
+/* The variance of a sum over pixels of which few may hold most: what is known without bias, and one standard error of it, which vanishes among many. */
+static inline double ec_judged_variance(double variance, double plains) { return fmax(variance, 0) + sqrt(plains); }
 ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy);
 
 #endif

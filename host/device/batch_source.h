@@ -44,6 +44,7 @@ typedef struct ec_batch_order {
     const ec_sums *sums;              /* the same for a block; NULL: the source's own */
     bool with_features;               /* first-hit features too, ec_film's, of the same positions … */
     float *aov;                       /* … and room for all of them; NULL: where `features` is. Of a device alone */
+    float *layers;                    /* room for three floats a layer of all positions; NULL: no layers are wanted */
     /* Asked between waves, with the positions that are done, the first time when the device has done them; false gives the batch up. */
     bool (*go_on)(void *user, uint32_t done);
     void *user;

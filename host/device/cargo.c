@@ -72,6 +72,28 @@ static ec_result add_filter(ec_cargo *cargo, const ec_render_options *o, ec_erro
     return EC_OK;
 }
 
+/* Of the environment, then of each light, then of each material. */
+static ec_result add_light_groups(ec_cargo *cargo, const ec_render_options *o, ec_error *err)
+{
+    const ec_light_groups *groups = o->groups;
+    const ec_pack *pack = &cargo->pack;
+    const uint32_t lights = cargo->head.params.light_count, count = 1 + lights + pack->material_count;
+    if (!o->layers.group_count) return EC_OK;
+    uint32_t *table = malloc(count * sizeof *table);
+    if (!table) return ec_fail(err, "out of memory for light groups");
+    table[0] = groups->environment;
+    for (uint32_t i = 0; i < lights; i++) {
+        const ec_light_data *l = &pack->lights[i];
+        const uint32_t kind = l->kind & EC_LIGHT_KIND_MASK;
+        table[1 + i] = kind == EC_KIND_TRIANGLE      ? groups->of_material[pack->prims[l->prim].material]
+                       : kind == EC_KIND_ENVIRONMENT ? groups->environment
+                                                     : groups->of_light[pack->light_source[i]];
+    }
+    memcpy(table + 1 + lights, groups->of_material, pack->material_count * sizeof *table);
+    ec_cargo_add(cargo, EC_ARG_LIGHT_GROUPS, "light groups", count * sizeof *table, 0, table, table);
+    return EC_OK;
+}
+
 static bool wants_light_tree(const ec_render_options *o, const ec_pack *pack)
 {
     if (!ec_pipeline_joins(o, pack) || o->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return false;
@@ -183,6 +205,9 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->light_choices = pack->light_choices;
     params->light_tree_numbers = pack->light_tree_numbers;
     set_light_paths(o, pack, params);
+    params->layer_count = o->layers.count;
+    for (int k = 0; k < EC_LAYER_KINDS; k++) params->layer_of[k] = ec_layers_find(&o->layers, k);
+    params->layer_groups = ec_layers_groups(&o->layers);
     params->scene_radius = pack->scene_radius;
     params->scene_max = pack->scene_max;
 }
@@ -222,6 +247,7 @@ static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_sce
     EC_TRY(tell_content(cargo, scene, called_for, o, batch, &stats->content, err));
     EC_TRY(ec_cargo_add_scene(cargo, scene, pack, err));
     EC_TRY(ec_cargo_add_camera(cargo, scene, o, err));
+    EC_TRY(add_light_groups(cargo, o, err));
     return add_filter(cargo, o, err);
 }
 
@@ -236,6 +262,7 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     head->lanes = o->lanes;
     head->compile = o->compile;
     head->waves_until_fast = o->waves_until_fast;
+    for (int k = 0; k < 3; k++) head->params.scene_centre[k] = (float)scene->center[k];
     head->wave = o->wave;
     if (scene->motion.segments && o->integrator != EC_INTEGRATOR_PATH)
         return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");

@@ -91,6 +91,7 @@ static void add_params(SHA2_CTX *digests, ec_params p)
     TAKE(EC_CONTENT_LIGHTS, environment_stretch);
     TAKE(EC_CONTENT_GEOMETRY, scene_radius);
     TAKE(EC_CONTENT_GEOMETRY, scene_max);
+    TAKE(EC_CONTENT_GEOMETRY, scene_centre);
     add(digests, EC_CONTENT_SETTINGS, &p, sizeof p);
 }
 

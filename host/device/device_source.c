@@ -85,6 +85,10 @@ static ec_result show(ec_device_source *s, const ec_batch_order *order, bool wri
     EC_TRY(take_back(s, err));
     if (order->into) EC_TRY(ec_buffer_read(p->cl, batch, BATCH_BYTES * first, BATCH_BYTES * count, order->into, err));
     else EC_TRY(ec_buffer_map(p->cl, batch, BATCH_BYTES * order->count, writes, &s->base.mean, err));
+    if (order->layers) {
+        const uint64_t bytes = EC_LAYER_BYTES * p->params.layer_count;
+        EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_LAYER_FILM], bytes * first, bytes * count, order->layers + bytes / 4 * first, err));
+    }
     if (!order->with_features) return EC_OK;
     if (order->aov) return ec_buffer_read(p->cl, features, FEATURE_BYTES * first, FEATURE_BYTES * count, order->aov + EC_AOV_FIELDS * first, err);
     return ec_buffer_map(p->cl, features, FEATURE_BYTES * order->count, writes, &s->base.features, err);

@@ -19,6 +19,8 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
         ec_effects_call(called, EC_FEATURE_LAMP_PARTS, "lamps in %u parts, as their textures vary", 3 * pack->lamp_node_count);
     if (pack->caster_count && options->light_paths > 0)
         ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--light-paths %g, aimed at %u bodies that bend or mirror light", options->light_paths, pack->caster_count);
+    if (options->layers.count) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels or --light-groups: %u layers", options->layers.count);
+    if (ec_layers_find(&options->layers, EC_LAYER_UV)) ec_effects_call(called, EC_FEATURE_UV, "--channels uv");
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
     effects->built = options->all_effects ? ec_universal_features(effects) : called->bits | options->more_effects;
@@ -30,7 +32,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
 
 uint64_t ec_universal_features(const ec_render_effects *effects)
 {
-    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURE_LIGHT_PATHS)); /* other ways, not more effects */
+    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS)); /* other ways, not more effects */
     return all & ~(effects->without & EC_FEATURE_PANES);
 }
 
@@ -49,7 +51,7 @@ uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features)
     const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
     if (stage->features & EC_FEATURE_AREA_LIGHTS) return f & EC_FEATURE_AREA_LIGHTS ? f : f & ~EC_FEATURE_ALPHA;
     if (!(stage->features & EC_FEATURE_ALPHA) || (f & EC_FEATURE_PANES)) return f;
-    return f & (EC_FEATURE_CULLING | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION |
+    return f & (EC_FEATURE_CULLING | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION |
                 (f & EC_FEATURE_ALPHA ? EC_FEATURE_ALPHA | of_alpha : 0));
 }
 

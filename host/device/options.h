@@ -6,7 +6,9 @@
 #include <stdint.h>
 
 #include "film/denoiser.h"
+#include "film/layers.h"
 #include "film/schedule.h"
+#include "scene/light_groups.h"
 #include "shared/params.h"
 
 typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
@@ -71,6 +73,8 @@ typedef struct ec_render_options {
     uint32_t slice_first, slice_end; /* batches (film/schedule.h) of a slice, for what they take of it; slice_end 0: it is none */
     ec_denoiser denoise;        /* more first hits, by which a denoiser goes; and where there is an error_target, it is the clean picture's */
     bool hides_environment;     /* from the camera: where it sees no surface the picture is black, and its alpha 0 */
+    ec_layers layers;           /* that the picture is to have beside its radiance */
+    const ec_light_groups *groups; /* which light is of which of them; NULL: none are. Somebody else's */
     bool adaptive;              /* more samples where the pilot finds more noise; spp is then their mean */
     bool all_effects;           /* build the universal kernels instead of the specialised ones */
     uint64_t without;           /* EC_FEATURE_*, switched off on purpose: of ec_effects_optional */

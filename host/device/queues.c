@@ -5,8 +5,8 @@
 #define EC_SMALLEST_WAVE 4096
 #define EC_NARROW_WAVE 32768 /* of which PoCL compiles every kernel once: see ec_kernel_run */
 
-/* A slot has R, G, B, and again of indirect light where it is kept apart. */
-static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3; }
+/* A slot has R, G, B, and again of indirect light where it is kept apart, or of each layer. */
+static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3 + 3 * p->params.layer_count; }
 
 /* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads. (Queues that
  * stay in the cache gain 5 % of processor time there; launches of a tenth the size lose 40 % of wall time.) */
@@ -133,6 +133,8 @@ static ec_result create_films(ec_pipeline *p, uint64_t pixels, uint64_t position
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_BATCH_FILM]);
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_FEATURE_FILM]);
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_SPLATS]);
+    ec_buffer_release(p->cl, &p->buffers[EC_ARG_LAYER_FILM]);
+    if (p->params.layer_count) EC_TRY(create(p, "layer film", positions * EC_LAYER_BYTES * p->params.layer_count, &p->buffers[EC_ARG_LAYER_FILM], err));
     if (p->params.light_paths > 0) EC_TRY(create(p, "splats", pixels * 4 * EC_SPLAT_WORDS, &p->buffers[EC_ARG_SPLATS], err));
     EC_TRY(create(p, "batch film", positions * 4 * EC_BATCH_FIELDS, &p->buffers[EC_ARG_BATCH_FILM], err));
     return create(p, "feature film", pixels * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err);

@@ -34,7 +34,8 @@ static const ec_arg shade[] = {WAVE_ARGS,
                                EC_ARG_LIGHT_TREE,
                                EC_ARG_LIGHT_TRAILS,
                                EC_ARG_LAMP_PARTS,
-                               EC_ARG_EMISSION};
+                               EC_ARG_EMISSION,
+                               EC_ARG_LIGHT_GROUPS};
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
                                  EC_ARG_NORMALS, EC_ARG_TANGENTS};
 static const ec_arg emit[] = {EC_ARG_PARAMS,   EC_ARG_SEED,        EC_ARG_FIRST_PIXEL, EC_ARG_PATH_COUNT, EC_ARG_COUNTERS,    EC_ARG_INVALID,
@@ -62,6 +63,8 @@ static const ec_arg accumulate[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, EC_A
 static const ec_arg store_features[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
                                         EC_ARG_PIXEL_COUNT, EC_ARG_AOV,         EC_ARG_FEATURE_FILM};
 
+static const ec_arg slot_layers[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE, EC_ARG_LAYER_FILM};
+
 #define ARGS(list) sizeof(list) / sizeof *(list), list
 
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
@@ -77,14 +80,14 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, 
 
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, 0,
-                     EC_FEATURE_SOBOL | EC_FEATURES_MEDIUM | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | CAMERA_FEATURES, ARGS(generate)},
+                     EC_FEATURE_SOBOL | EC_FEATURES_MEDIUM | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | CAMERA_FEATURES, ARGS(generate)},
     [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, 0,
                       EC_FEATURE_CULLING | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | ALPHA_FEATURES, ARGS(intersect)},
     [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE, 0,
                   PATH_FEATURES,
                   ARGS(shade)},
     [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, 0,
-                    EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_CULLING | SHADOW_FEATURES, ARGS(connect)},
+                    EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_CULLING | SHADOW_FEATURES, ARGS(connect)},
     [EC_EMIT] = {"emit", "start light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURE_LIGHT_PATHS,
                  LIGHT_PATH_FEATURES & ~(EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LENS), ARGS(emit)},
     [EC_SHADE_LIGHT] = {"shade_light", "shade light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURE_LIGHT_PATHS,
@@ -101,6 +104,7 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
                           ARGS(whitted_light)},
     [EC_ACCUMULATE] = {"accumulate", "accumulate", EC_OF_ALL, 1, 0, 0, ARGS(accumulate)},
     [EC_STORE_FEATURES] = {"features", "accumulate first-hit features", EC_OF_ALL, 1, 0, 0, ARGS(store_features)},
+    [EC_SLOT_LAYERS] = {"slot_layers", "accumulate layers", EC_OF_ALL, 1, EC_FEATURE_LAYERS, 0, ARGS(slot_layers)},
 };
 
 bool ec_stage_is_of(const ec_stage_entry *stage, ec_integrator integrator, uint64_t features)

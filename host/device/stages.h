@@ -36,6 +36,7 @@ typedef enum ec_arg {
     EC_ARG_AOV,
     EC_ARG_BATCH_FILM,
     EC_ARG_FEATURE_FILM,
+    EC_ARG_LAYER_FILM,
     EC_ARG_ACCEL,      /* the buffers of the accelerator that the launch goes through */
     EC_ARG_ACCEL_END = EC_ARG_ACCEL + EC_ACCEL_BUFFERS - 1,
     EC_ARG_RASTER_TRIS,
@@ -62,6 +63,7 @@ typedef enum ec_arg {
     EC_ARG_LIGHT_TRAILS,
     EC_ARG_LAMP_PARTS,
     EC_ARG_EMISSION,
+    EC_ARG_LIGHT_GROUPS, /* of the environment, of each light, of each material; NULL: none */
     EC_ARG_LIGHT_SLOTS, /* what light paths are of, by slot */
     EC_ARG_SPLATS,
     EC_ARG_ENVIRONMENT_TEXELS,
@@ -85,6 +87,7 @@ typedef enum ec_stage_id {
     EC_WHITTED_LIGHT,
     EC_ACCUMULATE,
     EC_STORE_FEATURES,
+    EC_SLOT_LAYERS,
     EC_STAGE_ID_COUNT
 } ec_stage_id;
 

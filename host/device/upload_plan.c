@@ -22,7 +22,7 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_NORMALS, s->normals, 16, {"normals", EC_FEATURE_SMOOTH_NORMALS, s->normals ? 12 * vertices : 0}},
         {EC_ARG_TANGENTS, s->tangents, 0, {"tangents", EC_FEATURES_TANGENTS, s->tangents ? 16 * vertices : 0}},
         {EC_ARG_COLORS, s->colors, 0, {"colours", EC_FEATURE_VERTEX_COLORS, s->colors ? 16 * vertices : 0}},
-        {EC_ARG_UVS, NULL, 0, {"texture coordinates", EC_FEATURES_TEXTURED, s->uv[0] || s->uv[1] ? 16 * vertices : 0}},
+        {EC_ARG_UVS, NULL, 0, {"texture coordinates", EC_FEATURES_UV, s->uv[0] || s->uv[1] ? 16 * vertices : 0}},
         {EC_ARG_TEXTURE_TABLE, pack->textures, 0, {"textures", EC_FEATURES_TEXTURED, pack->texture_count * sizeof *pack->textures}},
         {EC_ARG_TEXELS, pack->texels, 4, {"texels", EC_FEATURES_TEXTURED, pack->texel_words * 4}},
         {EC_ARG_LIGHT_TABLE, pack->lights, 0, {"lights", light, lights * sizeof *pack->lights}},

@@ -93,6 +93,7 @@ ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pix
     if (result == EC_OK) result = integrate[p->integrator](p, scalars, err);
     p->buffers[EC_ARG_AOV] = aov;
     if (result == EC_OK) result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, err);
+    if (result == EC_OK && p->params.layer_count) result = ec_pipeline_launch(p, EC_SLOT_LAYERS, scalars, err);
     if (result == EC_OK && with_features) result = ec_pipeline_launch(p, EC_STORE_FEATURES, scalars, err);
     return result;
 }

@@ -5,11 +5,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "film/layers.h"
+
 /* Arrays of floats that a picture has for each pixel. */
 typedef enum ec_plane {
     EC_PLANE_RGB, EC_PLANE_SAMPLES, EC_PLANE_STDERR, EC_PLANE_STDERR_Y, EC_PLANE_LOW, EC_PLANE_HIGH, EC_PLANE_HEAVY, EC_PLANE_CLAMPED,
     EC_PLANE_DENOISED, EC_PLANE_BEST, EC_PLANE_DENOISED_STDERR, /* where --denoise made them */
-    EC_PLANE_FEATURES /* of first hits */
+    EC_PLANE_FEATURES, /* of first hits */
+    EC_PLANE_LAYER /* EC_LAYER_PLANES (film/layer_films.h) of the layer of each ec_layer_kind: this one, and those that follow */
 } ec_plane;
 enum { EC_PLACE_ALPHA = 7, EC_FEATURE_CHANNELS }; /* in that plane: the last one, and how many */
 
@@ -21,16 +24,23 @@ typedef enum ec_channel_type {
     EC_CHANNEL_WORDS  /* 32-bit unsigned integers, as they are */
 } ec_channel_type;
 
+/* When a picture has it, if it can: always; where it, its layer or all are asked for; where it or its layer is, since it makes a render dearer. */
+typedef enum ec_channel_choice { EC_CHANNEL_DEFAULT, EC_CHANNEL_OF_ALL, EC_CHANNEL_BY_NAME } ec_channel_choice;
+
 typedef struct ec_channel_row {
     const char *name;
     ec_plane plane;
     uint32_t place;       /* in the plane's floats of a pixel */
     ec_channel_type type; /* in the EXR of a picture; its sums (store/layout.h) come with 32-bit floats of all */
-    bool is_default;      /* else written on request alone */
+    ec_channel_choice when;
 } ec_channel_row;
 
-enum { EC_CHANNEL_ROWS = 32 };
+enum { EC_CHANNEL_ROWS = 51 };
 extern const ec_channel_row ec_channel_rows[EC_CHANNEL_ROWS];
+
+/* Those of a light group, after "light.NAME.". */
+enum { EC_GROUP_ROWS = 7 };
+extern const ec_channel_row ec_group_rows[EC_GROUP_ROWS];
 
 /* The name of a plane's float; NULL: it has none. */
 const char *ec_channel_name_of(ec_plane plane, uint32_t place);

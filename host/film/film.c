@@ -30,6 +30,8 @@ void ec_film_destroy(ec_film *film)
     free(film->unsampled);
     free(film->counts);
     free(film->rare);
+    for (uint32_t k = 0; film->layer_films && k < film->layers.count; k++) ec_film_destroy(&film->layer_films[k]);
+    free(film->layer_films);
     *film = (ec_film){0};
 }
 
@@ -132,7 +134,12 @@ ec_result ec_film_create_like(ec_film *film, const ec_film *like, uint32_t rows,
     }
     if (like->aov) made = made && (film->aov = malloc(pixels * EC_FILM_FEATURES * sizeof *film->aov));
     if (like->counts) made = made && (film->counts = malloc(pixels * sizeof *film->counts));
-    return made ? EC_OK : ec_fail(err, "out of memory for rows of a picture");
+    film->layers = like->layers;
+    if (like->layer_films) made = made && (film->layer_films = calloc(like->layers.count, sizeof *film->layer_films));
+    if (!made) return ec_fail(err, "out of memory for rows of a picture");
+    for (uint32_t k = 0; like->layer_films && k < like->layers.count; k++)
+        EC_TRY(ec_film_create_like(&film->layer_films[k], &like->layer_films[k], rows, err));
+    return EC_OK;
 }
 
 void ec_film_copy_rows(ec_film *film, uint32_t to, const ec_film *from, uint32_t first, uint32_t rows)
@@ -150,4 +157,6 @@ void ec_film_copy_rows(ec_film *film, uint32_t to, const ec_film *from, uint32_t
     if (film->aov && from->aov)
         memcpy(film->aov + EC_FILM_FEATURES * here, from->aov + EC_FILM_FEATURES * there, pixels * EC_FILM_FEATURES * sizeof *film->aov);
     if (film->counts && from->counts) memcpy(film->counts + here, from->counts + there, pixels * sizeof *film->counts);
+    for (uint32_t k = 0; film->layer_films && k < film->layers.count; k++)
+        ec_film_copy_rows(&film->layer_films[k], to, &from->layer_films[k], first, rows);
 }

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/luminance.h"
+#include "film/layers.h"
 #include "film/parts.h"
 #include "film/rare.h"
 #include "film/tail.h"
@@ -46,6 +47,8 @@ typedef struct ec_film {
     ec_film_part *parts;          /* by `first`, no two with batches in common; a single one where pixels have counts. Owned */
     uint32_t part_count;
     ec_film_clean clean;          /* owned; of the samples that there were when it was made */
+    ec_layers layers;             /* that the picture has beside its radiance … */
+    struct ec_film *layer_films;  /* … and a film of each (film/layer_films.h); NULL: none. Owned */
     ec_rare *rare;                /* light that hardly any sample meets; NULL: there is none, or nobody has looked. Owned */
 } ec_film;
 

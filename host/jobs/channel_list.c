@@ -6,24 +6,34 @@
 #include "image/exr_pack.h"
 #include "jobs/option.h"
 
-_Static_assert(EC_CHANNEL_ROWS <= 32, "a bit each");
+_Static_assert(EC_CHANNEL_ROWS <= 64, "a bit each");
 
-ec_channel_set ec_channels_all(void) { return (ec_channel_set)((1ull << EC_CHANNEL_ROWS) - 1); }
-
-ec_channel_set ec_channels_default(void)
+static ec_channel_set up_to(ec_channel_choice most)
 {
     ec_channel_set set = 0;
     for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++)
-        if (ec_channel_rows[i].is_default) set |= 1u << i;
+        if (ec_channel_rows[i].when <= most) set |= 1ull << i;
     return set;
 }
+
+ec_channel_set ec_channels_all(void) { return up_to(EC_CHANNEL_OF_ALL); }
+
+ec_channel_set ec_channels_default(void) { return up_to(EC_CHANNEL_DEFAULT); }
 
 ec_channel_set ec_channels_of(ec_plane plane)
 {
     ec_channel_set set = 0;
     for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++)
-        if (ec_channel_rows[i].plane == plane) set |= 1u << i;
+        if (ec_channel_rows[i].plane == plane) set |= 1ull << i;
     return set;
+}
+
+uint32_t ec_channels_layers(ec_channel_set set)
+{
+    uint32_t kinds = 0;
+    for (uint32_t k = 0; k < EC_LAYER_KINDS; k++)
+        if (set & ec_channels_of(EC_PLANE_LAYER + k)) kinds |= 1u << k;
+    return kinds;
 }
 
 static bool is_word(const char *word, size_t size, const char *name) { return strlen(name) == size && !strncmp(word, name, size); }
@@ -36,7 +46,7 @@ static ec_channel_set named(const char *word, size_t size)
     if (is_word(word, size, "default")) return ec_channels_default();
     for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++) {
         const char *name = ec_channel_rows[i].name;
-        if (is_word(word, size, name) || (size > 0 && !strncmp(name, word, size) && name[size] == '.')) set |= 1u << i;
+        if (is_word(word, size, name) || (size > 0 && !strncmp(name, word, size) && name[size] == '.')) set |= 1ull << i;
     }
     return set;
 }
@@ -49,7 +59,7 @@ ec_result ec_parse_channels(const char *option, const char *text, ec_channel_set
         const ec_channel_set found = named(word, size);
         if (!found)
             return ec_usage(err, "--%s: '%.*s' is no channel; give all, default, A, samples, stderr, low95, high95, heavy, clamped, denoised, best, albedo, "
-                                 "normal, depth or one of a layer, as stderr.Y, with commas between them", option, EC_CUT(word, size < 80 ? (int)size : 80));
+                                 "normal, depth, direct, indirect, position, uv or one of a layer, as stderr.Y, with commas between them", option, EC_CUT(word, size < 80 ? (int)size : 80));
         *set |= found;
         word += size;
         if (!*word) return EC_OK;

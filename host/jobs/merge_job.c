@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "jobs/denoise_choice.h"
+#include "report/denoise_report.h"
 #include "report/error_text.h"
 
 static ec_result take_slices(char **paths, int count, bool is_partial, ec_merge *merge, const ec_log *log, ec_error *err)
@@ -32,6 +34,7 @@ void ec_merged_attributes(const ec_merged *m, ec_report_attributes *to)
     else EC_ATTRIBUTES(to, EC_REAL("eclat.errorBound", m->error.error_bound));
     EC_ATTRIBUTES(to, EC_REAL("eclat.relMSE", m->error.relmse), EC_STRING("eclat.device", m->slices.all.job.device),
                   EC_STRING("eclat.imageSha256", m->sha256));
+    ec_denoised_attributes(to, ec_merged_denoised(m));
     if (film->limit > 0) ec_clamp_attributes(to, ec_merged_clamp(m), (double)film->limit, &m->clamp);
 }
 
@@ -50,15 +53,32 @@ ec_result ec_merged_write(const ec_merged *m, ec_outputs *outputs, const ec_expo
     return ec_outputs_write(outputs, &m->picture, &style, err);
 }
 
-ec_result ec_merged_make(char **paths, int count, bool is_partial, const char *command, ec_merged *m, const ec_log *log, ec_error *err)
+const ec_denoised *ec_merged_denoised(const ec_merged *m) { return m->denoiser ? &m->denoised : NULL; }
+
+/* The library is on the processor; the filter of eclat's own wants a device, which a merge has no other use for. */
+static ec_result denoise(ec_merged *m, ec_denoiser found, ec_error *err)
+{
+    ec_device_info device = {0};
+    uint32_t index;
+    const char *why;
+    if (!found) return EC_OK;
+    if (found == EC_DENOISER_ATROUS) EC_TRY(ec_device_find(NULL, &device, &index, &why, err));
+    return ec_denoise(&m->slices.all.film, found, &device, &m->denoised, err);
+}
+
+ec_result ec_merged_make(char **paths, int count, bool is_partial, ec_denoiser denoiser, const char *command, ec_merged *m, const ec_log *log,
+                         ec_error *err)
 {
     const ec_film *film = &m->slices.all.film;
-    *m = (ec_merged){.command = command};
+    ec_denoiser found;
+    *m = (ec_merged){.command = command, .denoiser = denoiser};
+    EC_TRY(ec_require_denoiser(denoiser, &found, log, err));
     EC_TRY(take_slices(paths, count, is_partial, &m->slices, log, err));
     m->error = ec_film_estimate_error(film);
     m->clamp = ec_film_clamp_error(film);
     ec_error_why(&m->error, m->why, sizeof m->why);
     m->samples_per_pixel = m->slices.all.past.samples / ((uint64_t)film->width * film->height);
+    EC_TRY(denoise(m, found, err));
     EC_TRY(ec_picture_resolve(film, true, &m->picture, err));
     ec_hash_rgb(m->picture.rgb, (uint64_t)m->picture.width * m->picture.height, m->sha256);
     return EC_OK;

@@ -2,6 +2,7 @@
 #ifndef EC_JOBS_MERGE_JOB_H
 #define EC_JOBS_MERGE_JOB_H
 
+#include "denoise/denoise.h"
 #include "film/clamp.h"
 #include "film/exposure.h"
 #include "jobs/hash.h"
@@ -13,6 +14,8 @@ typedef struct ec_merged {
     const char *command;
     ec_merge slices;
     ec_film_error error;
+    ec_denoiser denoiser;  /* that was asked for */
+    ec_denoised denoised;
     ec_clamp_error clamp;
     ec_picture picture;
     uint64_t samples_per_pixel;
@@ -20,7 +23,11 @@ typedef struct ec_merged {
 } ec_merged;
 
 /* Sorts paths. is_partial: samples may be missing. To be freed on failure too. */
-ec_result ec_merged_make(char **paths, int count, bool is_partial, const char *command, ec_merged *merged, const ec_log *log, ec_error *err);
+ec_result ec_merged_make(char **paths, int count, bool is_partial, ec_denoiser denoiser, const char *command, ec_merged *merged, const ec_log *log,
+                         ec_error *err);
+
+/* NULL: nobody has asked for it. */
+const ec_denoised *ec_merged_denoised(const ec_merged *merged);
 
 /* --clamp, as the slices had it; 0: they had none. */
 double ec_merged_clamp(const ec_merged *merged);

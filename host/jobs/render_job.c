@@ -12,6 +12,7 @@
 #include "jobs/backdrop.h"
 #include "jobs/blank.h"
 #include "jobs/defaults.h"
+#include "jobs/denoise_choice.h"
 #include "jobs/numbers.h"
 #include "jobs/option.h"
 #include "jobs/shadow.h"
@@ -302,23 +303,24 @@ static ec_result load_both(ec_render_job *job, ec_error *err)
     return f.result != EC_OK ? EC_FAILED : result;
 }
 
-/* Before the first sample: an hour's picture is not to end without what was asked for. */
-static ec_result find_denoiser(const ec_render_job *job, ec_error *err)
+static ec_result find_layers(ec_render_job *job, ec_error *err)
 {
-    ec_denoiser found;
-    const ec_denoiser asked = job->request->options.denoise;
-    if (asked == EC_DENOISER_NONE) return EC_OK;
-    EC_TRY(ec_denoiser_find(asked, &found, err));
-    if (asked == EC_DENOISER_AUTO && found == EC_DENOISER_ATROUS)
-        ec_note(&job->listener->log,
-                "Intel's Open Image Denoise is not installed ('pip install pyoidn'); --denoise filters by itself, which leaves more of the noise");
+    ec_render_request *request = job->request;
+    ec_render_options *o = &request->options;
+    if (request->light_groups) EC_TRY(ec_light_groups_find(job->scene, request->light_groups, &job->groups, err));
+    o->groups = &job->groups;
+    o->layers.group_count = job->groups.count;
+    o->layers.count = (uint32_t)__builtin_popcount(o->layers.kinds) + job->groups.count;
+    memcpy(o->layers.groups, job->groups.names, sizeof o->layers.groups);
+    if (o->layers.count && job->ranks) return ec_usage(err, "--channels direct, indirect, position or uv, and --light-groups, are for one process; leave them out, or mpirun");
     return EC_OK;
 }
 
 ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const double start = ec_now();
-    EC_TRY(find_denoiser(job, err));
+    ec_denoiser found;
+    EC_TRY(ec_require_denoiser(job->request->options.denoise, &found, &job->listener->log, err));
     if (job->share) {
         take_devices(job);
         EC_TRY(load_scene(job, err));
@@ -326,6 +328,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
         EC_TRY(load_both(job, err));
     }
     job->load_seconds = ec_now() - start;
+    EC_TRY(find_layers(job, err));
     EC_TRY(prepare_camera(job, err));
     if (job->request->background.kind == EC_BACKDROP_BLUR)
         EC_TRY(ec_backdrop_make(job->scene, &job->request->options, (double)job->request->background.degrees, &job->behind, err));
@@ -378,6 +381,7 @@ ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
 void ec_render_job_free(ec_render_job *job)
 {
     ec_scene_free(job->scene);
+    ec_light_groups_free(&job->groups);
     ec_film_destroy(&job->film);
     ec_row_writer_abort(job->rows);
     ec_stored_free(&job->stored);

@@ -21,6 +21,7 @@ typedef struct ec_render_job {
     const char *program;         /* as it was called; NULL: the job has no checkpoint */
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
+    ec_light_groups groups;      /* of the scene. Owned */
     ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
     ec_peers peers;            /* the same as the render has them */
     ec_frame_share *share;       /* NULL: it is the only picture of its job */

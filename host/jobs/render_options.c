@@ -49,8 +49,13 @@ const ec_option ec_render_rows[] = {
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
     {.name = "channels", .metavar = "LIST", .set = ec_set_channels, .group = EC_GROUP_PICTURE,
      .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
-             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, or one of a layer as in stderr.Y. Slices hold all of them",
+             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, or one of a layer as in stderr.Y. Slices hold all; "
+             "the last four have to be named",
      .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
+    {.name = "light-groups", .metavar = "LIST", EC_STORED(TEXT, light_groups), .group = EC_GROUP_PICTURE, .integrators = PATHS,
+     .help = "layers of the EXR for the light of each group, which add up to the picture: names of lights' nodes, of materials that emit and environment, with commas "
+             "between them; NAME=A+B puts several into one, all makes a group of each. What is left over is in rest. eclat mix weighs them anew",
+     .not_in_window = "a window shows the sum"},
     {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = ec_set_denoise, .choices = ec_denoiser_names, .group = EC_GROUP_PICTURE,
      .integrators = PATHS, .uses = EC_OPTION_WINDOW,
      .help = "denoise the picture, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "

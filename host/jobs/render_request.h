@@ -44,6 +44,7 @@ typedef struct ec_render_request {
     double env_degrees, env_strength; /* 0 and 1: as it is */
     bool adjusts_env;          /* one of these was given */
     const char *device;        /* NULL: chosen */
+    const char *light_groups;  /* names; NULL: none */
     ec_exposure exposure;
     ec_background background;
     ec_ground ground;

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "film/denoiser.h"
 #include "jobs/defaults.h"
+#include "jobs/denoise_choice.h"
 #include "jobs/numbers.h"
 #include "jobs/render_request.h"
 #include "jobs/option.h"
@@ -66,14 +66,7 @@ SETTER(parallel)
 
 SETTER(screen_window) { return ec_parse_window(option, value, SCREEN_MOST, REQUEST->options.screen_window, err); }
 
-/* --denoise without a value means auto. */
-SETTER(denoise)
-{
-    uint32_t index = EC_DENOISER_AUTO;
-    if (value) EC_TRY(ec_parse_choice(option, value, ec_denoiser_names, &index, err));
-    REQUEST->options.denoise = (ec_denoiser)index;
-    return EC_OK;
-}
+SETTER(denoise) { return ec_parse_denoise(option, value, &REQUEST->options.denoise, err); }
 
 /* --ground without a value is matte. */
 SETTER(ground)

@@ -148,7 +148,6 @@ static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
     if (!request->options.denoise) return EC_OK;
     if (replicates < EC_JUDGE_REPLICATES)
         return ec_usage(err, "--denoise and --replicates %u: one half of the replicates judges the other; give %d or more", replicates, EC_JUDGE_REPLICATES);
-    if (request->has_slice) return ec_usage(err, "--denoise and --samples: a slice is a part of a picture, and a denoiser wants the whole; leave one out");
     return EC_OK;
 }
 
@@ -193,6 +192,26 @@ static ec_result settle_channels(const ec_render_request *request, ec_error *err
     return any_exr ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
 }
 
+/* Sums of the past, and what one rank sends another, have no layers. */
+static ec_result settle_layers(ec_render_request *request, ec_error *err)
+{
+    ec_render_options *o = &request->options;
+    const uint32_t of_light = 1u << EC_LAYER_DIRECT | 1u << EC_LAYER_INDIRECT;
+    o->layers.kinds = ec_channels_layers(request->channels);
+    const bool any_light = request->light_groups || (o->layers.kinds & of_light);
+    const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : "channels position or uv";
+    if (!any_light && !o->layers.kinds) return EC_OK;
+    const char *other = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
+    if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", what, other);
+    if (o->clamp > 0) return ec_usage(err, "--%s and --clamp: a clamp takes light from the sum, and no layer says which; leave one out", what);
+    if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths know no layers; leave one out", what);
+    if (any_light && o->integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--%s belongs to --integrator path; leave it out or choose that", what);
+    if (o->wave > EC_LAYER_WAVE_MOST) return ec_usage(err, "--%s: --wave can be %u at most; give fewer", what, EC_LAYER_WAVE_MOST);
+    bool any_exr = request->outputs.count == 0;
+    for (int i = 0; i < request->outputs.count; i++) any_exr |= request->outputs.file[i].kind == EC_OUTPUT_EXR;
+    return any_exr ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
+}
+
 /* An alpha wants a place, and a frame says of what job it is. */
 static ec_result settle_files(const ec_render_request *request, ec_error *err)
 {
@@ -225,6 +244,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(check_scenarios(request, err));
     EC_TRY(settle_slice(request, err));
     EC_TRY(settle_channels(request, err));
+    EC_TRY(settle_layers(request, err));
     EC_TRY(settle_files(request, err));
     EC_TRY(settle_adaptive(request, err));
     EC_TRY(settle_denoise(request, err));

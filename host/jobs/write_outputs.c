@@ -6,10 +6,11 @@
 
 #include "base/freed.h"
 
-ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, ec_error *err)
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, const ec_layers *layers,
+                            ec_error *err)
 {
     const size_t pixel_count = (size_t)width * rows;
-    *picture = (ec_picture){.width = width, .height = rows};
+    *picture = (ec_picture){.width = width, .height = rows, .layers = *layers};
     float **const planes[] = {&picture->rgb,   &picture->constants, &picture->stderr_rgb, &picture->stderr_y,
                               &picture->heavy, &picture->low,       &picture->high};
     static const size_t values[] = {3, 2, 3, 1, 1, 3, 3};
@@ -17,6 +18,7 @@ ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, 
     const int count = with_error && with_intervals ? 7 : with_error ? 5 : 2;
     for (int i = 0; made && i < count; i++) made = (*planes[i] = malloc(pixel_count * values[i] * sizeof(float))) != NULL;
     if (made && with_cut) made = (picture->clamped = malloc(pixel_count * 2 * sizeof(float))) != NULL;
+    if (made && layers->count) made = (picture->layer_values = malloc(pixel_count * EC_LAYER_PLANES * layers->count * sizeof(float))) != NULL;
     if (made) return EC_OK;
     ec_picture_free(picture);
     return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", width, rows);
@@ -32,6 +34,7 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
     picture->aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
     picture->clean = ec_film_clean_from(&film->clean, (uint64_t)first * film->width);
     picture->heavy_count = ec_film_resolve_rows(film, first, rows, &planes, picture->room);
+    if (picture->layer_values) ec_film_resolve_layers(film, first, rows, picture->rgb, picture->layer_values);
     for (size_t i = 0; i < pixel_count; i++) picture->constants[2 * i + 1] = 1;
 }
 
@@ -41,6 +44,8 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
     ec_picture here = {.width = picture->width, .height = rows, .rgb = picture->rgb + 3 * before, .constants = picture->constants + 2 * before,
                        .aov = picture->aov ? picture->aov + EC_FILM_FEATURES * before : NULL};
     here.clean = ec_film_clean_from(&picture->clean, before);
+    here.layers = picture->layers;
+    if (picture->layer_values) here.layer_values = picture->layer_values + EC_LAYER_PLANES * picture->layers.count * before;
     if (picture->clamped) here.clamped = picture->clamped + 2 * before;
     if (!picture->heavy) return here;
     here.stderr_rgb = picture->stderr_rgb + 3 * before;
@@ -54,7 +59,7 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err)
 {
     EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && ec_film_replicates(film) >= 2, true,
-                             with_error && film->limit > 0, err));
+                             with_error && film->limit > 0, &film->layers, err));
     ec_picture_fill(picture, film, 0, film->height);
     return EC_OK;
 }
@@ -69,6 +74,7 @@ void ec_picture_free(ec_picture *picture)
     free(picture->heavy);
     free(picture->constants);
     free(picture->clamped);
+    free(picture->layer_values);
     free(picture->room);
     *picture = (ec_picture){0};
 }
@@ -76,6 +82,11 @@ void ec_picture_free(ec_picture *picture)
 /* A plane's floats, *stride of them a pixel; NULL: the picture has none. */
 static const float *plane_of(const ec_picture *p, ec_plane plane, uint32_t *stride)
 {
+    if (plane >= EC_PLANE_LAYER) {
+        const uint32_t layer = ec_layers_find(&p->layers, plane - EC_PLANE_LAYER);
+        *stride = EC_LAYER_PLANES * p->layers.count;
+        return layer && p->layer_values ? p->layer_values + EC_LAYER_PLANES * (layer - 1) : NULL;
+    }
     const struct { const float *data; uint32_t stride; } planes[] = {
         [EC_PLANE_RGB] = {p->rgb, 3},       [EC_PLANE_SAMPLES] = {p->constants, 2}, [EC_PLANE_STDERR] = {p->stderr_rgb, 3},
         [EC_PLANE_STDERR_Y] = {p->stderr_y, 1}, [EC_PLANE_LOW] = {p->low, 3},       [EC_PLANE_HIGH] = {p->high, 3},
@@ -86,6 +97,25 @@ static const float *plane_of(const ec_picture *p, ec_plane plane, uint32_t *stri
     return planes[plane].data;
 }
 
+static void add_channel(ec_channel_list *channels, const ec_channel_row *row, const char *name, const float *data, uint32_t stride)
+{
+    channels->rows[channels->count] = row;
+    channels->list[channels->count++] = (ec_channel){.name = name, .data = data, .stride = stride};
+}
+
+static void add_groups(const ec_picture *picture, ec_channel_list *channels)
+{
+    const ec_layers *layers = &picture->layers;
+    const uint32_t stride = EC_LAYER_PLANES * layers->count, first = layers->count - layers->group_count;
+    for (uint32_t g = 0; picture->layer_values && g < layers->group_count; g++)
+        for (uint32_t i = 0; i < EC_GROUP_ROWS; i++) {
+            const ec_channel_row *row = &ec_group_rows[i];
+            char *name = channels->names[g][i];
+            snprintf(name, sizeof channels->names[g][i], "light.%s.%s", layers->groups[g], row->name);
+            add_channel(channels, row, name, picture->layer_values + EC_LAYER_PLANES * (first + g) + row->place, stride);
+        }
+}
+
 void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
 {
     channels->count = 0;
@@ -94,24 +124,26 @@ void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
         const bool is_constant = row->plane == EC_PLANE_FEATURES && row->place == EC_PLACE_ALPHA && !picture->aov;
         uint32_t stride;
         const float *data = plane_of(picture, is_constant ? EC_PLANE_SAMPLES : row->plane, &stride);
-        if (data) channels->list[channels->count++] = (ec_channel){.name = row->name, .data = data + (is_constant ? 1 : row->place), .stride = stride};
+        if (data) add_channel(channels, row, row->name, data + (is_constant ? 1 : row->place), stride);
     }
+    add_groups(picture, channels);
 }
 
-static const ec_channel_row *row_of(const char *name)
+/* Those of a light group are always wanted. */
+static bool is_in(ec_channel_set set, const ec_channel_row *row)
 {
-    for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++)
-        if (!strcmp(ec_channel_rows[i].name, name)) return &ec_channel_rows[i];
-    return NULL;
+    const ptrdiff_t place = row - ec_channel_rows;
+    return place < 0 || place >= EC_CHANNEL_ROWS || set >> place & 1;
 }
 
 void ec_channels_choose(ec_channel_list *channels, ec_channel_set set, bool wide_errors)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < channels->count; i++) {
-        const ec_channel_row *row = row_of(channels->list[i].name);
-        const bool is_error = row->plane == EC_PLANE_STDERR || row->plane == EC_PLANE_STDERR_Y;
-        if (!(set >> (row - ec_channel_rows) & 1)) continue;
+        const ec_channel_row *row = channels->rows[i];
+        const bool is_error = row->plane == EC_PLANE_STDERR || row->plane == EC_PLANE_STDERR_Y || (row->plane >= EC_PLANE_LAYER && row->place >= 3);
+        if (!is_in(set, row)) continue;
+        channels->rows[count] = row;
         channels->list[count] = channels->list[i];
         channels->list[count++].type = is_error && wide_errors ? EC_CHANNEL_FLOAT : row->type;
     }

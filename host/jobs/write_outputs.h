@@ -3,6 +3,7 @@
 #define EC_JOBS_WRITE_OUTPUTS_H
 
 #include "film/channels.h"
+#include "film/layer_films.h"
 #include "jobs/channel_list.h"
 #include "jobs/outputs.h"
 #include "film/resolve.h"
@@ -22,6 +23,8 @@ typedef struct ec_picture {
     uint64_t heavy_count;
     float *clamped;    /* 2 per pixel: luminance that a clamp took away, and its standard error; NULL: there is none. Owned */
     float *constants;  /* 2 per pixel: samples, and the alpha of a film without first-hit features; owned */
+    ec_layers layers;  /* that it has beside; */
+    float *layer_values; /* EC_LAYER_PLANES of each, per pixel; NULL: there are none. Owned */
     ec_pixel *room;    /* for ec_film_resolve_rows; owned */
     const float *aov;  /* the film's: 8 per pixel, or NULL */
     ec_film_clean clean; /* the film's, or NULLs */
@@ -31,15 +34,20 @@ typedef struct ec_picture {
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
 
 /* A picture in pieces: create makes room for `rows` rows, fill writes rows [first, first + rows) of the film there. */
-ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, ec_error *err);
+ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, const ec_layers *layers,
+                            ec_error *err);
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
 
 /* A part of it, which owns nothing: to be filled by itself. */
 ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t rows);
 
 /* Its channels. No error and no first hit: no such channels. */
+enum { EC_CHANNELS_MOST = EC_CHANNEL_ROWS + EC_GROUPS_MOST * EC_GROUP_ROWS };
+/* Not to be copied: names may lie in it. */
 typedef struct ec_channel_list {
-    ec_channel list[EC_CHANNEL_ROWS];
+    ec_channel list[EC_CHANNELS_MOST];
+    const ec_channel_row *rows[EC_CHANNELS_MOST];
+    char names[EC_GROUPS_MOST][EC_GROUP_ROWS][EC_GROUP_NAME + 16]; /* of light groups */
     uint32_t count;
 } ec_channel_list;
 void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels); /* all, 32-bit floats */

@@ -83,7 +83,7 @@ static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
 {
     const uint32_t rows = w->height < w->band_rows ? w->height : w->band_rows;
     const bool with_intervals = w->wanted & ec_channels_of(EC_PLANE_LOW) || w->wanted & ec_channels_of(EC_PLANE_HIGH);
-    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, with_intervals, film->limit > 0, err));
+    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, with_intervals, film->limit > 0, &film->layers, err));
     w->rooms = malloc((size_t)omp_get_max_threads() * ec_resolve_room(w->width, SEAM) * sizeof *w->rooms);
     if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
     w->band.aov = film->aov;
@@ -281,6 +281,7 @@ static void blank_band(ec_row_writer *w, uint32_t rows, const float *no_features
     memset(b->rgb, 0, pixels * 12);
     memset(b->constants, 0, pixels * 8);
     if (b->clamped) memset(b->clamped, 0, pixels * 8);
+    if (b->layer_values) memset(b->layer_values, 0, pixels * 4 * EC_LAYER_PLANES * b->layers.count);
     if (!b->heavy) return;
     memset(b->stderr_rgb, 0, pixels * 12);
     memset(b->stderr_y, 0, pixels * 4);

@@ -69,7 +69,7 @@ static eclat_stated_error stated(const ec_stated_error *e) { return (eclat_state
 
 eclat_denoised eclat_picture_get_denoised(const eclat_picture *p)
 {
-    const ec_denoised *d = p->planes.rgb && p->call.render.request->options.denoise ? &p->call.render.denoised : NULL;
+    const ec_denoised *d = !p->planes.rgb ? ec_merged_denoised(&p->call.merged) : p->call.render.request->options.denoise ? &p->call.render.denoised : NULL;
     const eclat_stated_error unknown = {INFINITY, INFINITY, INFINITY};
     if (!d || d->why_not) return (eclat_denoised){.denoised = unknown, .best = unknown, .why = d ? d->why_not : "the option denoise was not set"};
     return (eclat_denoised){.denoised = stated(&d->clean), .best = stated(&d->best), .bias = d->bias, .noise = d->noise, .tiles = d->tiles,

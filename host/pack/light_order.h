@@ -11,7 +11,7 @@
 /* The environment or a directional light: no lamp. */
 bool ec_light_is_far(const ec_light_data *light);
 
-/* Sorts count lights and their powers. Fails without memory. */
-ec_result ec_light_order(ec_light_data *lights, double *power, uint32_t count, ec_error *err);
+/* Sorts count lights, their powers, and where they come from. Fails without memory. */
+ec_result ec_light_order(ec_light_data *lights, double *power, uint32_t *source, uint32_t count, ec_error *err);
 
 #endif

@@ -29,6 +29,7 @@ static void textured_mean(const ec_scene *scene, const ec_texture_mean *whole, c
 typedef struct light_list {
     ec_light_data *lights;
     double *power;
+    uint32_t *source; /* ec_pack.light_source */
     uint32_t count;
 } light_list;
 
@@ -93,7 +94,7 @@ double ec_pack_punctual_power(const ec_light *in, double scene_radius)
     return power > 0.0 && isfinite(power) ? power : 0.0;
 }
 
-static void add_punctual(const ec_light *in, uint32_t moves, double scene_radius, light_list *list)
+static void add_punctual(const ec_light *in, uint32_t number, uint32_t moves, double scene_radius, light_list *list)
 {
     double power = ec_pack_punctual_power(in, scene_radius);
     if (power == 0.0) return;
@@ -109,6 +110,7 @@ static void add_punctual(const ec_light *in, uint32_t moves, double scene_radius
     l->kind = in->type == EC_LIGHT_POINT ? EC_KIND_POINT : (in->type == EC_LIGHT_SPOT ? EC_KIND_SPOT : EC_KIND_DIRECTIONAL);
     l->prim = moves ? moves - 1 : EC_NO_ID;
     if (moves) l->kind |= EC_LIGHT_MOVES;
+    list->source[list->count] = number;
     list->power[list->count++] = power;
 }
 
@@ -127,7 +129,7 @@ static void balance(light_list *list, ec_pack *pack)
 
 static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
 {
-    EC_TRY(ec_light_order(list->lights, list->power, list->count, err));
+    EC_TRY(ec_light_order(list->lights, list->power, list->source, list->count, err));
     balance(list, pack);
     EC_FREED double *pmf = malloc((list->count + 1) * sizeof *pmf);
     pack->light_shares = malloc((list->count + 1) * sizeof *pack->light_shares);
@@ -182,7 +184,7 @@ static ec_result fill_table(const ec_scene *scene, ec_pack *pack, const bool *em
     add_triangles(scene, pack, emits, first, whole, list);
     EC_TRY(cut_lamps(scene, pack, emits, first, list, err));
     for (uint32_t i = 0; i < scene->light_count; i++)
-        add_punctual(&scene->lights[i], scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius, list);
+        add_punctual(&scene->lights[i], i, scene->motion.segments ? scene->lights[i].moves : 0, pack->scene_radius, list);
     if (environment_luminance > 0.0) {
         double r = pack->scene_radius;
         list->lights[list->count] = (ec_light_data){.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID};
@@ -210,8 +212,9 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
     uint32_t most = scene->light_count + 1;
     for (uint32_t p = 0; p < pack->prim_count; p++) most += emits[pack->prims[p].material];
     EC_FREED double *power = malloc(most * sizeof *power);
-    light_list list = {pack->lights = malloc(most * sizeof *list.lights), power, 0};
-    if (!list.lights || !power) return ec_fail(err, "out of memory for %u lights", most);
+    light_list list = {pack->lights = malloc(most * sizeof *list.lights), power, pack->light_source = malloc(most * sizeof *list.source), 0};
+    for (uint32_t i = 0; list.source && i < most; i++) list.source[i] = EC_NO_ID;
+    if (!list.lights || !power || !list.source) return ec_fail(err, "out of memory for %u lights", most);
     ec_result result = fill_table(scene, pack, emits, mean, environment_luminance, &list, err);
     pack->light_count = list.count;
     return result;

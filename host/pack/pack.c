@@ -118,6 +118,7 @@ void ec_pack_free(ec_pack *pack)
     free(pack->places);
     free(pack->motion);
     free(pack->lights);
+    free(pack->light_source);
     free(pack->light_shares);
     free(pack->light_of_prim);
     free(pack->light_tree);

@@ -41,6 +41,7 @@ typedef struct ec_pack {
     bool lamps_move;               /* triangles, points or spots among the lights */
     uint32_t light_count;          /* only lights of positive power */
     ec_light_data *lights;
+    uint32_t *light_source;        /* of a punctual one which it is of the scene's; else EC_NO_ID */
     ec_distribution_entry *light_shares; /* of the lights, in order */
     uint32_t light_choices;        /* entries of light_shares: one for each light; with a tree the last one is that of all lamps */
     uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "device/adaptive.h"
+#include "film/layer_films.h"
 #include "render/render_state.h"
 
 /* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
@@ -48,6 +49,7 @@ static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *er
     const ec_pipeline *alone = ec_sources_alone(&r->sources);
     if (alone) EC_TRY(ec_render_choose_rows(r, log, err));
     if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, r->replicates, err));
+    if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_set_layers(r->film, &r->options->layers, err));
     if (!r->strip_rows) EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
     if (!alone) return EC_OK;
     if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
@@ -148,6 +150,8 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     }
     ec_allotment_free(&r.past.allotment);
     free(r.aov);
+    free(r.layers);
+    free(r.layer);
     ec_rare_lights_free(&r.lights);
     ec_sources_close(&r.sources, stats);
     return result;

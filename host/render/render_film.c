@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "device/adaptive.h"
+#include "film/layer_films.h"
 #include "render/render_state.h"
 #include "render/team.h"
 
@@ -100,7 +101,7 @@ static uint32_t known_end(const ec_render_state *r)
 {
     const uint32_t next = r->past.next;
     uint32_t end = next < r->end ? r->end : next + 1;
-    if (r->past.allotment.weight || wants_features(r)) return next + 1;
+    if (r->past.allotment.weight || wants_features(r) || r->film->layers.count) return next + 1;
     while (r->options->adaptive && !r->past.allotted && end > next + 1 && ec_schedule_has_pilot(r->replicates, end - 1)) {
         const uint32_t pilot = (uint32_t)ec_schedule_round(r->replicates, next);
         if (ec_schedule_has_pilot(r->replicates, pilot) || pilot >= end) return pilot < end ? pilot : end;
@@ -115,6 +116,15 @@ static ec_result make_room_for_features(ec_render_state *r, ec_error *err)
     if (!wants_room) free(r->aov), r->aov = NULL;
     else if (!r->aov) r->aov = malloc((uint64_t)r->film->width * r->film->height * EC_AOV_FIELDS * sizeof *r->aov);
     return r->aov || !wants_room ? EC_OK : ec_fail(err, "out of memory for the first-hit features");
+}
+
+static ec_result make_room_for_layers(ec_render_state *r, ec_error *err)
+{
+    const uint64_t positions = ec_order_positions(ec_render_film_pixels(r), r->replicates);
+    if (!r->film->layers.count || r->layers) return EC_OK;
+    r->layers = calloc(positions, EC_LAYER_BYTES * r->film->layers.count);
+    r->layer = malloc(positions * EC_BATCH_FIELDS * sizeof *r->layer);
+    return r->layers && r->layer ? EC_OK : ec_fail(err, "out of memory for %u layers; ask for fewer, or for a smaller --size", r->film->layers.count);
 }
 
 /* How many pixels a batch that was under way goes on from: whole rows of tiles (batch_source.h), since a wave may have ended within one. */
@@ -142,8 +152,9 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
 {
     ec_allotment *a = &r->past.allotment;
     EC_TRY(make_room_for_features(r, err));
+    EC_TRY(make_room_for_layers(r, err));
     r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r),
-                                .with_features = wants_features(r), .aov = r->aov,
+                                .with_features = wants_features(r), .aov = r->aov, .layers = r->layers,
                                 .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
                                 .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY,
                                 .go_on = goes_on, .user = r};
@@ -166,7 +177,7 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
 static float *batch_features(const ec_render_state *r) { return r->aov ? r->aov : r->source->features; }
 
 /* Of the pixels that the batch may have reached; the others hold nothing. */
-static uint64_t clear_unreached(float *mean, float *features, uint64_t pixels, uint8_t *unsampled)
+static uint64_t clear_unreached(float *mean, float *features, float *layers, uint32_t layer_count, uint64_t pixels, uint8_t *unsampled)
 {
     uint64_t missing = 0;
 #pragma omp parallel for reduction(+ : missing) if (pixels > EC_FILM_MANY)
@@ -176,6 +187,7 @@ static uint64_t clear_unreached(float *mean, float *features, uint64_t pixels, u
         missing++;
         memset(mean + EC_BATCH_FIELDS * i, 0, EC_BATCH_FIELDS * sizeof *mean);
         memset(features + EC_AOV_FIELDS * i, 0, EC_AOV_FIELDS * sizeof *features);
+        if (layers) memset(layers + 3 * layer_count * i, 0, EC_LAYER_BYTES * layer_count);
     }
     return missing;
 }
@@ -187,9 +199,13 @@ static ec_result add_begun(ec_render_state *r, ec_error *err)
     uint8_t *unsampled = r->film->unsampled = malloc(pixels);
     if (!unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
     memset(unsampled + reached, 1, pixels - reached);
-    const uint64_t missing = clear_unreached(r->source->mean, batch_features(r), reached, unsampled);
+    const uint64_t missing = clear_unreached(r->source->mean, batch_features(r), r->layers, r->film->layers.count, reached, unsampled);
     r->under_way = (reached - missing) * order_samples(r);
     EC_TRY(ec_film_add_features(r->film, batch_features(r), reached, err));
+    for (uint32_t k = 0; k < r->film->layers.count; k++) {
+        ec_film_layer_batch(r->film, k, r->layers, reached, r->layer);
+        EC_TRY(ec_film_add_begun(&r->film->layer_films[k], r->layer, reached, err));
+    }
     return ec_film_add_begun(r->film, r->source->mean, reached, err);
 }
 
@@ -208,16 +224,30 @@ static ec_result add_block(ec_render_state *r, ec_error *err)
     return EC_OK;
 }
 
+/* The picture's, or a layer's. */
+static ec_result add_to(const ec_render_state *r, ec_film *film, const float *mean, ec_error *err)
+{
+    if (r->order.list) return ec_film_add_some(film, mean, r->past.allotment.places, r->order.count, r->order.samples, err);
+    if (r->order.cut) return ec_film_add_cut(film, r->past.next, r->order.cut, mean, err);
+    return ec_film_add(film, r->past.next, mean, err);
+}
+
+static ec_result add_layers(ec_render_state *r, ec_error *err)
+{
+    for (uint32_t k = 0; k < r->film->layers.count; k++) {
+        ec_film_layer_batch(r->film, k, r->layers, r->order.count, r->layer);
+        EC_TRY(add_to(r, &r->film->layer_films[k], r->layer, err));
+    }
+    return EC_OK;
+}
+
 /* Or the block. */
 static ec_result add_whole(ec_render_state *r, ec_error *err)
 {
-    const float *mean = r->source->mean;
     if (r->order.with_features) EC_TRY(add_features(r, err));
     if (r->order.cut) keep(r, 0);
-    if (r->order.list) return ec_film_add_some(r->film, mean, r->past.allotment.places, r->order.count, r->order.samples, err);
-    if (r->source->batches > 1) return add_block(r, err);
-    if (r->order.cut) return ec_film_add_cut(r->film, r->past.next, r->order.cut, mean, err);
-    return ec_film_add(r->film, r->past.next, mean, err);
+    EC_TRY(add_layers(r, err));
+    return r->source->batches > 1 ? add_block(r, err) : add_to(r, r->film, r->source->mean, err);
 }
 
 static ec_result add_batch(ec_render_state *r, bool complete, ec_error *err)

@@ -13,7 +13,7 @@ typedef struct slot {
     uint32_t cut, samples;            /* of the order: what is not wanted of it; of each entry of a list */
     float limit;                      /* likewise */
     const uint32_t *list;
-    float *mean, *aov;                /* of a batch: EC_BATCH_FIELDS a position */
+    float *mean, *aov, *layers;       /* of a batch: EC_BATCH_FIELDS a position */
     ec_sums sums;                     /* of a block: of positions from `from` on */
     uint32_t from, count, handed;
     uint32_t invalid[EC_STAGE_COUNT];

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/text.h"
+#include "report/denoise_report.h"
 #include "report/error_text.h"
 #include "report/json.h"
 
@@ -20,6 +21,7 @@ void ec_merge_report_text(const ec_merge_report *r, FILE *to)
         ec_clamp_text(&r->clamp, r->error.is_open, clamped, sizeof clamped);
         fprintf(to, "clamped: %s\n", clamped);
     }
+    ec_denoised_text(r->denoised, to);
     if (r->is_exposure_auto) fprintf(to, "exposure: %+.2f stops, by auto\n", r->exposure);
     for (int i = 0; i < r->output_count; i++) ec_text_print(to, "", r->outputs[i], "\n");
 }
@@ -32,6 +34,7 @@ ec_result ec_merge_report_json(const ec_merge_report *r, FILE *to, ec_error *err
     ec_error_json(object, &r->error, r->limit > 0 ? &r->clamp : NULL);
     EC_JSON(object, EC_REAL("relmse", r->error.relmse), EC_REAL("mean_luminance", r->error.mean_luminance), EC_WHOLE("heavy_pixels", r->heavy_pixels));
     ec_clamp_json(object, r->limit, r->luminance, &r->clamp);
+    ec_denoised_json(object, r->denoised);
     EC_JSON(object, EC_REAL("exposure", r->exposure), EC_FLAG("exposure_auto", r->is_exposure_auto));
     ec_json_text(object, "image_sha256", r->image_sha256);
     ec_json_texts(object, "outputs", r->outputs, (size_t)r->output_count);

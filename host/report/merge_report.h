@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "denoise/clean.h"
 #include "film/clamp.h"
 
 typedef struct ec_merge_report {
@@ -14,6 +15,7 @@ typedef struct ec_merge_report {
     ec_film_error error;
     double limit, luminance; /* of --clamp, and of that a sample's most; 0: there is none */
     ec_clamp_error clamp;
+    const ec_denoised *denoised; /* NULL: not asked for */
     const char *image_sha256;
     double exposure;         /* EV, of the PNG */
     bool is_exposure_auto;

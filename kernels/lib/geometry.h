@@ -119,7 +119,7 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
         h.i2 = as_lane_u(i.c);
         if (HAS(INSTANCES)) exchange(h.turned, &h.i1, &h.i2);
     }
-    if (HAS_TEXTURES && g->uvs) {
+    if (HAS_UV && g->uvs) {
         h.uv0 = gather_quad(g->uvs, h.i0 * 4u);
         h.uv1 = gather_quad(g->uvs, h.i1 * 4u);
         h.uv2 = gather_quad(g->uvs, h.i2 * 4u);

@@ -33,7 +33,7 @@ typedef struct light_sample {
     v3 end_error;    /* error bound of the end point */
     v3 end_normal;   /* unit; zero where there is no surface */
     lane_i valid;
-    lane_u id;       /* with LIGHT_PATHS: which light; of a triangle 1 / area */
+    lane_u id;       /* with LIGHT_PATHS or LAYERS: which light; with the first, of a triangle 1 / area */
     lane_f per_area;
 } light_sample;
 
@@ -347,10 +347,8 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
         light_sample other = light_sample_environment(l, m & is, stretched, r2, params->scene_radius);
         s = HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) ? light_sample_select(is, other, s) : other;
     }
-    if (HAS(LIGHT_PATHS)) {
-        s.id = id;
-        s.per_area = motion_per_area(one.a, one.b, one.c);
-    }
+    if (HAS(LIGHT_PATHS) || HAS(LAYERS)) s.id = id;
+    if (HAS(LIGHT_PATHS)) s.per_area = motion_per_area(one.a, one.b, one.c);
     return s;
 }
 

@@ -6,7 +6,7 @@
 #define EC_LIB_TRACE_INTERLEAVED_H
 
 #include "film.h"
-#include "queue.h"
+#include "slot_layers.h"
 
 #define EC_INTERLEAVED_RAYS 64u /* that a work-item takes in all: at the end fewer than INTERLEAVE are on their way */
 
@@ -168,7 +168,6 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
     const accel a = ACCEL_ARGUMENTS;
     hit_filter filter = {FILTER_GEOMETRY, U(0), CAMERA_SHADOWS(bounce), 0};
     walk walks[INTERLEAVE];
-    radiance = radiance_of(params, radiance, bounce + 2);
     for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {
         bool is_new = t.count < INTERLEAVE && t.next < t.left;
         if (is_new) k = t.order[t.count] = t.count, t.count++;
@@ -177,10 +176,8 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
             if (!walk_any(&a, &filter, w)) continue;
             if (w->h.prim == EC_NO_ID) {
                 global const float *p = shadows + w->i;
-                uint slot = as_uint(p[EC_SHADOW_SLOT * wave]);
-                radiance[slot] += p[EC_SHADOW_LR * wave];
-                radiance[wave + slot] += p[EC_SHADOW_LG * wave];
-                radiance[2 * wave + slot] += p[EC_SHADOW_LB * wave];
+                light_add_one(params, radiance, bounce + 2, as_uint(p[EC_SHADOW_SLOT * wave]), p[EC_SHADOW_LR * wave], p[EC_SHADOW_LG * wave],
+                              p[EC_SHADOW_LB * wave]);
             }
             if (t.next == t.left) {
                 t.order[k] = t.order[--t.count];
@@ -194,7 +191,7 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
         walk_begin(w, i, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), 1.0f);
         if (HAS(ALPHA)) {
             lane_u pixel, sample;
-            slot_to_pixel(params, first_pixel, pixel_list, U(as_uint(p[EC_SHADOW_SLOT * wave])), &pixel, &sample);
+            slot_to_pixel(params, first_pixel, pixel_list, U(slot_alone_one(as_uint(p[EC_SHADOW_SLOT * wave]))), &pixel, &sample);
             w->key = filter_key(seed, pixel, sample, bounce, true);
         }
     }

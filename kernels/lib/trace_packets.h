@@ -5,7 +5,7 @@
  * h->t comes in as the largest t of interest (negative: lane off), h->prim as EC_NO_ID. */
 #include "film.h"
 #include "pane.h"
-#include "queue.h"
+#include "slot_layers.h"
 #include "sort_rays.h"
 
 #define SORTS (LANES > 1 && sorts)
@@ -67,8 +67,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
         queue_packet at = {i + k, SORTS, SORTS ? LANE_LOAD(order + k) : U(0)};
         ray r = ray_make(packet_load_v3(shadows, wave, EC_SHADOW_OX, &at), packet_load_v3(shadows, wave, EC_SHADOW_DX, &at),
                          params->scene_max);
-        lane_u slot = packet_load_u(shadows, wave, EC_SHADOW_SLOT, &at);
-        slot = active ? slot : U(0);
+        lane_u word = packet_load_u(shadows, wave, EC_SHADOW_SLOT, &at), slot = active ? slot_alone(word) : U(0);
         lane_i panes = !TRUE_MASK;
         hit_filter filter = {FILTER_GEOMETRY, U(0), CAMERA_SHADOWS(bounce), HAS(PANES) ? &panes : 0};
         if (HAS_TIMES) filter.g.time = gather_f(times, slot);
@@ -105,5 +104,6 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
             }
         }
         radiance_add(radiance_of(params, radiance, bounce + 2), wave, slot, light, open, invalid + EC_STAGE_CONNECT);
+        if (HAS(LAYERS)) layers_add(params, radiance, bounce + 2, slot, slot_group(word), light, open);
     }
 }

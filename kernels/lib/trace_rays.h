@@ -10,7 +10,7 @@
  * stands there in place of both. */
 #include "film.h"
 #include "pane.h"
-#include "queue.h"
+#include "slot_layers.h"
 
 #ifdef ACCEL_HAS_TRACE
 EC_FN void EC_CAT(ACCEL, _closest)(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
@@ -68,7 +68,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     global const float *p = shadows + i;
     ray8 q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
                        p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
-    uint slot = as_uint(p[EC_SHADOW_SLOT * wave]);
+    uint word = as_uint(p[EC_SHADOW_SLOT * wave]), slot = slot_alone_one(word);
     lane_i panes = !TRUE_MASK;
     hit_filter filter = {FILTER_GEOMETRY, U(0), CAMERA_SHADOWS(bounce), HAS(PANES) ? &panes : 0};
     if (HAS_TIMES) filter.g.time = F(times[slot]);
@@ -99,8 +99,5 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
             h.prim = EC_NO_ID;
         }
     }
-    radiance = radiance_of(params, radiance, bounce + 2);
-    radiance[slot] += light.x.s0;
-    radiance[wave + slot] += light.y.s0;
-    radiance[2 * wave + slot] += light.z.s0;
+    light_add_one(params, radiance, bounce + 2, word, light.x.s0, light.y.s0, light.z.s0);
 }

@@ -44,6 +44,8 @@
 #define EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE EC_FEATURE_BIT(33)
 #define EC_FEATURE_DISPERSION EC_FEATURE_BIT(34)
 #define EC_FEATURE_MULTISCATTER EC_FEATURE_BIT(35)
+#define EC_FEATURE_UV EC_FEATURE_BIT(36)
+#define EC_FEATURE_LAYERS EC_FEATURE_BIT(37)
 #define EC_FEATURE_LENS EC_FEATURE_BIT(40)
 #define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
@@ -93,6 +95,8 @@
     X(DIFFUSE_TRANSMISSION_TEXTURE, "diffuse-transmission-texture")                                \
     X(DISPERSION, "dispersion")                                                                    \
     X(MULTISCATTER, "multiple-scattering")                                                         \
+    X(UV, "texture-coordinates")                                                                   \
+    X(LAYERS, "picture-layers")                                                                    \
     X(LENS, "depth-of-field")                                                                      \
     X(PIXEL_FILTER, "pixel-filter")                                                                \
     X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
@@ -117,7 +121,8 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)
 /* What asks which body a ray is in. */
 #define EC_FEATURES_MEDIUM (EC_FEATURE_ABSORPTION | EC_FEATURE_NESTED)
-#define EC_FEATURES_ATTRIBUTES (EC_FEATURES_TEXTURED | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
+#define EC_FEATURES_UV (EC_FEATURES_TEXTURED | EC_FEATURE_UV)
+#define EC_FEATURES_ATTRIBUTES (EC_FEATURES_UV | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
 
 #ifdef EC_DEVICE_CODE
 #ifndef FEATURES
@@ -125,6 +130,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #endif
 #define HAS(name) ((FEATURES & EC_FEATURE_##name) != 0)
 #define HAS_TEXTURES ((FEATURES & EC_FEATURES_TEXTURED) != 0)
+#define HAS_UV ((FEATURES & EC_FEATURES_UV) != 0)
 #define HAS_PASSING (HAS(TRANSMISSION) || HAS(DIFFUSE_TRANSMISSION))
 #define HAS_BENDING ((FEATURES & EC_FEATURES_BENDING) != 0)
 #define HAS_MEDIUM ((FEATURES & EC_FEATURES_MEDIUM) != 0)

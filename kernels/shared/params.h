@@ -15,6 +15,11 @@ typedef enum ec_sample {
 
 #define EC_CASTERS_MOST 8
 
+/* What a picture can have beside radiance that is one of a kind; light groups come after these. */
+enum ec_layer_kind { EC_LAYER_DIRECT, EC_LAYER_INDIRECT, EC_LAYER_POSITION, EC_LAYER_UV, EC_LAYER_KINDS };
+#define EC_GROUPS_MOST 16
+#define EC_GROUP_NAME 64
+
 typedef struct ec_params {
     /* Camera, recentred frame: d = forward + x * right + y * up with x, y in [-1, 1]; right and up hold the field of view.
      * Orthographic: o = origin + x * right + y * up, d = forward. A screen window (screen, below) reaches beyond [-1, 1] or not so far. */
@@ -40,6 +45,7 @@ typedef struct ec_params {
     ec_float environment_pmf;     /* probability that light sampling chooses the environment */
     ec_float scene_radius;        /* of a sphere around the recentred origin that holds the scene */
     ec_float scene_max;           /* largest |coordinate| of the scene */
+    ec_float scene_centre[3];     /* of the world, which the recentred frame has its origin in */
     ec_uint first_roulette;       /* path segments that are never cut short */
     ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
     ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
@@ -66,8 +72,12 @@ typedef struct ec_params {
     ec_uint caster_count;
     ec_float casters[EC_CASTERS_MOST][4]; /* spheres about what bends light: centre, radius */
     ec_float caster_share[EC_CASTERS_MOST]; /* probability that a light path is aimed at one */
+    /* Layers of the picture (lib/slot_layers.h), from 1 on; 0: there is none. */
+    ec_uint layer_count;
+    ec_uint layer_of[EC_LAYER_KINDS];
+    ec_uint layer_groups;         /* the first light group's; the others follow */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 504);
+EC_ASSERT_SIZE(ec_params, 540);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u

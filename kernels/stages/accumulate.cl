@@ -2,25 +2,11 @@
  * slots' radiance, which is changed then. Writes: the batch film, EC_BATCH_FIELDS floats a pixel in row order from film_row on, or in the
  * list's. Last stage of a wave. */
 #include "../lib/film.h"
-#include "../lib/math.h"
+#include "../lib/sum.h"
 
 #if LANES != 1
 #error "one work-item a pixel: build with LANES 1"
 #endif
-
-/* Adds 64 at a time plainly, and these sums with what each addition loses put back (Kahan 1965): plain floats gain or lose 6e-4 in 65536. */
-static float sum_of(global const float *in, uint count, float scale)
-{
-    float sum = 0.0f, lost = 0.0f;
-    for (uint first = 0; first < count; first += 64) {
-        float part = 0.0f;
-        for (uint s = first; s < min(first + 64, count); s++) part += in[s] * scale;
-        float add = part - lost, next = sum + add;
-        lost = (next - sum) - add;
-        sum = next;
-    }
-    return sum;
-}
 
 static float luminance_of(global const float *in, uint wave, uint s)
 {
@@ -100,11 +86,7 @@ kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global c
     global float *out = batch_film + EC_BATCH_FIELDS * (pixel_list ? (ulong)(first_pixel + i)
                                                                    : (ulong)(y - params->film_row) * params->width + x);
     if (params->apart) limit_indirect(radiance + i * batch, wave, batch, params->limit);
-    for (uint c = 0; c < 3; c++) {
-        global const float *in = radiance + c * wave + i * batch;
-        float mean = sum_of(in, batch, 1.0f) / (float)batch;
-        out[c] = is_finite_bits(mean) ? mean : sum_of(in, batch, 1.0f / (float)batch); /* their sum is more than a float holds */
-    }
+    for (uint c = 0; c < 3; c++) out[c] = mean_of(radiance + c * wave + i * batch, batch);
     write_tail(radiance + i * batch, wave, batch, out);
     if (params->light_paths > 0.0f)
         add_splats(splats + EC_SPLAT_WORDS * ((ulong)(y - params->film_row) * params->width + x), params->splat_unit, batch, out);

@@ -67,7 +67,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const float *light_table, global const uint *light_shares,
                      global const float *environment_texels, global const uint *environment_table,
                      global const float *light_tree, global const uint *light_trails, global const float *lamp_parts,
-                     global const uint *emission_table)
+                     global const uint *emission_table, global const uint *light_groups)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -154,8 +154,14 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         emits = emits | m;
         scatters = scatters & !m;
     }
-    if (any_lane(emits))
+    if (any_lane(emits)) {
         radiance_add(radiance_of(params, radiance, bounce + 1), wave, slot, v3_mul(beta, emitted), emits, invalid + EC_STAGE_SHADE);
+        if (HAS(LAYERS)) {
+            lane_u group = U(0);
+            if (light_groups) group = gather_u(light_groups, found ? divide(h.material, EC_MATERIAL_WORDS) + (1u + params->light_count) : U(0));
+            layers_add(params, radiance, bounce + 1, slot, group, v3_mul(beta, emitted), emits);
+        }
+    }
 
     if (aov && bounce == 0) {
         v3 seen = v3_sub(s.p, o);
@@ -163,6 +169,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         store_features(aov, wave, slot, v3_select(found, s.base, v3_zero()), v3_select(found, s.ns, v3_zero()),
                        found ? depth : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
     }
+    if (HAS(LAYERS) && bounce == 0) store_surface_layers(params, radiance, slot, &h, &s, found);
     /* This vertex ends segment bounce + 1; light sampled here would arrive over segment bounce + 2. */
     if (bounce + 2 > params->max_depth || !any_lane(scatters)) return;
 
@@ -202,8 +209,10 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf, share);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
         if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
+        lane_u group = U(0);
+        if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
         lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local, lifted);
-        shadow_push(params, shadows, counters->shadows[step], i, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot,
+        shadow_push(params, shadows, counters->shadows[step], i, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
                     left_behind(&s, l.wi, lifted, prim), l.target, m, invalid + EC_STAGE_SHADE);
     }
 

@@ -65,4 +65,5 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
         store_features(aov, wave, slot, v3_select(found, s.base, v3_zero()), v3_select(found, s.ns, v3_zero()),
                        found ? sqrt(v3_dot(way, way)) : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
     }
+    if (HAS(LAYERS)) store_surface_layers(params, radiance, slot, &e.h, &s, found);
 }

@@ -109,10 +109,35 @@ class Denoise(Case):
         self.assertIn("denoised no: it takes 4 samples a pixel", run.stdout)
 
     def test_refusals(self):
-        for options, word in ((["--replicates", "3"], "give 4 or more"), (["--samples", "0:64", "--spp", "64"], "--denoise and --samples"),
-                              (["--denoise=loud"], "off, auto, oidn, atrous"), (["--integrator", "raster"], "--integrator path")):
+        for options, word in ((["--replicates", "3"], "give 4 or more"), (["--denoise=loud"], "off, auto, oidn, atrous"), (["--integrator", "raster"], "--integrator path")):
             line = self.assert_one_error(eclat("render", *JOB, "--denoise", *options, "-o", self.path("a.exr"), env=self.oidn), 2)
             self.assertIn(word, line)
+
+    def test_merged(self):
+        """Slices come to the denoised picture of the whole; each is denoised by itself, where it has first hits to go by."""
+        whole, attributes, planes = self.render("--spp", "96")
+        slices = []
+        for samples in ("0:64", "64:96"):
+            slices.append(self.path(samples.replace(":", "-") + ".exr"))
+            run = self.assert_ok(eclat("render", *JOB, "--denoise", "--spp", "96", "--samples", samples, "-o", slices[-1], env=self.oidn))
+            self.assertIn("denoised error" if samples == "0:64" else "denoised no: first hits, by which a denoiser goes, are of the slice that begins with sample 0",
+                          run.stdout)
+        merged = self.path("merged.exr")
+        report = json.loads(self.assert_ok(eclat("merge", *reversed(slices), "--denoise", "--json", "-o", merged, env=self.oidn)).stdout)
+        for name in ("denoised", "best"):
+            self.assertEqual({**report[name], "seconds": 0}, {**whole[name], "seconds": 0})
+        merged_attributes, merged_planes = read_exr(merged)
+        for layer in LAYERS:
+            self.assertEqual(merged_planes[layer], planes[layer], layer)
+        self.assertEqual(merged_attributes["eclat.best.high95"], attributes["eclat.best.high95"])
+        run = self.assert_ok(eclat("merge", merged, "--denoise=atrous", "-o", self.path("again.png"), env=self.oidn))
+        self.assertRegex(run.stdout, r"denoised error .*\nbest     error ")
+        self.assert_ok(eclat("merge", merged, "-o", self.path("noisy.png")))
+        self.assertLess(os.path.getsize(self.path("again.png")), 0.97 * os.path.getsize(self.path("noisy.png")))
+        self.assertIsNone(json.loads(self.assert_ok(eclat("merge", merged, "--json", "-o", self.path("b.exr"))).stdout)["best"])
+        line = self.assert_one_error(eclat("merge", merged, "--denoise=oidn", "-o", self.path("c.exr"), env={"ECLAT_OIDN": self.path("nowhere")}), 1)
+        self.assertIn("ECLAT_OIDN: there is no", line)
+        self.assertFalse(os.path.exists(self.path("c.exr")))
 
     def test_no_library(self):
         """--denoise oidn names both ways to get one, and nothing is rendered before; --denoise alone says so and filters by itself."""

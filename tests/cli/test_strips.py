@@ -54,6 +54,7 @@ class Strips(Case):
     def test_the_bits_of_other_wholes(self):
         """A batch that is cut; what else adds up; other integrators."""
         self.assert_bits_of_the_whole(["--size", "90x403", "--spp", "41", "--filter", "blackman-harris"], ["--size", "150x420", "--spp", "9", "--clamp", "0.5"],
+                                      ["--size", "120x403", "--spp", "17", "--channels", "default,direct,indirect,uv", "--light-groups", "all"],
                                       ["--size", "200x420", "--spp", "2", "--integrator", "whitted"], ["--size", "200x420", "--spp", "2", "--integrator", "raster"])
 
     def assert_bits_of_the_whole(self, *jobs):

@@ -87,7 +87,7 @@ static bool stop_early(void *user, uint32_t done)
 /* A first batch that is given up: what is not right is marked. */
 static int check_marked(const ec_team_recruit *recruits)
 {
-    static float aov[8 * PIXELS];
+    static float aov[EC_AOV_FIELDS * PIXELS];
     uint32_t asked = 0, reached = 0, wrong = 0;
     ec_team *team;
     ec_error err = {0};

@@ -115,9 +115,10 @@ def cost(scene: Scene | Path, /, *, budget: Seconds | None = None, html: Path | 
     return (scene if isinstance(scene, Scene) else Scene(scene)).cost(budget=budget, html=html, progress=progress, **options)
 
 
-def merge(files: Iterable[Path], *, partial: bool = False, exposure: float | str | None = None, tonemap: str | None = None) -> Picture:
+def merge(files: Iterable[Path], *, partial: bool = False, denoise: bool | str | None = None, exposure: float | str | None = None,
+          tonemap: str | None = None) -> Picture:
     """One picture of slices, which Picture.save writes of Scene.render(samples=(a, b)), or of checkpoints. partial: even if samples are missing."""
-    named = texts("merge", {"partial": partial, "exposure": exposure, "tonemap": tonemap})
+    named = texts("merge", {"partial": partial, "denoise": denoise, "exposure": exposure, "tonemap": tonemap})
     made = run("merge", [os.fspath(file) for file in files], named, wants_picture=True).picture
     return Picture(some(made))
 

@@ -1,0 +1,28 @@
+/* Layers of a picture beside its radiance: parts of that, or where its first surface is. */
+#ifndef EC_FILM_LAYERS_H
+#define EC_FILM_LAYERS_H
+
+#include <stdint.h>
+
+#include "shared/params.h"
+
+enum { EC_LAYER_BYTES = 12 /* of a pixel in a batch */, EC_LAYER_WAVE_MOST = 1 << 26 /* so that 32 bits number all floats of a wave */ };
+
+/* Which there are: those of a kind each, in the order of ec_layer_kind, then light groups, by name. */
+typedef struct ec_layers {
+    uint32_t count;
+    uint32_t kinds;       /* a bit for each ec_layer_kind */
+    uint32_t group_count;
+    char groups[EC_GROUPS_MOST][EC_GROUP_NAME];
+} ec_layers;
+
+/* Its place among them, from 1 on; 0: it is not there. */
+static inline uint32_t ec_layers_find(const ec_layers *layers, enum ec_layer_kind kind)
+{
+    return layers->kinds >> kind & 1 ? (uint32_t)__builtin_popcount(layers->kinds & ((2u << kind) - 1)) : 0;
+}
+
+/* Where light groups begin, likewise. */
+static inline uint32_t ec_layers_groups(const ec_layers *layers) { return layers->group_count ? layers->count - layers->group_count + 1 : 0; }
+
+#endif
