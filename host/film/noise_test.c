@@ -116,10 +116,17 @@ static double t_of(const t_sums *s)
 }
 
 /* Two-sided. Without own noise at all: as few degrees of freedom as either picture has. */
-static double p_of(const pair *q, const t_sums *s)
+static double p_of(const pair *q, const t_sums *s, double most)
 {
     double dof = s->spread > 0 ? s->variance * s->variance / s->spread : fmin(q->dof_a, q->dof_b);
+    dof = fmin(dof, most);
     return 2 * ec_student_t_upper_tail(fabs(t_of(s)), dof);
+}
+
+/* Noise that a curve has bent is not normal, however many neighbours tell of it: its tails are those of few degrees of freedom. */
+static double most_of_single(const pair *q)
+{
+    return q->a->tail_se || q->b->tail_se ? fmin(q->dof_a, q->dof_b) : INFINITY;
 }
 
 static int is_exact(const pair *q, uint64_t i)
@@ -140,7 +147,7 @@ static double test_mean(const pair *q, uint32_t c, ec_noise_test *test)
         if (ec_counts(q->a, q->b, p)) add_own(q, 3 * p + c, &s), count++;
     test->mean_difference[c] = s.difference / (double)count;
     test->mean_t[c] = t_of(&s);
-    return s.variance > 0 ? p_of(q, &s) : 1;
+    return s.variance > 0 ? p_of(q, &s, INFINITY) : 1;
 }
 
 static double test_blocks(const pair *q, uint32_t c, ec_noise_test *test)
@@ -159,7 +166,7 @@ static double test_blocks(const pair *q, uint32_t c, ec_noise_test *test)
                 }
             if (!noisy) continue;
             count++;
-            least = fmin(least, p_of(q, &s));
+            least = fmin(least, p_of(q, &s, most_of_single(q)));
             keep_worst(&test->block, t_of(&s), x0, y0, c);
         }
     return ec_p_of_least(least, count);
@@ -189,7 +196,7 @@ static double test_pixels(const pair *q, uint32_t c, double *p_share, ec_noise_t
         count++;
         keep_worst(&test->pixel, t_of(&s), (uint32_t)(i / 3 % q->a->width), (uint32_t)(i / 3 / q->a->width), c);
         if (fabs(t_of(&s)) < certainly_within) continue;
-        double p = p_of(q, &s);
+        double p = p_of(q, &s, most_of_single(q));
         least = fmin(least, p);
         outlying += p < outlying_p;
     }

@@ -11,7 +11,7 @@
 #include "film/noise_test.h"
 
 /* Where noise makes more of the error than this, curves bend it in ways that standard errors do not tell. */
-#define EC_NOISE_BENT 0.1
+#define EC_NOISE_BENT 0.4
 
 typedef struct ec_compare_report {
     const char *path_a, *path_b;

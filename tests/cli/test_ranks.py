@@ -11,7 +11,7 @@ import unittest
 
 from hosts import Hosts
 from polling import GUARD, poll_until
-from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, read_exr
+from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, quad_scene, read_exr, write_gltf
 from tiers import full
 
 # As root, and more processes than processors: only here. Two threads a process are enough for pictures of 300 pixels. Without gl hwloc
@@ -76,6 +76,23 @@ class Ranks(Case):
         self.assert_same([*JOB, "--spp", "131"], 5, {"ECLAT_RANK_FANOUT": "2"})
 
     @full
+    def test_a_series(self):
+        """Each picture of several scenes, and of a turntable, by all ranks: the bits of one process."""
+        scenes = [self.path(f"{name}.gltf") for name in "ab"]
+        for k, scene in enumerate(scenes):
+            write_gltf(scene, quad_scene(material={"emissiveFactor": [1, 0.5, k], "doubleSided": True})[0])
+        small = ("--size", "12x10", "--spp", "16", "--json", "-q")
+        for inputs, names in ((scenes, "{name}"), ([scenes[0], "--orbit", "3"], "%d")):
+            found = {}
+            for ranks in (1, 3):
+                run = (mpirun(ranks, "render", *inputs, *small, "-o", self.path(f"{ranks}-{names}.exr")) if ranks > 1 else
+                       eclat("render", *inputs, *small, "-o", self.path(f"{ranks}-{names}.exr")))
+                reports = [json.loads(line) for line in self.assert_ok(run).stdout.splitlines()]
+                found[ranks] = [report["image_sha256"] for report in reports[:-1]]
+                self.assertEqual(reports[-1]["failed"], 0)
+                self.assertEqual(len(found[ranks]), reports[-1]["rendered"])
+            self.assertEqual(found[1], found[3])
+
     def test_ranks_of_several_devices(self):
         """Pieces of one batch reach the same rank one after the other."""
         job = [CORNELL, "--size", "64x64", "--spp", "512", "--wave", "4096"]

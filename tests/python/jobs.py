@@ -218,5 +218,30 @@ class Studies(Case):
         self.assertTrue(eclat.compare(self.folder / "f.0.exr", self.folder / "f.1.exr").differ)
 
 
+    def test_orbit_and_sheet(self):
+        path = support.write_gltf(self.folder / "a.gltf", support.quad_scene(material={"emissiveFactor": [1, 1, 1], "doubleSided": True})[0])
+        reports = eclat.load(path).render_orbit(3, self.folder / "o.%d.png", sheet=self.folder / "sheet.png", spp=1, size=(8, 8))
+        self.assertEqual([report.get("frame_degrees") for report in reports[:3]], [0, 120, 240])
+        self.assertTrue(all((self.folder / name).exists() for name in ("o.0.png", "o.1.png", "o.2.png", "sheet.png")))
+
+    def test_many_scenes(self):
+        paths = [support.write_gltf(self.folder / f"{name}.gltf", support.quad_scene()[0]) for name in "abc"]
+        reports = eclat.render_all([eclat.load(paths[0]), *paths[1:]], self.folder / "{name}.exr", spp=1, size=(8, 8), shard=(1, 2))
+        self.assertEqual([report.get("name") for report in reports[:-1]], [str(paths[0]), str(paths[2])])
+        self.assertEqual(reports[-1]["rendered"], 2)
+        self.assertFalse((self.folder / "b.exr").exists())
+        with self.assertRaisesRegex(eclat.Error, "1 of 4 pictures failed"):
+            eclat.render_all([*paths, self.folder / "missing.gltf"], self.folder / "{name}.exr", spp=1, size=(8, 8))
+        self.assertTrue((self.folder / "b.exr").exists())
+
+    def test_scenarios(self):
+        support.write_gltf(self.folder / "a.gltf", support.quad_scene()[0])
+        file = self.folder / "config.json"
+        file.write_text(json.dumps({"scenarios": [{"name": "first", "model": "a.gltf"}]}), encoding="utf-8")
+        reports = eclat.render_scenarios(file, self.folder / "out", spp=1, size=(8, 8))
+        self.assertEqual(reports[0]["name"], "first")
+        self.assertTrue((self.folder / "out" / "index.html").exists())
+
+
 if __name__ == "__main__":
     unittest.main()

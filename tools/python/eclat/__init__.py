@@ -15,10 +15,10 @@ from ._compare import Comparison, compare
 from ._error import Error, Warning
 from ._job import Progress
 from ._picture import Clean, Intervals, Picture
-from ._scene import Device, Scene, cost, devices, info, load, merge
+from ._scene import Device, Scene, cost, devices, info, load, merge, render_all, render_scenarios
 
 for _public in (Clean, Comparison, Device, Error, Intervals, Picture, Progress, Scene, Warning):
     _public.__module__ = "eclat"  # as messages and help name them
 __version__ = metadata.version("eclat")
 __all__ = ["Clean", "Comparison", "Device", "Error", "Intervals", "Picture", "Progress", "Scene", "Warning",
-           "compare", "cost", "devices", "info", "load", "merge"]
+           "compare", "cost", "devices", "info", "load", "merge", "render_all", "render_scenarios"]

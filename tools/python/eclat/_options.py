@@ -31,11 +31,11 @@ NOT_HERE = {
     "frames": "Scene.render_frames renders a sequence",
     "fps": "Scene.render_frames renders a sequence",
     "overwrite": "Scene.render_frames renders a sequence",
-    "orbit": "use the command `eclat render --orbit`, or Scene.render with eye and look_at",
-    "out": "use the command `eclat render --scenarios`",
-    "scenarios": "use the command `eclat render --scenarios`",
-    "shard": "use the command `eclat render`, or render the scenes that you want",
-    "sheet": "use the command `eclat render --sheet`",
+    "orbit": "Scene.render_orbit renders a turntable",
+    "out": "eclat.render_scenarios renders a file of them",
+    "scenarios": "eclat.render_scenarios renders a file of them",
+    "shard": "eclat.render_all and eclat.render_scenarios share work",
+    "sheet": "eclat.render_all, Scene.render_frames and Scene.render_orbit make contact sheets",
     "plan": "it renders no picture; use the command `eclat render --plan`",
 }
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from ._option_types import CostOptions, FrameOptions, InfoOptions, RenderOptions
 
+SERIES = ("frames", "fps", "orbit", "out", "output", "overwrite", "scenarios", "shard", "sheet")
 Path = Union[str, "os.PathLike[str]"]
 Seconds = Union[float, str]
 
@@ -25,6 +26,12 @@ def some(made: PictureHandle | None) -> PictureHandle:
     if made is None:
         raise Error("the picture does not fit into memory as a whole; the command `eclat render` writes such pictures in strips", "host memory")
     return made
+
+
+def series(inputs: Iterable[Path], named: dict[str, Any], progress: Shown) -> list[dict[str, Any]]:
+    """Renders pictures to files: what `eclat render --json` tells of each, and at the end."""
+    reports = run("render", [os.fspath(path) for path in inputs], [("json", None), *texts("render", named, SERIES)], progress).reports
+    return [json.loads(line) for report in reports for line in report.splitlines()]
 
 
 def info(path: Path, **options: Unpack[InfoOptions]) -> dict[str, Any]:
@@ -56,13 +63,17 @@ class Scene:
         made = run("render", [self.path], texts("render", named), progress, wants_picture=True).picture
         return Picture(some(made))
 
-    def render_frames(self, frames: tuple[int, ...] | str, output: Path, *, progress: Shown = None,
+    def render_frames(self, frames: tuple[int, ...] | str, output: Path, *, sheet: Path | None = None, progress: Shown = None,
                       **options: Unpack[FrameOptions]) -> list[dict[str, Any]]:
         """Renders an animation to files, one a frame. frames: (first, last), (first, last, step), or as the command line has it.
-        output: a name with %d or %04d, and .exr or .png at its end. Returns what `eclat render --json` tells, frame by frame and at the end."""
-        named = {"frames": frames, "output": output, **options}
-        reports = run("render", [self.path], [("json", None), *texts("render", named, ("frames", "fps", "output", "overwrite"))], progress).reports
-        return [json.loads(line) for report in reports for line in report.splitlines()]
+        output: a name with %d or %04d, and .exr or .png at its end. sheet: a .png for small pictures of all.
+        Returns what `eclat render --json` tells, frame by frame and at the end."""
+        return series([self.path], {"frames": frames, "output": output, "sheet": sheet, **options}, progress)
+
+    def render_orbit(self, orbit: int, output: Path, *, sheet: Path | None = None, progress: Shown = None,
+                     **options: Unpack[FrameOptions]) -> list[dict[str, Any]]:
+        """Renders a turntable of so many frames to files, as render_frames does: the camera goes round the scene once. With fps animations play."""
+        return series([self.path], {"orbit": orbit, "output": output, "sheet": sheet, **options}, progress)
 
     def cost(self, *, budget: Seconds | None = None, html: Path | None = None, progress: Shown = None,
              **options: Unpack[CostOptions]) -> dict[str, Any]:
@@ -76,6 +87,26 @@ class Scene:
 def load(path: Path) -> Scene:
     """A glTF 2.0 scene, .gltf or .glb."""
     return Scene(path)
+
+
+def render_all(scenes: Iterable[Scene | Path], output: Path, *, sheet: Path | None = None, shard: tuple[int, int] | str | None = None,
+               progress: Shown = None, **options: Unpack[RenderOptions]) -> list[dict[str, Any]]:
+    """Renders many scenes to files, with one device and its kernels; what is there already is left. output: a name with {name} or {folder} in it, of
+    the scene. sheet: a .png for small pictures of all. shard: (i, n), every n-th scene from the i-th on, from 1.
+    Returns what `eclat render --json` tells, scene by scene and at the end. Scenes that fail leave the others; then Error is raised at the end."""
+    paths = [scene.path if isinstance(scene, Scene) else scene for scene in scenes]
+    return series(paths, {"output": output, "sheet": sheet, "shard": share(shard), **options}, progress)
+
+
+def render_scenarios(file: Path, out: Path, *, shard: tuple[int, int] | str | None = None, progress: Shown = None,
+                     **options: Unpack[RenderOptions]) -> list[dict[str, Any]]:
+    """Renders the scenarios of a config.json into a folder, with a page and a contact sheet, as `eclat render --scenarios` does; the rest as
+    render_all."""
+    return series([], {"scenarios": file, "out": out, "shard": share(shard), **options}, progress)
+
+
+def share(shard: tuple[int, int] | str | None) -> str | None:
+    return shard if shard is None or isinstance(shard, str) else f"{shard[0]}/{shard[1]}"
 
 
 def cost(scene: Scene | Path, /, *, budget: Seconds | None = None, html: Path | None = None,
