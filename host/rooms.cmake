@@ -49,7 +49,7 @@ eclat_room(cost base accel cl denoise film image pack render report)
 eclat_room(selftest base accel cl device film gltf render report scene)
 eclat_room(jobs base accel cl denoise device film gltf image pack ranks render report scene store)
 eclat_room(live base cl denoise device film gltf image jobs pack render report scene)
-eclat_room(commands accel base cl cost device gltf image jobs ranks report scene selftest)
+eclat_room(commands accel base cl cost device film gltf image jobs ranks report scene selftest)
 eclat_room(lib base cl commands film jobs live ranks report scene)
 
 # Rooms that know nothing of OpenCL, once more as a library by other compiler options.

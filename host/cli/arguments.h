@@ -4,7 +4,7 @@
 
 #include <eclat/eclat.h>
 
-enum { EC_OPTIONS_MOST = 80 };
+enum { EC_OPTIONS_MOST = 100 };
 
 /* --help or --version in place of what the command does. */
 typedef enum ec_asked { EC_ASKED_RUN, EC_ASKED_HELP, EC_ASKED_VERSION } ec_asked;

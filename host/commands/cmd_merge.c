@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "commands/command.h"
+#include "film/denoiser.h"
 #include "jobs/defaults.h"
 #include "jobs/denoise_choice.h"
 #include "jobs/outputs.h"

@@ -53,7 +53,7 @@ typedef struct ec_view_options {
     bool stats;
 } ec_view_options;
 
-extern const ec_command ec_cmd_compare, ec_cmd_cost, ec_cmd_devices, ec_cmd_info, ec_cmd_merge, ec_cmd_render, ec_cmd_selftest, ec_cmd_view;
+extern const ec_command ec_cmd_compare, ec_cmd_cost, ec_cmd_devices, ec_cmd_info, ec_cmd_merge, ec_cmd_mix, ec_cmd_render, ec_cmd_selftest, ec_cmd_view;
 extern const ec_command *const ec_commands[]; /* by name; NULL ends them */
 extern const char *const ec_group_titles[EC_GROUP_COUNT];
 

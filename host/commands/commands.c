@@ -4,7 +4,7 @@
 #include "commands/command.h"
 
 const ec_command *const ec_commands[] = {&ec_cmd_compare, &ec_cmd_cost,     &ec_cmd_devices, &ec_cmd_info, &ec_cmd_merge,
-                                         &ec_cmd_render,  &ec_cmd_selftest, &ec_cmd_view,    NULL};
+                                         &ec_cmd_mix,     &ec_cmd_render,   &ec_cmd_selftest, &ec_cmd_view, NULL};
 
 const char *const ec_group_titles[EC_GROUP_COUNT] = {
     [EC_GROUP_OPTIONS] = "Options",

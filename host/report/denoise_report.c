@@ -33,8 +33,8 @@ void ec_denoised_text(const ec_denoised *d, FILE *to)
     const double times = d->noisy / d->clean.error, worth = times * times;
     fprintf(to, "denoised error %s, bias %s, noise %s; ", in_words(&d->clean).text, ec_percent(d->bias).text, ec_percent(d->noise).text);
     if (d->clean.low95 > d->noisy) fprintf(to, "the noisy picture is nearer to the truth, with %s", ec_percent(d->noisy).text);
-    else if (worth > 1) fprintf(to, "as good as %s times the samples", ec_count(worth).text);
-    else fprintf(to, "as good as the noisy picture");
+    else if (d->clean.high95 < d->noisy) fprintf(to, "as good as %s times the samples", ec_count(worth).text);
+    else fprintf(to, "whether it is nearer to the truth than the noisy picture is not known");
     fprintf(to, "; nearer to the truth in %u of %u tiles; took %s\n", d->nearer, d->tiles, ec_seconds(d->seconds).text);
     print_best(d, to);
 }

@@ -76,12 +76,12 @@ class Denoise(Case):
     def test_atrous(self):
         """The filter of eclat's own needs no library, and its arithmetic is exact: the same bits on one thread and by kernels of other widths."""
         nothing = {"ECLAT_OIDN": self.path("nowhere")}
-        report, attributes, planes = self.render("--spp", "16", denoise=("--denoise=atrous",), env=nothing)
+        report, attributes, planes = self.render("--spp", "16", job=SMOOTH, denoise=("--denoise=atrous",), env=nothing)
         self.assertEqual(report["denoise"], "atrous")
         self.assertEqual(attributes["eclat.denoised.library"], "a-trous filter")
         self.assertLess(report["best"]["error"], report["error"])
         for options, env in ((["--lanes", "1"], nothing), ([], {**nothing, "POCL_MAX_PTHREAD_COUNT": "1"})):
-            _, _, other = self.render("--spp", "16", *options, denoise=("--denoise=atrous",), env=env)
+            _, _, other = self.render("--spp", "16", *options, job=SMOOTH, denoise=("--denoise=atrous",), env=env)
             for layer in LAYERS:
                 self.assertEqual(planes[layer], other[layer])
 

@@ -13,6 +13,7 @@ from support import SOURCE, Case, eclat, read_exr
 SCENES = ["cornell-box/cornell-box", "showcase/showcase", "ring/ring", "veach-plates/veach-plates", "lamps/lamps", "glass/glass", "furnace/spheres",
           "drink/drink", "brushed-metal/brushed-metal", "stadium/stadium"]
 BUDGETS, SEEDS, REFERENCE, SIZE = (16, 64, 256), 100, 16384, "96x72"
+LEAST = 89  # of 100 seeds: 94 stray by 2.4
 
 
 def luminance(planes, layer=""):
@@ -72,16 +73,20 @@ class Coverage(Case):
                 for layer in total:
                     total[layer] += held[layer]
                 with self.subTest(scene=scene, spp=spp):
-                    self.assertLess(worse, 1.02 if noisy < 0.9 else 1.1)  # beyond, single samples decide
+                    self.assertGreaterEqual(min(held.values()), LEAST)
+                    self.assertLess(worse, 1.02 if noisy < 0.9 else 1.04)  # beyond, single seeds decide what 100 come to
         for layer, count in total.items():
             self.assertGreater(count, 0.93 * cases, layer)
 
     def test_with_a_clamp(self):
         """Of the clamped picture: the reference has the same limit."""
         clamp = ("--clamp", "10")
-        reference = Reference(self.render("ring/ring", "--spp", str(REFERENCE), "--seed", "777", *clamp)[1])
-        held, *_ = self.study("ring/ring", 64, reference, *clamp)
-        self.assertGreater(min(held.values()), 0.9 * SEEDS)
+        for scene, spp in (("ring/ring", 64), ("lamps/lamps", 16)):
+            reference = Reference(self.render(scene, "--spp", str(REFERENCE), "--seed", "777", *clamp)[1])
+            held, _, worse = self.study(scene, spp, reference, *clamp)
+            with self.subTest(scene=scene, spp=spp):
+                self.assertGreaterEqual(min(held.values()), LEAST)
+                self.assertLess(worse, 1.04)
 
 
 if __name__ == "__main__":

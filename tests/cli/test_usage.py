@@ -8,7 +8,7 @@ import unittest
 
 from support import ECLAT, Case, eclat
 
-COMMANDS = ["render", "cost", "info", "compare", "merge", "devices", "view", "selftest", "completion"]
+COMMANDS = ["render", "cost", "info", "compare", "merge", "mix", "devices", "view", "selftest", "completion"]
 
 
 class Help(Case):

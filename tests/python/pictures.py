@@ -103,6 +103,9 @@ class Arrays(Case):
             self.assertEqual(clean.error, p.attributes[f"eclat.{name}.error"])
             self.assertEqual((clean.low, clean.high), (p.attributes[f"eclat.{name}.low95"], p.attributes[f"eclat.{name}.high95"]))
             np.testing.assert_array_equal(clean.radiance, p.layer(name))
+        eclat.load(CORNELL).render(spp=48, size=(40, 32), samples=(0, 48), denoise=True).save(self.folder / "slice.exr")
+        merged = eclat.merge([self.folder / "slice.exr"], denoise=True)
+        self.assertEqual((merged.denoised.error, merged.best.high), (p.denoised.error, p.best.high))
         few = eclat.load(CORNELL).render(spp=2, size=(8, 8), denoise="auto")
         self.assertEqual((few.denoised, few.best), (None, None))
 

@@ -109,7 +109,7 @@ eclat_option eclat_option_at(const char *command, size_t i);
 
 typedef struct eclat_job eclat_job;
 
-/* command: "render", "cost", "info", "compare", "merge", "devices", "selftest" or "view"; the manual says what each does. */
+/* command: "render", "cost", "info", "compare", "merge", "mix", "devices", "selftest" or "view"; the manual says what each does. */
 eclat_result eclat_job_new(const char *command, eclat_job **job, eclat_error *err);
 void eclat_job_free(eclat_job *job);
 
