@@ -58,6 +58,10 @@ static void add_integrators(rung_list *list)
 
 static void add_samplings(rung_list *list)
 {
+    if (ec_scene_casts(list->scene)) {
+        begin(list, "guiding", "Directions, instead of by surfaces alone");
+        add(list, "guiding", "by light paths too, --guiding")->options.guiding = true;
+    }
     begin(list, "sampling", "Sampling of directions, instead of mis");
     add(list, "sample-light", "light")->options.sample = EC_SAMPLE_LIGHT;
     add(list, "sample-bsdf", "bsdf")->options.sample = EC_SAMPLE_BSDF;

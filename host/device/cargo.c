@@ -110,7 +110,7 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
         EC_TRY(ec_scene_calls(called_for, &pack->effects, err));
         pack->effects.bits &= ~EC_FEATURE_INSTANCES;
     }
-    if (o->light_paths > 0) EC_TRY(ec_pack_casters(pack, err));
+    if (o->light_paths > 0 || o->guiding) EC_TRY(ec_pack_casters(pack, o->guiding, err));
     if (o->integrator != EC_INTEGRATOR_PATH) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));
     return EC_OK;
 }
@@ -174,7 +174,7 @@ static void set_light_paths(const ec_render_options *o, const ec_pack *pack, ec_
     if (!pack->caster_count) return;
     frexp(pack->mean_radiance, &exponent);
     params->splat_unit = ldexpf(1, exponent - 31 < -120 ? -120 : exponent - 31);
-    params->light_paths = (float)(paths / pixels);
+    params->light_paths = o->light_paths > 0 ? (float)(paths / pixels) : 0.0f;
     params->caster_count = pack->caster_count;
     for (uint32_t j = 0; j < pack->caster_count; j++) {
         memcpy(params->casters[j], pack->casters[j].centre, sizeof pack->casters[j].centre);

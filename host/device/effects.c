@@ -19,6 +19,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
         ec_effects_call(called, EC_FEATURE_LAMP_PARTS, "lamps in %u parts, as their textures vary", 3 * pack->lamp_node_count);
     if (pack->caster_count && options->light_paths > 0)
         ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--light-paths %g, aimed at %u bodies that bend or mirror light", options->light_paths, pack->caster_count);
+    if (pack->caster_count && options->guiding) ec_effects_call(called, EC_FEATURE_GUIDING, "--guiding, by light paths to %u bodies that bend or mirror light", pack->caster_count - 1);
     if (options->layers.count) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels or --light-groups: %u layers", options->layers.count);
     if (ec_layers_find(&options->layers, EC_LAYER_UV)) ec_effects_call(called, EC_FEATURE_UV, "--channels uv");
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
@@ -32,7 +33,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
 
 uint64_t ec_universal_features(const ec_render_effects *effects)
 {
-    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS)); /* other ways, not more effects */
+    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS)); /* other ways, not more effects */
     return all & ~(effects->without & EC_FEATURE_PANES);
 }
 

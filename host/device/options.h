@@ -57,6 +57,7 @@ typedef struct ec_render_options {
     double cutoff;              /* Whitted: branches of less weight than this are not followed */
     double clamp;               /* most luminance of a sample's indirect light, in mean luminances of the picture (limit.c); 0 = no limit */
     double clamp_luminance;     /* the same in itself, where it is known beforehand; 0 = a pilot finds the picture's mean */
+    bool guiding;               /* directions by what light paths have found */
     double light_paths;         /* for each camera path, where there is something that bends light sharply; 0 = none */
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;

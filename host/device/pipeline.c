@@ -30,6 +30,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, 
     start = ec_now();
     result = ec_tiers_begin(p, head, err);
     stats->kernel_seconds = ec_now() - start;
+    if (result == EC_OK) result = ec_pipeline_train(p, &stats->guide_seconds, err);
     for (int i = 0; i <= EC_LANES_MOST; i++) stats->programs_built += p->kernels.programs[i] != NULL;
     stats->programs_found = cl->programs_found - programs;
     stats->programs_built -= stats->programs_found;

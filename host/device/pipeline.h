@@ -58,6 +58,8 @@ ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t fi
                                bool with_features, ec_error *err);
 /* Light paths first … first + count - 1 of each round of params.batch samples, into the splats; seed: of the replicate's light paths. */
 ec_result ec_pipeline_run_light_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first, uint32_t count, ec_error *err);
+/* train.c: makes the table that guides directions, where that is called for; before the first wave. *seconds: that it took. */
+ec_result ec_pipeline_train(ec_pipeline *pipeline, double *seconds, ec_error *err);
 /* Samples dropped so far, by ec_stage. */
 ec_result ec_pipeline_read_invalid(ec_pipeline *pipeline, uint32_t counts[EC_STAGE_COUNT], ec_error *err);
 /* What an integrator does with a wave's camera rays: adds to their slots' radiance. scalars: by ec_arg. */

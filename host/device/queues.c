@@ -47,6 +47,7 @@ static ec_result create(ec_pipeline *p, const char *label, uint64_t bytes, cl_me
 
 static uint32_t path_fields_of(uint64_t features)
 {
+    if (features & EC_FEATURE_GUIDING) return EC_PATH_GUIDED_FIELDS;
     if (features & EC_FEATURE_LIGHT_PATHS) return EC_PATH_LIGHT_FIELDS;
     return features & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS : features & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
 }
@@ -64,7 +65,7 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
     EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
     if (p->effects.called.bits & EC_FEATURE_MOTION)
         EC_TRY(create(p, "times of paths", field + slack, &p->buffers[EC_ARG_TIMES], err));
-    if (p->params.light_paths > 0)
+    if (p->effects.called.bits & EC_FEATURES_FROM_LIGHTS)
         EC_TRY(create(p, "what light paths are of", field * EC_LIGHT_SLOT_FIELDS + slack, &p->buffers[EC_ARG_LIGHT_SLOTS], err));
     if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->effects.built & EC_FEATURE_TRANSMISSION)) return EC_OK; /* only what passes light branches */
     return create(p, "ray trees", field * ec_whitted_stack_words(p->params.max_depth), &p->buffers[EC_ARG_BRANCHES], err);

@@ -35,6 +35,7 @@ static const ec_arg shade[] = {WAVE_ARGS,
                                EC_ARG_LIGHT_TRAILS,
                                EC_ARG_LAMP_PARTS,
                                EC_ARG_EMISSION,
+                               EC_ARG_GUIDE,
                                EC_ARG_LIGHT_GROUPS};
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
                                  EC_ARG_NORMALS, EC_ARG_TANGENTS};
@@ -43,7 +44,8 @@ static const ec_arg emit[] = {EC_ARG_PARAMS,   EC_ARG_SEED,        EC_ARG_FIRST_
                               EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_TABLE, EC_ARG_EMISSION};
 static const ec_arg shade_light[] = {WAVE_ARGS, EC_ARG_INVALID, EC_ARG_PATHS, EC_ARG_HITS, EC_ARG_NEXT, EC_ARG_SHADOWS, EC_ARG_LIGHT_SLOTS,
                                      EC_ARG_PIXEL_FILTER, EC_ARG_CAMERA_KEYS, SURFACE_ARGS, EC_ARG_MOTION, EC_ARG_TIMES, EC_ARG_LIGHT_TABLE,
-                                     EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_TABLE, EC_ARG_LIGHT_TREE, EC_ARG_LAMP_PARTS, EC_ARG_EMISSION};
+                                     EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_TABLE, EC_ARG_LIGHT_TREE, EC_ARG_LAMP_PARTS, EC_ARG_EMISSION,
+                                     EC_ARG_PHOTONS, EC_ARG_PATH_COUNT, EC_ARG_GUIDE};
 static const ec_arg splat[] = {EC_ARG_PARAMS, EC_ARG_SEED, EC_ARG_FIRST_PIXEL, EC_ARG_BOUNCE, EC_ARG_PATH_COUNT, EC_ARG_RADIANCE,
                                EC_ARG_LIGHT_SLOTS, EC_ARG_SPLATS};
 static const ec_arg raster_setup[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_PRIMS, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS};
@@ -70,10 +72,10 @@ static const ec_arg slot_layers[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_P
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
 #define SHADING_FEATURES                                                                           \
     (EC_FEATURE_ALL & ~(EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | \
-                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | CAMERA_FEATURES))
+                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURES_FROM_LIGHTS | CAMERA_FEATURES))
 #define PATH_FEATURES                                                                              \
     (SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | \
-     EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS)
+     EC_FEATURE_MOTION | EC_FEATURES_FROM_LIGHTS)
 #define LIGHT_PATH_FEATURES (PATH_FEATURES | CAMERA_FEATURES)
 /* Shadow rays look at surfaces where there are panes, else at no more than alpha: see ec_stage_features. */
 #define SHADOW_FEATURES ((SHADING_FEATURES & ~EC_FEATURE_AREA_LIGHTS) | EC_FEATURE_PANES)
@@ -88,9 +90,9 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
                   ARGS(shade)},
     [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, 0,
                     EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_CULLING | SHADOW_FEATURES, ARGS(connect)},
-    [EC_EMIT] = {"emit", "start light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURE_LIGHT_PATHS,
+    [EC_EMIT] = {"emit", "start light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURES_FROM_LIGHTS,
                  LIGHT_PATH_FEATURES & ~(EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LENS), ARGS(emit)},
-    [EC_SHADE_LIGHT] = {"shade_light", "shade light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURE_LIGHT_PATHS,
+    [EC_SHADE_LIGHT] = {"shade_light", "shade light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURES_FROM_LIGHTS,
                         LIGHT_PATH_FEATURES | EC_FEATURE_CULLING, ARGS(shade_light)},
     [EC_SPLAT] = {"splat", "add light paths' light to pixels", EC_OF(PATH), 1, EC_FEATURE_LIGHT_PATHS, 0, ARGS(splat)},
     [EC_RASTER_SETUP] = {"raster_setup", "set up triangles", EC_OF(RASTER), 1, 0, 0, ARGS(raster_setup)},

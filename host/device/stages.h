@@ -66,6 +66,8 @@ typedef enum ec_arg {
     EC_ARG_LIGHT_GROUPS, /* of the environment, of each light, of each material; NULL: none */
     EC_ARG_LIGHT_SLOTS, /* what light paths are of, by slot */
     EC_ARG_SPLATS,
+    EC_ARG_GUIDE,      /* which way light comes from; NULL: nobody asked */
+    EC_ARG_PHOTONS,    /* what light paths meet, while the guide is made; else NULL */
     EC_ARG_ENVIRONMENT_TEXELS,
     EC_ARG_ENVIRONMENT_TABLE,
     EC_ARG_COUNT

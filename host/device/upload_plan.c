@@ -32,7 +32,7 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
          {"environment table", EC_FEATURE_ENVIRONMENT_MAP, (texels + map_rows) * sizeof *pack->environment_table}},
         {EC_ARG_LIGHT_TREE, pack->light_tree, 0, {"light tree", EC_FEATURE_LIGHT_TREE, pack->light_node_count * sizeof *pack->light_tree}},
         {EC_ARG_LAMP_PARTS, pack->lamp_nodes, 0, {"parts of lamps", EC_FEATURE_LAMP_PARTS, pack->lamp_node_count * sizeof *pack->lamp_nodes}},
-        {EC_ARG_EMISSION, pack->emission, 0, {"lights of light paths", EC_FEATURE_LIGHT_PATHS, pack->emission_words * sizeof *pack->emission}},
+        {EC_ARG_EMISSION, pack->emission, 0, {"lights of light paths", EC_FEATURES_FROM_LIGHTS, pack->emission_words * sizeof *pack->emission}},
         {EC_ARG_LIGHT_TRAILS, pack->light_of_prim, 0,
          {"trails of lamps", EC_FEATURE_LIGHT_TREE, pack->light_node_count ? (uint64_t)pack->prim_count * sizeof *pack->light_of_prim : 0}},
     };

@@ -216,6 +216,9 @@ const ec_option ec_render_rows[] = {
      .help = "trace N paths from the lights for each path from the camera, towards what bends or mirrors light sharply, and weigh what both find: caustics "
              "converge many times sooner. Only with --sample mis, and without --adaptive and --clamp",
      .otherwise = "0"},
+    {.name = "guiding", EC_STORED(FLAG, options.guiding), .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,
+     .help = "learn from paths from the lights where light comes from, where something bends or mirrors it sharply, and sample directions by it too (path "
+             "guiding): caustics, also those seen in mirrors and through glass, converge sooner. Only with --sample mis"},
     {.name = "rr", .metavar = "P", .set = ec_set_rr, .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
      .help = "Russian roulette: a survival probability at every surface, as in 0.8; auto, by throughput from the fifth segment on; or off, which requires "
              "--max-depth N",

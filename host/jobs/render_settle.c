@@ -78,6 +78,8 @@ static ec_result check_combinations(const ec_option *options, int count, const b
         return ec_usage(err, "--light-paths and --sample %s: light paths are weighed against both other ways; leave one out", ec_sample_names[asked->sample]);
     if (asked->light_paths > 0 && asked->clamp > 0)
         return ec_usage(err, "--light-paths and --clamp: light paths bring the light that a clamp would take; leave one out");
+    if (asked->guiding && asked->sample != EC_SAMPLE_MIS)
+        return ec_usage(err, "--guiding and --sample %s: guided directions are weighed against light sampling; leave one out", ec_sample_names[asked->sample]);
     if (asked->survival == 1 && asked->max_depth == 0)
         return ec_usage(err, "--rr off belongs with a finite --max-depth: nothing else would end a path; give --max-depth N too");
     return EC_OK;

@@ -13,6 +13,7 @@
 #define PI 3.14159265358979323846
 #define SHARP_ROUGHNESS 0.4 /* wider lobes are met by camera paths often enough */
 #define LEAST_SHARE 0.02    /* of the light paths, for each caster and light */
+#define SCENE_SHARE 0.2f    /* of light paths, to the scene as a whole where that is asked for */
 #define WORTH_SPLITTING 0.7 /* two spheres for one, where they are so much smaller together */
 
 /* Does it bend light, or mirror most of it, within a narrow lobe? Panes bend none. */
@@ -22,6 +23,13 @@ static bool casts(const ec_scene *scene, const ec_material *m)
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
     if (m->unlit || m->roughness * least > SHARP_ROUGHNESS) return false;
     return (ec_refracts(m) && m->transmission > 0.1f) || m->metallic > 0.5f;
+}
+
+bool ec_scene_casts(const ec_scene *scene)
+{
+    for (uint32_t t = 0; t < scene->triangle_count; t++)
+        if (casts(scene, &scene->materials[scene->triangle_material[t]])) return true;
+    return false;
 }
 
 typedef struct box {
@@ -126,11 +134,11 @@ static bool split(box *list, const cluster *c, cluster *a, cluster *b)
 }
 
 /* Largest first, as long as there is room for one more. */
-static uint32_t make_clusters(boxes *all, cluster clusters[EC_CASTERS_MOST])
+static uint32_t make_clusters(boxes *all, uint32_t most, cluster *clusters)
 {
     uint32_t count = 0;
     if (all->count) clusters[count++] = (cluster){.end = all->count, .sphere = sphere_about(all->list, 0, all->count)};
-    while (count && count < EC_CASTERS_MOST) {
+    while (count && count < most) {
         uint32_t largest = count;
         for (uint32_t i = 0; i < count; i++)
             if (!clusters[i].is_whole && (largest == count || clusters[i].sphere.radius > clusters[largest].sphere.radius)) largest = i;
@@ -175,14 +183,14 @@ static ec_result fill_emission(ec_pack *pack, double *weights, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_pack_casters(ec_pack *pack, ec_error *err)
+ec_result ec_pack_casters(ec_pack *pack, bool with_scene, ec_error *err)
 {
     const uint32_t n = pack->light_count;
     boxes all = {.count = 0};
     cluster clusters[EC_CASTERS_MOST];
     if (!n) return EC_OK;
     ec_result result = find_boxes(&pack->plain.scene, &all, err);
-    const uint32_t count = result == EC_OK ? make_clusters(&all, clusters) : 0;
+    uint32_t count = result == EC_OK ? make_clusters(&all, EC_CASTERS_MOST - with_scene, clusters) : 0;
     free(all.list);
     EC_TRY(result);
     EC_FREED double *weights = calloc(n, sizeof *weights);
@@ -207,8 +215,9 @@ ec_result ec_pack_casters(ec_pack *pack, ec_error *err)
         pack->casters[j].share = (float)(clusters[j].sphere.share / sum + LEAST_SHARE);
         shares += pack->casters[j].share;
     }
-    for (uint32_t j = 0; j < count; j++) pack->casters[j].share = (float)(pack->casters[j].share / shares);
-    const ec_caster scene = {.radius = pack->scene_radius};
+    const ec_caster scene = {.radius = pack->scene_radius, .share = with_scene ? SCENE_SHARE : 0};
+    for (uint32_t j = 0; j < count; j++) pack->casters[j].share *= (float)((1 - scene.share) / shares);
+    if (with_scene) pack->casters[count++] = scene;
     for (uint32_t i = 0; i < n; i++)
         emitted += ec_light_is_far(&pack->lights[i]) ? flux(pack, &pack->lights[i], power, &scene) : power * pack->lights[i].pmf;
     pack->caster_count = count;

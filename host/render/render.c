@@ -133,7 +133,7 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     ec_render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.replicates = ec_render_replicates(options);
-    r.feature_batches = options->denoise || options->hides_environment ? EC_FEATURE_STRIDES * r.replicates : r.replicates;
+    r.feature_batches = options->hides_environment ? UINT32_MAX /* of alpha as of colour */ : options->denoise ? EC_FEATURE_STRIDES * r.replicates : r.replicates;
     r.goal.pixels = (double)options->width * options->height;
     r.goal.replicates = r.replicates;
     choose_end(&r);

@@ -77,7 +77,7 @@ static void add_cost(cJSON *root, const ec_render_report *report)
     const ec_render_stats *stats = report->stats;
     EC_JSON(root, EC_REAL("seconds", stats->seconds), EC_REAL("cpu_seconds", stats->cpu_seconds), EC_REAL("load_seconds", report->load_seconds),
             EC_REAL("accel_seconds", stats->accel_seconds), EC_REAL("pack_seconds", stats->pack_seconds),
-            EC_REAL("kernel_seconds", stats->kernel_seconds), EC_REAL("first_pixel_seconds", stats->first_pixel_seconds),
+            EC_REAL("kernel_seconds", stats->kernel_seconds), EC_REAL("guide_seconds", stats->guide_seconds), EC_REAL("first_pixel_seconds", stats->first_pixel_seconds),
             EC_STRING("first_kernels", ec_begun_names[stats->begun]),
             EC_REAL("fast_kernels_after_seconds", stats->fast_after_seconds > 0 ? stats->fast_after_seconds : NAN),
             EC_REAL("write_seconds", report->write_seconds), EC_REAL("total_seconds", report->total_seconds),

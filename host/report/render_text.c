@@ -94,13 +94,14 @@ static void print_effects(const ec_render_effects *effects, FILE *to)
 /* Set-up before the first ray. Some drivers keep kernels of earlier runs themselves, for others eclat does and counts them. */
 static void print_setup(const ec_render_stats *stats, FILE *to)
 {
-    char counted[64] = "", then[64] = "";
+    char counted[64] = "", then[64] = "", guide[64] = "";
     if (stats->cache_misses || stats->cache_hits)
         snprintf(counted, sizeof counted, " (%u compiled, %u from the cache)", stats->cache_misses, stats->cache_hits);
     if (stats->fast_after_seconds > 0) snprintf(then, sizeof then, ", fast kernels after %s", ec_seconds(stats->fast_after_seconds).text);
-    fprintf(to, "set-up   %s%skernels %s%s, acceleration structure %s, buffers %s; first pixel after %s%s\n",
+    if (stats->guide_seconds > 0) snprintf(guide, sizeof guide, ", guide %s", ec_seconds(stats->guide_seconds).text);
+    fprintf(to, "set-up   %s%skernels %s%s, acceleration structure %s, buffers %s%s; first pixel after %s%s\n",
             stats->begun == EC_BEGUN_FAST ? "" : ec_begun_names[stats->begun], stats->begun == EC_BEGUN_FAST ? "" : " ", ec_seconds(stats->kernel_seconds).text,
-            counted, ec_seconds(stats->accel_seconds).text, ec_seconds(stats->pack_seconds).text, ec_seconds(stats->first_pixel_seconds).text, then);
+            counted, ec_seconds(stats->accel_seconds).text, ec_seconds(stats->pack_seconds).text, guide, ec_seconds(stats->first_pixel_seconds).text, then);
 }
 
 static const char *stop_in_words(const char *stopped_by)

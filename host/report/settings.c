@@ -15,6 +15,7 @@
 
 GET(background, TEXT(o->hides_environment ? "hidden" : "env"), .is_unsaid = !o->hides_environment)
 GET(adaptive, .field = EC_FLAG(NULL, o->adaptive))
+GET(guiding, .field = EC_FLAG(NULL, o->guiding), .is_unsaid = !o->guiding)
 GET(denoise, TEXT(ec_denoiser_names[o->denoise]), .is_unsaid = !o->denoise)
 GET(filter_width, REAL(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH), .is_unsaid = !(o->filter_width > 0))
 GET(fstop, REAL(o->fstop), .is_unsaid = !(o->fstop > 0))
@@ -84,6 +85,7 @@ const ec_setting ec_settings[] = {
     {"rr", "rr", "eclat.rr", EC_IDENTITY_BY_VALUE, get_rr},
     {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reports: with what it took, report/error_text.h */
     {"light-paths", "light_paths", "eclat.lightPaths", EC_IDENTITY_BY_VALUE, get_light_paths},
+    {"guiding", "guiding", "eclat.guiding", EC_IDENTITY_BY_VALUE, get_guiding},
     {"terminator", "terminator", "eclat.terminator", EC_IDENTITY_BY_VALUE, get_terminator},
     {"scattering", "scattering", "eclat.scattering", EC_IDENTITY_BY_CONTENT, get_scattering},
     {"light-choice", "light_choice", "eclat.lightChoice", EC_IDENTITY_BY_CONTENT, get_light_choice},

@@ -220,7 +220,7 @@ static void read_film(reader *r, ec_state_film *film)
     int most = cJSON_GetArraySize(parts);
     film->parts = calloc((size_t)most + 1, sizeof *film->parts);
     const bool fits = film->replicates >= 1 && film->replicates <= EC_REPLICATES_MOST && (film->batch_count >= 1) == (most >= 1) &&
-                      (most >= 1 || !film->cut) && film->aov_batches <= EC_FEATURE_STRIDES * film->replicates && film->cut < EC_BATCH_MOST && (most == 1 || !film->has_counts);
+                      (most >= 1 || !film->cut) && film->aov_batches <= film->batch_count && film->cut < EC_BATCH_MOST && (most == 1 || !film->has_counts);
     r->is_wrong |= !film->parts || !fits;
     if (r->is_wrong) return;
     cJSON_ArrayForEach(item, parts) {

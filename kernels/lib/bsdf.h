@@ -78,8 +78,8 @@ EC_FN lane_f bsdf_p_spread(const bsdf *b)
 }
 
 /* A direction from (u1, u2), where u2 chooses the lobe and goes on; u_pass: does it pass, where that is for the facet to say? blind: uniform,
- * but for what a smooth surface mirrors or lets pass. */
-EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, chooser number, lane_f u_pass)
+ * but for what a smooth surface mirrors or lets pass. given: on these lanes the direction is wi, with the BSDF's density. */
+EC_FN bsdf_direction bsdf_sample_or(const bsdf *b, bool blind, lane_f u1, chooser number, lane_f u_pass, lane_i given, v3 wi)
 {
     bsdf_direction r;
     lane_i left = TRUE_MASK, by_coat = !TRUE_MASK, again = !TRUE_MASK, again_below = !TRUE_MASK;
@@ -137,6 +137,10 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, chooser n
         single_weight = v3_select(mirrored, v3_splat(b->coat.share / b->coat.p), single_weight);
         single = by_coat ? mirrored & (r.wi.z > 0.0f) : single;
     }
+    if (HAS(GUIDING)) {
+        r.wi = v3_select(given, wi, r.wi);
+        single = single & !given;
+    }
     v3 f = bsdf_eval(b, r.wi, &r.pdf);
     if (blind) r.pdf = blind_pdf * bsdf_p_spread(b);
     r.weight = v3_scale(f, 1.0f / r.pdf);
@@ -145,6 +149,10 @@ EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, chooser n
         r.pdf = single ? F(-1.0f) : r.pdf;
     }
     return r;
+}
+EC_FN bsdf_direction bsdf_sample(const bsdf *b, bool blind, lane_f u1, chooser number, lane_f u_pass)
+{
+    return bsdf_sample_or(b, blind, u1, number, u_pass, !TRUE_MASK, v3_zero());
 }
 
 #endif

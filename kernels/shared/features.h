@@ -52,6 +52,7 @@
 #define EC_FEATURE_LIGHT_TREE EC_FEATURE_BIT(43)
 #define EC_FEATURE_LAMP_PARTS EC_FEATURE_BIT(44)
 #define EC_FEATURE_LIGHT_PATHS EC_FEATURE_BIT(45)
+#define EC_FEATURE_GUIDING EC_FEATURE_BIT(46)
 #define EC_FEATURE_MOTION EC_FEATURE_BIT(49)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
 #define EC_FEATURE_PANES EC_FEATURE_BIT(52)
@@ -103,6 +104,7 @@
     X(LIGHT_TREE, "light-tree")                                                                    \
     X(LAMP_PARTS, "lamp-parts")                                                                    \
     X(LIGHT_PATHS, "light-paths")                                                                  \
+    X(GUIDING, "path-guiding")                                                                     \
     X(MOTION, "motion-blur")                                                                       \
     X(INSTANCES, "instances")                                                                      \
     X(PANES, "transparent-shadows")                                                                \
@@ -121,6 +123,8 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)
 /* What asks which body a ray is in. */
 #define EC_FEATURES_MEDIUM (EC_FEATURE_ABSORPTION | EC_FEATURE_NESTED)
+/* What sends paths from lights. */
+#define EC_FEATURES_FROM_LIGHTS (EC_FEATURE_LIGHT_PATHS | EC_FEATURE_GUIDING)
 #define EC_FEATURES_UV (EC_FEATURES_TEXTURED | EC_FEATURE_UV)
 #define EC_FEATURES_ATTRIBUTES (EC_FEATURES_UV | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
 

@@ -17,7 +17,9 @@ enum ec_path_field {
     EC_PATH_SY, EC_PATH_SZ,
     EC_PATH_PANE_FIELDS,
     EC_PATH_K = EC_PATH_PANE_FIELDS,       /* with LIGHT_PATHS only: see lib/light_path.h */
-    EC_PATH_LIGHT_FIELDS
+    EC_PATH_LIGHT_FIELDS,
+    EC_PATH_ROULETTE = EC_PATH_LIGHT_FIELDS, /* with GUIDING only: product of density over the BSDF's (lib/guide.h) */
+    EC_PATH_GUIDED_FIELDS
 };
 
 /* What a light path is of, by slot: with LIGHT_PATHS only. */

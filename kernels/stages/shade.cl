@@ -5,6 +5,7 @@
 #include "../lib/dispersion.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
+#include "../lib/guide.h"
 #include "../lib/light_path.h"
 #include "../lib/roulette.h"
 #include "../lib/shadow.h"
@@ -67,7 +68,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const float *light_table, global const uint *light_shares,
                      global const float *environment_texels, global const uint *environment_table,
                      global const float *light_tree, global const uint *light_trails, global const float *lamp_parts,
-                     global const uint *emission_table, global const uint *light_groups)
+                     global const uint *emission_table, global const float *guide_table, global const uint *light_groups)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -194,6 +195,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         v3 way = v3_sub(s.p, source);
         way2 = v3_dot(way, way);
     }
+    const bool guides = HAS(GUIDING) && guide_table;
+    guide guided;
+    if (guides) guided = guide_at(guide_table, scatters, s.p, &b);
     lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
         lane_f pdf_bsdf;
@@ -202,6 +206,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         v3 wi_local = surface_to_local(&s, l.wi);
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f share = F(0.0f);
+        lane_i scatters_there = pdf_bsdf > 0.0f;
+        if (guides) pdf_bsdf = guide_mix(&guided, pdf_bsdf, l.wi);
         if (by_light && any_lane(joins & (k != 0.0f))) {
             lane_f k_here = light_path_k(params, &s, k, way2, wo, l.wi, wo_z, wi_local.z, pdf_bsdf, lifted, !TRUE_MASK);
             share = k_here > 0.0f ? k_here * pdf_bsdf * emission_sampled(&light, &l, joins, above) : F(0.0f);
@@ -211,14 +217,23 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
         lane_u group = U(0);
         if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
-        lane_i m = l.valid & (pdf_bsdf > 0.0f) & same_side(&s, l.wi, wi_local, lifted);
+        lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted);
         shadow_push(params, shadows, counters->shadows[step], i, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
                     left_behind(&s, l.wi, lifted, prim), l.target, m, invalid + EC_STAGE_SHADE);
     }
 
     sample_pair_u(random, pair + EC_PAIR_BSDF, &r1, &r2);
-    bsdf_direction next_way = bsdf_sample(&b, params->sample == EC_SAMPLE_HEMISPHERE, to_unit(r1), chooser_make(r2), u_pass);
-    v3 wi = surface_to_world(&s, next_way.wi); /* unit to 8 u: frame and local direction are */
+    chooser number = chooser_make(r2);
+    lane_f roulette_scale = F(1.0f);
+    bsdf_direction next_way;
+    v3 wi;
+    if (guides) {
+        next_way = guide_sample_or(&guided, &s, &b, to_unit(r1), number, u_pass, &wi, &roulette_scale);
+        if (bounce) roulette_scale = min(roulette_scale * queue_load_f(paths, wave, EC_PATH_ROULETTE, i), F(EC_ROULETTE_SCALE_MOST));
+    } else {
+        next_way = bsdf_sample(&b, params->sample == EC_SAMPLE_HEMISPHERE, to_unit(r1), number, u_pass);
+        wi = surface_to_world(&s, next_way.wi); /* unit to 8 u: frame and local direction are */
+    }
     lane_i alive = scatters & (next_way.pdf != 0.0f) & same_side(&s, wi, next_way.wi, lifted);
     beta = v3_mul(beta, next_way.weight);
     lane_i finite = v3_is_finite(beta);
@@ -228,7 +243,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     alive = alive & finite & (brightest > 0.0f);
     if (roulette) {
         if (!HAS(TRANSMISSION)) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass); /* no sooner: registers are scarce above */
-        lane_f survival = roulette_survival(brightest, params->survival);
+        lane_f survival = roulette_survival(brightest * roulette_scale, params->survival);
         alive = alive & (u_survives < survival);
         beta = v3_scale(beta, 1.0f / survival);
     }
@@ -245,6 +260,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         k = light_path_k(params, &s, k, way2, wo, wi, wo_z, next_way.wi.z, next_way.pdf, lifted, straight);
         queue_push_f(next, wave, EC_PATH_K, at, k, bits);
     }
+    if (guides) queue_push_f(next, wave, EC_PATH_ROULETTE, at, roulette_scale, bits);
     if (HAS(PANES)) {
         next_way.pdf = straight ? path_pdf : next_way.pdf;
         queue_push_v3(next, wave, EC_PATH_SX, at, v3_select(straight, source, origin), bits);

@@ -7,6 +7,7 @@
 #include "../lib/bsdf.h"
 #include "../lib/dispersion.h"
 #include "../lib/film_point.h"
+#include "../lib/guide.h"
 #include "../lib/light_path.h"
 #include "../lib/roulette.h"
 #include "../lib/shadow.h"
@@ -27,7 +28,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
                            global const float *places, global const float *motion, global const float *times,
                            global const float *light_table, global const float *environment_texels,
                            global const uint *environment_table, global const float *light_tree, global const float *lamp_parts,
-                           global const uint *emission_table)
+                           global const uint *emission_table, global float *photons, uint path_count, global const float *guide_table)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -80,6 +81,21 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
     bsdf_direction way_on = bsdf_sample(&ba, false, to_unit(r1), chooser_make(r2), u_pass);
     lane_i single = way_on.pdf < 0.0f, below = way_on.wi.z < 0.0f, straight = single & below & !ba.refracts;
 
+    const bool records = HAS(GUIDING) && photons;
+    if (records && vertex && vertex <= EC_PHOTON_VERTICES) {
+        /* No camera path finds what comes from a point by way of a mirror. */
+        lane_i counts = scatters & !bsdf_is_single(&ba) & ((ratio >= 0.0f) | (ratio < -EC_RATIO_LEAST));
+        lane_u at = ((vertex - 1u) * path_count + slot) * EC_PHOTON_WORDS;
+        uint bits = mask_bits(counts);
+        scatter_f(photons, at + EC_PHOTON_X, sa.p.x, bits);
+        scatter_f(photons, at + EC_PHOTON_Y, sa.p.y, bits);
+        scatter_f(photons, at + EC_PHOTON_Z, sa.p.z, bits);
+        scatter_f(photons, at + EC_PHOTON_DX, a.x, bits);
+        scatter_f(photons, at + EC_PHOTON_DY, a.y, bits);
+        scatter_f(photons, at + EC_PHOTON_DZ, a.z, bits);
+        scatter_f(photons, at + EC_PHOTON_FLUX, luminance(beta), bits);
+    }
+
     sample_pair_u(random, pair + EC_PAIR_LIGHT, &r1, &r2);
     u1 = to_unit(r1);
     u2 = to_unit(r2);
@@ -101,7 +117,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
     }
 
     EC_LOOP
-    for (uint turn = 0; turn < 2; turn++) {
+    for (uint turn = records ? 1u : 0u; turn < 2; turn++) {
         bool joins = turn == 0;
         v3 c = joins ? film.to_camera : surface_to_world(&sa, way_on.wi);
         lane_i m = scatters & (joins ? film.seen : way_on.pdf != 0.0f);
@@ -119,6 +135,11 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
         bsdf b = bsdf_make(&s, c_local, params->multiple != 0u);
         lane_f pdf;
         v3 value = bsdf_eval(&b, a_local, &pdf);
+        lane_i scatters_so = pdf > 0.0f;
+        if (HAS(GUIDING) && guide_table) {
+            guide guided = guide_at(guide_table, m, s.p, &b);
+            pdf = guide_mix(&guided, pdf, a);
+        }
         lane_i lifted = !TRUE_MASK;
         if (HAS(TERMINATOR) && params->terminator && normals) (void)terminator_origin(&g, &h, &s, &lifted);
         lane_i misses = light_path_misses(&s, c_local.z, a_local.z, lifted);
@@ -126,7 +147,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
         lane_f turn_cosines = fabs(v3_dot(s.ng, c)) / fabs(v3_dot(s.ng, a));
         lane_f n_over_p = min(n_joined / pdf, F(EC_K_MOST));
         if (joins) {
-            m = m & good & !misses & (pdf > 0.0f);
+            m = m & good & !misses & scatters_so;
             if (HAS(CULLING)) {
                 lane_u prim_flags = as_lane_u(gather_f(prims, geometry_prim(&g, prim) * EC_PRIM_WORDS + 11u));
                 m = m & (s.front | ((prim_flags & EC_PRIM_SINGLE_SIDED) == 0u));
@@ -157,7 +178,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
         }
         v3 before = beta_c;
         beta_c = v3_mul(beta_c, factor);
-        lane_i alive = m & good & (straight | !misses) & (single | (pdf > 0.0f));
+        lane_i alive = m & good & (straight | !misses) & (single | scatters_so);
         lane_i finite = v3_is_finite(beta_c);
         uint bad = mask_bits(alive & !finite);
         if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));

@@ -16,6 +16,7 @@ CORNELL = os.path.join(SOURCE, "scenes", "cornell-box", "cornell-box.gltf")
 RING = os.path.join(SOURCE, "scenes", "ring", "ring.gltf")
 
 # Kernels compiled once serve every test of this build, and the user's own cache is left alone.
+LINE = 12 if os.path.exists("/usr/include/stb/stb_easy_font.h") else 0  # pixels of a name on a contact sheet
 ENVIRONMENT = dict(os.environ)
 ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
 ENVIRONMENT["ECLAT_COMPILE"] = "first"  # no processes that outlive a test; test_compile has its own

@@ -123,6 +123,17 @@ class Background(Case):
         for a, b in zip(read_png(self.path("env.png"))[4], read_png(self.path("alike.png"))[4]):
             self.assertLessEqual(max(abs(x - y) for x, y in zip(a, b)), 2)
 
+    def test_alpha_is_of_all_samples(self):
+        """512 a pixel: an edge's alpha is no multiple of 1/64, and what is not covered was the environment."""
+        options = ("--spp", "512")
+        self.render("env.exr", options=options)
+        self.render("clear.exr", background="transparent", options=options)
+        (seen, _), (clear, alpha) = self.pixels("env.exr"), self.pixels("clear.exr")
+        edges = [(c, e, a) for c, e, a in zip(clear, seen, alpha) if 0.05 < a < 0.95]
+        self.assertTrue(any(abs(64 * a - round(64 * a)) > 0.1 for _, _, a in edges))
+        for c, e, a in edges:
+            self.assertAlmostEqual(c[0] + (1 - a) * 0.8, e[0], delta=1e-3)
+
     def test_sixteen_bits(self):
         self.render("a.exr", "a.png", options=("--png-depth", "16", "--tonemap", "aces"))
         width, height, channels, bits, rows = read_png(self.path("a.png"))

@@ -6,7 +6,7 @@ import math
 import os
 import unittest
 
-from support import QUICK, SHARED, Case, eclat, png_size, quad_scene, read_exr, write_gltf
+from support import LINE, QUICK, SHARED, Case, eclat, png_size, quad_scene, read_exr, write_gltf
 
 SMALL = ["--spp", "4", *QUICK]
 
@@ -127,7 +127,7 @@ class Scenarios(Case):
         self.assertIn("eclat render models/quad.gltf", page.figures[0])
         self.assertIn("not rendered yet", page.figures[1])
         self.assertEqual(page.links, ["a%20%26%20%3Cb%3E.png"] * 2 + ["a%20%26%20%3Cb%3E.exr"])
-        self.assertEqual(png_size(self.path("out", "index.png")), (32, 32))
+        self.assertEqual(png_size(self.path("out", "index.png")), (32, 32 + LINE))
 
     def refuse(self, says, *options, code=2):
         self.assertIn(says, self.assert_one_error(eclat("render", *options, *SMALL, cwd=self.folder), code))

@@ -6,10 +6,9 @@ import struct
 import unittest
 import zlib
 
-from support import QUICK, Case, eclat, move_node, png_size, quad_scene, read_exr, write_gltf
+from support import LINE, QUICK, Case, eclat, move_node, png_size, quad_scene, read_exr, write_gltf
 
 SMALL = ["--size", "24x16", "--spp", "4", *QUICK]
-LINE = 12 if os.path.exists("/usr/include/stb/stb_easy_font.h") else 0  # of names on a contact sheet
 
 
 def glowing(strength):

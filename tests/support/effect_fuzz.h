@@ -330,7 +330,7 @@ static inline bool ef_same(const ec_scene *scene, ec_render_options o, uint64_t 
     o = case_with_all_effects(o);
     case_image full = case_render(scene, &o);
     bool same = case_same_bits(&special.film, &full.film);
-    const uint64_t left_out = EC_FEATURE_ALL & ~EC_FEATURE_LIGHT_PATHS & ~full.stats.effects.built; /* light paths are another way, not an effect more */
+    const uint64_t left_out = EC_FEATURE_ALL & ~(EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS) & ~full.stats.effects.built; /* what makes other pictures is no effect more */
     CHECK_MSG(!left_out, "the full build leaves out %llx", (unsigned long long)left_out);
     *mean = full.mean[0] + full.mean[1] + full.mean[2];
     case_free(&special);

@@ -1,0 +1,18 @@
+/* The table that directions are guided by, from what light paths met (kernels/shared/guide.h says how it lies). */
+#ifndef EC_DEVICE_GUIDE_H
+#define EC_DEVICE_GUIDE_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+
+/* Light that arrives at p, in the recentred frame, from d, of unit length; flux in W of luminance, > 0. */
+typedef struct ec_photon {
+    float p[3], d[3], flux, spare;
+} ec_photon;
+
+/* *words: malloc'ed; NULL where photons are too few to say anything. photons are put in another order and used up. The same
+ * photons in the same order give the same table. */
+ec_result ec_guide_build(ec_photon *photons, size_t count, float **words, size_t *word_count, ec_error *err);
+
+#endif
