@@ -1,6 +1,5 @@
 #include "jobs/denoise_choice.h"
 
-#include "denoise/denoise.h"
 #include "jobs/numbers.h"
 
 ec_result ec_parse_denoise(const char *option, const char *value, ec_denoiser *denoiser, ec_error *err)
@@ -8,15 +7,5 @@ ec_result ec_parse_denoise(const char *option, const char *value, ec_denoiser *d
     uint32_t index = EC_DENOISER_AUTO;
     if (value) EC_TRY(ec_parse_choice(option, value, ec_denoiser_names, &index, err));
     *denoiser = (ec_denoiser)index;
-    return EC_OK;
-}
-
-ec_result ec_require_denoiser(ec_denoiser asked, ec_denoiser *found, const ec_log *log, ec_error *err)
-{
-    *found = EC_DENOISER_NONE;
-    if (asked == EC_DENOISER_NONE) return EC_OK;
-    EC_TRY(ec_denoiser_find(asked, found, err));
-    if (asked == EC_DENOISER_AUTO && *found == EC_DENOISER_ATROUS)
-        ec_note(log, "Intel's Open Image Denoise is not installed ('pip install pyoidn'); --denoise filters by itself, which leaves more of the noise");
     return EC_OK;
 }
