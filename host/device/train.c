@@ -7,10 +7,10 @@
 #include "device/pipeline.h"
 #include "shared/guide.h"
 
-#define PATHS_PER_PIXEL 32
+#define PATHS_PER_PIXEL 16
 #define PATHS_LEAST (1u << 16)
-#define PATHS_MOST (1u << 20)
-#define PHOTONS_MOST (1u << 21) /* 64 MiB */
+#define PATHS_MOST (1u << 19)
+#define PHOTONS_MOST (1u << 20) /* 32 MiB */
 #define SEED 0x9e3779b9u        /* of all pictures: slices and frames of one job are guided alike */
 
 _Static_assert(sizeof(ec_photon) == 4 * EC_PHOTON_WORDS, "photons are read as kernels write them");
