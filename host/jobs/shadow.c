@@ -71,7 +71,6 @@ static ec_result prepare(const ec_scene *scene, shadow_scenes *made, ec_error *e
 {
     ec_scene *with = &made->with;
     EC_TRY(ec_scene_write_out(scene, with, err));
-    EC_TRY(ec_scene_write_out(scene, with, err));
     with->parts = NULL;
     with->part_count = 0;
     with->materials = malloc((scene->material_count + 1) * sizeof *with->materials);
@@ -126,7 +125,8 @@ ec_result ec_shadow_cast(ec_cl *cl, const ec_scene *scene, const ec_render_optio
     o.time_limit = o.error_target = o.clamp = o.light_paths = o.survival = 0;
     o.max_depth = 2; /* direct light alone: a ground by itself has no other */
     o.denoise = EC_DENOISER_NONE;
-    o.adaptive = false;
+    o.layers = (ec_layers){.count = 0};
+    o.adaptive = o.guiding = false;
     o.without = 0;
     o.followed = NULL;
     ec_result result = prepare(scene, &scenes, err);
