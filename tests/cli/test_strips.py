@@ -84,6 +84,14 @@ class Strips(Case):
         self.assert_same("whole", "strips")
 
     @full
+    def test_guiding(self):
+        """What guides directions is of the whole picture."""
+        options = ["--size", "97x450", "--spp", "9", "--guiding"]
+        self.render("whole", *options, scene=RING)
+        self.in_strips("strips", *options, scene=RING)
+        self.assert_same("whole", "strips")
+
+    @full
     def test_lanes_and_waves(self):
         options = ["--size", "128x600", "--spp", "4"]
         self.render("whole", *options, "--lanes", "4", "--wave", "9999", scene=RING)
