@@ -67,7 +67,7 @@ void ec_blend_rows(uint32_t cells, uint32_t height, uint32_t *first, uint32_t *e
     *end = most < height ? most : height;
 }
 
-/* Of (s - t) / 2. */
+/* The variance of (s - t) / 2, and its plain estimate (judge.h). */
 static double variance_of(const ec_judged *j) { return 0.25 * (j->clean_variance + j->noisy_variance); }
 static double plain_of(const ec_judged *j) { return 0.25 * (j->clean_plain + j->noisy_plain); }
 

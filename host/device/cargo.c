@@ -72,7 +72,7 @@ static ec_result add_filter(ec_cargo *cargo, const ec_render_options *o, ec_erro
     return EC_OK;
 }
 
-/* Of the environment, then of each light, then of each material. */
+/* A table of group numbers: the environment's, then each light's, then each material's. */
 static ec_result add_light_groups(ec_cargo *cargo, const ec_render_options *o, ec_error *err)
 {
     const ec_light_groups *groups = o->groups;

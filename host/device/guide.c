@@ -23,7 +23,7 @@
 
 #define LAST_UNIT 0x1.fffffep-1f
 
-/* Of each photon: how far they are spread, by the size of its box and of its square. */
+/* Each photon is counted once for each of these, moved by up to half as many sizes of its box and of its square. */
 static const float spreads[] = {1, 1, 1, 1, 1, 2, 4, 8};
 
 typedef struct table {

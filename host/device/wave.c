@@ -36,7 +36,7 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, u
         ec_pipeline_swap_queues(p, bounce);
         EC_TRY(ec_pipeline_trace(p, 0, bounce, scalars, err));
         EC_TRY(ec_pipeline_launch(p, of_light ? EC_SHADE_LIGHT : EC_SHADE, scalars, err));
-        if (p->buffers[EC_ARG_PHOTONS]) continue;
+        if (p->buffers[EC_ARG_PHOTONS]) continue; /* they teach the guide (train.c), and are joined to no camera */
         if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, bounce, scalars, err));
         if (of_light) EC_TRY(ec_pipeline_launch(p, EC_SPLAT, scalars, err));
     }

@@ -109,7 +109,7 @@ static ec_result take_picture(const ec_exr *exr, const char *path, ec_picture *p
     return EC_OK;
 }
 
-/* Of the picture's channel c, 3: luminance. */
+/* The bound above with this b, for channel c; 3 is luminance. */
 static double bound_with(const ec_mix *mix, const float *layers, double whole, int c, double b)
 {
     double sum = fabs(b) * whole;

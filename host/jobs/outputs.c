@@ -52,6 +52,13 @@ static bool kind_of(const char *path, uint32_t *kind)
 
 const ec_format *ec_output_format(const ec_output *output) { return output->kind == EC_OUTPUT_EXR ? NULL : &ec_formats[output->kind - EC_OUTPUT_PIXELS]; }
 
+bool ec_outputs_have_exr(const ec_outputs *outputs)
+{
+    bool have = false;
+    for (int i = 0; i < outputs->count; i++) have |= outputs->file[i].kind == EC_OUTPUT_EXR;
+    return have;
+}
+
 ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
 {
     uint32_t kind;

@@ -38,6 +38,7 @@ typedef struct ec_outputs {
 } ec_outputs;
 
 const ec_format *ec_output_format(const ec_output *output); /* NULL: the EXR */
+bool ec_outputs_have_exr(const ec_outputs *outputs);
 
 /* -o FILE; the kind follows the extension. EC_USAGE for other kinds, too many or the same twice. */
 ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err);

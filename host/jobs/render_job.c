@@ -25,9 +25,7 @@
 /* A slice is its sums: a PNG alone would throw them away. */
 static ec_result check_slice_output(const ec_render_request *request, ec_error *err)
 {
-    bool has_exr = !request->has_slice;
-    for (int i = 0; i < request->outputs.count; i++) has_exr |= request->outputs.file[i].kind == EC_OUTPUT_EXR;
-    return has_exr ? EC_OK : ec_usage(err, "--samples: a slice is an .exr, which eclat merge adds to others; give -o NAME.exr");
+    return !request->has_slice || ec_outputs_have_exr(&request->outputs) ? EC_OK : ec_usage(err, "--samples: a slice is an .exr, which eclat merge adds to others; give -o NAME.exr");
 }
 
 /* A file that is written on the way, by the option of that name. */

@@ -184,14 +184,15 @@ static ec_result check_scenarios(const ec_render_request *request, ec_error *err
     return EC_OK;
 }
 
+/* Without -o one is. */
+static bool writes_exr(const ec_outputs *outputs) { return outputs->count == 0 || ec_outputs_have_exr(outputs); }
+
 /* No option is without effect. */
 static ec_result settle_channels(const ec_render_request *request, ec_error *err)
 {
-    bool any_exr = request->outputs.count == 0;
     if (!request->channels) return EC_OK;
     if (request->has_slice) return ec_usage(err, "--samples and --channels: a slice holds all of them; leave --channels out");
-    for (int i = 0; i < request->outputs.count; i++) any_exr |= request->outputs.file[i].kind == EC_OUTPUT_EXR;
-    return any_exr ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
+    return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
 }
 
 /* Sums of the past, and what one rank sends another, have no layers. */
@@ -209,9 +210,7 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths know no layers; leave one out", what);
     if (any_light && o->integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--%s belongs to --integrator path; leave it out or choose that", what);
     if (o->wave > EC_LAYER_WAVE_MOST) return ec_usage(err, "--%s: --wave can be %u at most; give fewer", what, EC_LAYER_WAVE_MOST);
-    bool any_exr = request->outputs.count == 0;
-    for (int i = 0; i < request->outputs.count; i++) any_exr |= request->outputs.file[i].kind == EC_OUTPUT_EXR;
-    return any_exr ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
+    return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
 }
 
 /* An alpha wants a place, and a frame says of what job it is. */

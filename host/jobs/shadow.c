@@ -80,7 +80,8 @@ static ec_result prepare(const ec_scene *scene, shadow_scenes *made, ec_error *e
     return leave_ground(with, &made->without, err);
 }
 
-/* Of a pixel: the ratio and its standard error, by linearising it in the replicates' means (Cochran 1977, 2.11). */
+/* The ratio of a pixel's light with and without the scene; *se2: its squared standard error, linearised in the replicates' means (Cochran 1977,
+ * 2.11). */
 static double ratio_of(const double *with, const double *without, uint32_t n, double *se2)
 {
     double a = 0, b = 0, sum = 0;

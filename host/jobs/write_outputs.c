@@ -132,8 +132,7 @@ void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
 /* Those of a light group are always wanted. */
 static bool is_in(ec_channel_set set, const ec_channel_row *row)
 {
-    const ptrdiff_t place = row - ec_channel_rows;
-    return place < 0 || place >= EC_CHANNEL_ROWS || set >> place & 1;
+    return row->plane == ec_group_rows[0].plane || set >> (row - ec_channel_rows) & 1;
 }
 
 void ec_channels_choose(ec_channel_list *channels, ec_channel_set set, bool wide_errors)

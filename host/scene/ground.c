@@ -45,7 +45,7 @@ static void move_placed(ec_scene *s)
     for (uint32_t i = 0; i < s->placed_count; i++) s->placed[i].id += TRIANGLES;
 }
 
-/* Of no node of the file, which begins again behind it. */
+/* Parts tell which node triangles are of: the ground's are of none, and the file's go on behind it. */
 static void move_parts(ec_scene *s, uint32_t ground)
 {
     uint32_t k = s->part_count;

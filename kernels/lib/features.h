@@ -22,7 +22,7 @@ EC_FN void store_layer(constant ec_params *params, global float *radiance, uint 
     if (layer) scatter_add_3(layer_at(params, radiance, layer), params->wave, slot, v.x, v.y, v.z, bits);
 }
 
-/* Of the first surface, on the lanes of `found`. */
+/* Stores the layers that the first surface has, on the lanes of `found`. */
 EC_FN void store_surface_layers(constant ec_params *params, global float *radiance, lane_u slot, const hit_point *h, const surface *s, lane_i found)
 {
     uint bits = mask_bits(found);

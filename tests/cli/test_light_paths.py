@@ -1,34 +1,20 @@
 # tiers: quick, full
 """--light-paths: the picture is the one that path tracing alone converges to, sooner; its bits are the same however a job is shared out; without
 anything that bends light nothing changes."""
-import json
 import os
 import unittest
 
-from support import CORNELL, QUICK, RING, SHARED, SOURCE, Case, eclat
+from other_way import OtherWay, scene
+from support import CORNELL, QUICK, RING, SHARED, eclat
 from tiers import full
 
-LADDER = os.path.join(SOURCE, "scenes", "ladder", "ladder.gltf")
+LADDER = scene("ladder")
 JOB = [RING, "--size", "24x18", "--light-paths", "0.5", "--lanes", "4"]
 SUN = os.path.join(SHARED, "assets", "env", "polyhaven", "qwantani_afternoon_puresky_1k.hdr")
 
 
-def scene(name):
-    return os.path.join(SOURCE, "scenes", name, name + ".gltf")
-
-
-class LightPaths(Case):
-    def render(self, *job, name="a.exr"):
-        run = self.assert_ok(eclat("render", *job, "--json", "-q", "-o", self.path(name)))
-        return json.loads(run.stdout)
-
-    def assert_same_picture(self, job, samples, fewer=1.0):
-        """Path tracing alone and light paths agree within their noise: in the mean, in blocks, in pixels. error^2 is so many times smaller."""
-        without = self.render(*job, "--spp", str(samples), name="without.exr")
-        by_light = self.render(*job, "--spp", str(samples), "--light-paths", "1", "--seed", "2", name="with.exr")
-        run = self.assert_ok(eclat("compare", self.path("without.exr"), self.path("with.exr"), "--json"))
-        self.assertGreater(json.loads(run.stdout)["noise_test"]["p"], 1e-3)
-        self.assertLess(by_light["error"] ** 2 * fewer, without["error"] ** 2)
+class LightPaths(OtherWay):
+    WAY = ["--light-paths", "1"]
 
     def test_ring(self):
         """A ring's caustic, which paths from the camera seldom find."""
@@ -36,19 +22,10 @@ class LightPaths(Case):
 
     def test_bits(self):
         """Whatever order, width, structure or share."""
-        whole = self.render(*JOB, "--spp", "32")["image_sha256"]
-        for other in [["--lanes", "8"], ["--lanes", "1"], ["--wave", "4096"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]]:
-            with self.subTest(other=other):
-                self.assertEqual(self.render(*JOB, "--spp", "32", *other)["image_sha256"], whole)
+        self.assert_same_bits(JOB, [["--lanes", "8"], ["--lanes", "1"], ["--wave", "4096"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]])
 
     def test_slices_and_resume(self):
-        whole = self.render(*JOB, "--spp", "32")["image_sha256"]
-        for a, b in [(0, 16), (16, 32)]:
-            self.assert_ok(eclat("render", *JOB, "--spp", "32", "--samples", f"{a}:{b}", "-q", "-o", self.path(f"{a}.exr")))
-        merged = self.assert_ok(eclat("merge", self.path("0.exr"), self.path("16.exr"), "--json", "-o", self.path("m.exr")))
-        self.assertEqual(json.loads(merged.stdout)["image_sha256"], whole)
-        self.render(*JOB, "--spp", "16", "--checkpoint", self.path("c.exr"))
-        self.assertEqual(self.render(*JOB, "--spp", "32", "--resume", self.path("c.exr"))["image_sha256"], whole)
+        self.assert_slices_and_resume(JOB)
 
     def test_nothing_to_aim_at(self):
         """A box of diffuse walls: no light path, no other bit."""
@@ -56,19 +33,13 @@ class LightPaths(Case):
         self.assertEqual(self.render(*job)["image_sha256"], self.render(*job, "--light-paths", "1")["image_sha256"])
 
     def test_refused(self):
-        for other, word in [(["--clamp", "5"], "--clamp"), (["--adaptive"], "--adaptive"), (["--sample", "bsdf"], "--sample"),
-                            (["--integrator", "whitted"], "--integrator")]:
-            with self.subTest(other=other):
-                line = self.assert_one_error(eclat("render", RING, "--light-paths", "1", *other, "-o", self.path("a.exr")), 2)
-                self.assertIn("--light-paths", line)
-                self.assertIn(word, line)
+        self.assert_refused([(["--clamp", "5"], "--clamp"), (["--adaptive"], "--adaptive"), (["--sample", "bsdf"], "--sample"),
+                            (["--integrator", "whitted"], "--integrator")])
         self.assertIn("0 to 16", self.assert_one_error(eclat("render", RING, "--light-paths", "17", "-o", self.path("a.exr")), 2))
 
     def test_info(self):
         """Which bodies they are aimed at is an effect like any other."""
-        run = self.assert_ok(eclat("info", RING, "--light-paths", "1"))
-        self.assertRegex(run.stdout, r"light-paths +--light-paths 1, aimed at \d+ bodies")
-        self.assertNotRegex(self.assert_ok(eclat("info", RING)).stdout, r"\n *light-paths ")
+        self.assert_info(r"light-paths +--light-paths 1, aimed at \d+ bodies")
 
     @full
     def test_scenes(self):

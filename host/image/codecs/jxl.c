@@ -22,7 +22,7 @@ static const char *settle(JxlEncoder *encoder, const ec_raster *of, JxlEncoderFr
     return is_taken ? NULL : "libjxl does not take a picture like it";
 }
 
-/* What is encoded, to room that doubles. */
+/* Takes what libjxl has encoded; the room doubles until all is there. */
 static const char *drain(JxlEncoder *encoder, uint8_t **bytes, size_t *size)
 {
     size_t room = 0;
