@@ -334,6 +334,15 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     return check_memory(job, err);
 }
 
+void ec_render_job_note_choice(ec_render_job *job, const ec_render_stats *stats)
+{
+    ec_render_options *o = &job->rendered;
+    *o = job->request->options;
+    if (o->light_paths != EC_LIGHT_PATHS_AUTO) return;
+    o->light_paths = stats->light_paths;
+    o->adaptive &= !(o->light_paths > 0);
+}
+
 ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX])
 {
     const ec_render_request *request = job->request;
@@ -345,7 +354,7 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .camera = job->camera_text,
         .viewpoint = job->viewpoint,
         .environment = job->environment_text,
-        .options = &request->options,
+        .options = &job->rendered,
         .stats = &job->stats,
         .verbose = request->verbose,
         .device = job->devices,

@@ -38,6 +38,7 @@ typedef struct ec_render_job {
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
     double shadow_error;         /* with a ground that catches shadows: of its alpha (shadow.h); NaN: not known */
     ec_render_stats stats;
+    ec_render_options rendered;  /* the request's, with what was left open: ec_render_job_note_choice */
     double load_seconds;         /* until devices and scene were there */
     char camera_text[256];
     ec_viewpoint viewpoint;
@@ -91,6 +92,8 @@ ec_result ec_render_job_tell(const ec_render_job *job, const ec_render_report *r
 
 /* All of a prepared job: runs and delivers it. Where the device fails, the picture so far is written, and the job fails all the same. */
 ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err);
+/* What was left open and the render has chosen, for reports. */
+void ec_render_job_note_choice(ec_render_job *job, const ec_render_stats *stats);
 /* A report of the job so far; outputs: room for the paths. Texts are the job's. */
 ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
 

@@ -211,11 +211,12 @@ const ec_option ec_render_rows[] = {
      .otherwise = "auto"},
     {.name = "max-depth", .metavar = "N", .set = ec_set_max_depth, .group = EC_GROUP_TRANSPORT, .integrators = TRACERS,
      .help = "maximum number of segments in a path: 1 shows emission alone, 2 adds direct light; or inf", .otherwise = "inf, ended by roulette; whitted: 10, at most 64"},
-    {.name = "light-paths", .metavar = "N", EC_RANGED(REAL, options.light_paths, 0, EC_LIGHT_PATHS_MOST), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
+    {.name = "light-paths", .metavar = "N", .set = ec_set_light_paths, .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
      .uses = EC_OPTION_INFO,
      .help = "trace N paths from the lights for each path from the camera, towards what bends or mirrors light sharply, and weigh what both find: caustics "
-             "converge many times sooner. Only with --sample mis, and without --adaptive and --clamp",
-     .otherwise = "0"},
+             "converge many times sooner; auto traces 1/16 where a first look foretells that caustics would be most of the noise, else none. Only with "
+             "--sample mis, and without --adaptive and --clamp",
+     .otherwise = "auto"},
     {.name = "guiding", EC_STORED(FLAG, options.guiding), .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,
      .help = "learn from paths from the lights where light comes from, where something bends or mirrors it sharply, and sample directions by it too (path "
              "guiding): caustics, also those seen in mirrors and through glass, converge sooner. Only with --sample mis"},

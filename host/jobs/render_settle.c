@@ -128,10 +128,19 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
     ec_render_options *o = &request->options;
     if (o->light_paths > 0 && request->adaptive == EC_ADAPTIVE_ON)
         return ec_usage(err, "--light-paths and --adaptive: light paths fall where they will, not on the pixels that are due; leave one out");
-    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && o->light_paths == 0);
+    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && !(o->light_paths > 0));
     if (o->adaptive && ec_render_replicates(o) < 2)
         return ec_usage(err, "--adaptive and --replicates 1: a single replicate does not tell where noise is; give 2 or more");
     return EC_OK;
+}
+
+/* None where light paths cannot be had. */
+static void settle_light_paths(ec_render_request *request)
+{
+    ec_render_options *o = &request->options;
+    const bool can = o->integrator == EC_INTEGRATOR_PATH && o->sample == EC_SAMPLE_MIS && !(o->clamp > 0) && !o->layers.kinds && !request->light_groups &&
+                     request->adaptive != EC_ADAPTIVE_ON;
+    if (o->light_paths == EC_LIGHT_PATHS_AUTO && !can) o->light_paths = 0;
 }
 
 /* A shadow is a part of the alpha, of the whole picture. */
@@ -248,6 +257,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(settle_layers(request, err));
     EC_TRY(settle_files(request, err));
     EC_TRY(settle_adaptive(request, err));
+    settle_light_paths(request);
     EC_TRY(settle_denoise(request, err));
     EC_TRY(check_ground(request, err));
     request->capped = limits->spp == 0 && ec_render_has_limit(limits);

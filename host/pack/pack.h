@@ -117,7 +117,8 @@ bool ec_pack_wants_light_tree(const ec_pack *pack);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 
-/* Does anything bend light, or mirror most of it, within a narrow lobe? */
+/* Does a material, or anything, bend light, or mirror most of it, within a narrow lobe? */
+bool ec_material_casts(const ec_scene *scene, const ec_material *material);
 bool ec_scene_casts(const ec_scene *scene);
 /* Finds casters, and which lights shine on them; before there is a light tree. with_scene: a sphere about the scene is one too, if there are
  * others. */

@@ -112,7 +112,7 @@ class Arrays(Case):
     def test_no_bound_has_a_reason(self):
         """A lamp that samples hardly meet: the scene's own README."""
         path = os.path.join(os.path.dirname(os.path.dirname(CORNELL)), "pinlamp", "pinlamp.gltf")
-        picture = eclat.load(path).render(spp=32, size=(16, 12))
+        picture = eclat.load(path).render(spp=32, size=(16, 12), light_paths=0)
         self.assertIsNone(picture.bound)
         self.assertTrue(picture.why)
         self.assertEqual(picture.caption, f"error at least {100 * picture.error:.3g} %, no bound: {picture.why}, 32 samples a pixel")
