@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/luminance.h"
 #include "film/layers.h"
+#include "film/matte.h"
 #include "film/parts.h"
 #include "film/rare.h"
 #include "film/tail.h"
@@ -49,6 +50,7 @@ typedef struct ec_film {
     ec_film_clean clean;          /* owned; of the samples that there were when it was made */
     ec_layers layers;             /* that the picture has beside its radiance … */
     struct ec_film *layer_films;  /* … and a film of each (film/layer_films.h); NULL: none. Owned */
+    ec_matte matte;               /* what its samples meet, where layers has mattes; else zeros. Owned */
     ec_rare *rare;                /* light that hardly any sample meets; NULL: there is none, or nobody has looked. Owned */
 } ec_film;
 

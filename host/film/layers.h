@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "base/matte_kinds.h"
 #include "shared/params.h"
 
 enum { EC_LAYER_BYTES = 12 /* of a pixel in a batch */, EC_LAYER_WAVE_MOST = 1 << 26 /* so that 32 bits number all floats of a wave */ };
@@ -14,6 +15,8 @@ typedef struct ec_layers {
     uint32_t kinds;       /* a bit for each ec_layer_kind */
     uint32_t group_count;
     char groups[EC_GROUPS_MOST][EC_GROUP_NAME];
+    uint32_t mattes;      /* a bit for each ec_matte_kind: not counted, and no films of their own (matte.h) */
+    const uint32_t *matte_hashes[EC_MATTE_KINDS]; /* of those, by number plus 1 of a node or a material; somebody else's */
 } ec_layers;
 
 /* Its place among them, from 1 on; 0: it is not there. */

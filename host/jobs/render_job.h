@@ -22,6 +22,7 @@ typedef struct ec_render_job {
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
     ec_light_groups groups;      /* of the scene. Owned */
+    ec_matte_names mattes;       /* likewise */
     ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
     ec_peers peers;            /* the same as the render has them */
     ec_frame_share *share;       /* NULL: it is the only picture of its job */

@@ -201,9 +201,10 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     ec_render_options *o = &request->options;
     const uint32_t of_light = 1u << EC_LAYER_DIRECT | 1u << EC_LAYER_INDIRECT;
     o->layers.kinds = ec_channels_layers(request->channels);
+    o->layers.mattes = ec_channels_mattes(request->channels);
     const bool any_light = request->light_groups || (o->layers.kinds & of_light);
-    const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : "channels position or uv";
-    if (!any_light && !o->layers.kinds) return EC_OK;
+    const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : o->layers.kinds ? "channels position or uv" : "channels cryptomatte";
+    if (!any_light && !o->layers.kinds && !o->layers.mattes) return EC_OK;
     const char *other = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
     if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", what, other);
     if (o->clamp > 0) return ec_usage(err, "--%s and --clamp: a clamp takes light from the sum, and no layer says which; leave one out", what);
@@ -264,6 +265,7 @@ const char *ec_render_whole_for(const ec_render_request *r)
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
     if (r->ground == EC_GROUND_SHADOW) return "--ground=shadow"; /* two more pictures */
+    if (ec_channels_mattes(r->channels)) return "--channels cryptomatte"; /* what each pixel has met waits for the last sample */
     if (r->exposure.is_auto) return "--exposure auto"; /* by all pixels */
     if (r->checkpoint) return "--checkpoint";
     if (r->snapshot) return "--snapshot";

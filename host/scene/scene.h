@@ -167,9 +167,10 @@ typedef struct ec_scene {
     uint32_t shape_count, placed_count;
     ec_shape *shapes;
     ec_placed *placed;            /* in the order of their ids, the first of which is shapes[0].first */
-    uint32_t part_count;          /* 0 where what moves has been sorted out: nobody knows any more */
+    uint32_t part_count;
     ec_part *parts;               /* by id, placed triangles included */
-    char **node_names;            /* node_count; each may be NULL; all owned */
+    char **node_names;            /* node_count: of it, or of its mesh; each may be NULL; all owned */
+    uint32_t *node_roots;         /* of each node the one that it hangs below in the end, or itself; owned */
     ec_motion motion;
     bool whole;                   /* no structure may cut triangles, so that all have the same bits with and without instances, and built anew or refitted */
     uint32_t material_count;

@@ -76,8 +76,9 @@ typedef struct ec_params {
     ec_uint layer_count;
     ec_uint layer_of[EC_LAYER_KINDS];
     ec_uint layer_groups;         /* the first light group's; the others follow */
+    ec_uint layer_ids;            /* behind them: which node and material a sample meets (lib/features.h) */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 540);
+EC_ASSERT_SIZE(ec_params, 544);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u
