@@ -37,7 +37,8 @@ static const ec_arg shade[] = {WAVE_ARGS,
                                EC_ARG_EMISSION,
                                EC_ARG_GUIDE,
                                EC_ARG_LIGHT_GROUPS,
-                               EC_ARG_PARTS};
+                               EC_ARG_PARTS,
+                               EC_ARG_CAMERA_KEYS};
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
                                  EC_ARG_NORMALS, EC_ARG_TANGENTS};
 static const ec_arg emit[] = {EC_ARG_PARAMS,   EC_ARG_SEED,        EC_ARG_FIRST_PIXEL, EC_ARG_PATH_COUNT, EC_ARG_COUNTERS,    EC_ARG_INVALID,

@@ -41,7 +41,7 @@ typedef struct ec_channel_row {
 static inline bool ec_channel_is_matte(const ec_channel_row *row) { return row->plane >= EC_PLANE_MATTE && row->plane <= EC_PLANE_MATTE_END; }
 static inline uint32_t ec_channel_count(const ec_channel_row *row) { return ec_channel_is_matte(row) ? 2 * EC_MATTE_RANKS : 1; }
 
-enum { EC_CHANNEL_ROWS = 54 };
+enum { EC_CHANNEL_ROWS = 56 };
 extern const ec_channel_row ec_channel_rows[EC_CHANNEL_ROWS];
 
 /* Those of a light group, after "light.NAME.". */

@@ -49,7 +49,7 @@ const ec_option ec_render_rows[] = {
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
     {.name = "channels", .metavar = "LIST", .set = ec_set_channels, .group = EC_GROUP_PICTURE,
      .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
-             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, cryptomatte (or of it CryptoObject, CryptoMaterial, CryptoAsset), or one of a layer as in stderr.Y. Slices hold all; "
+             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, motion, cryptomatte (or of it CryptoObject, CryptoMaterial, CryptoAsset), or one of a layer as in stderr.Y. Slices hold all; "
              "the last four have to be named",
      .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
     {.name = "light-groups", .metavar = "LIST", EC_STORED(TEXT, light_groups), .group = EC_GROUP_PICTURE, .integrators = PATHS,

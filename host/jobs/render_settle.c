@@ -203,13 +203,15 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     o->layers.kinds = ec_channels_layers(request->channels);
     o->layers.mattes = ec_channels_mattes(request->channels);
     const bool any_light = request->light_groups || (o->layers.kinds & of_light);
-    const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : o->layers.kinds ? "channels position or uv" : "channels cryptomatte";
+    const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : o->layers.kinds ? "channels position, uv or motion" : "channels cryptomatte";
     if (!any_light && !o->layers.kinds && !o->layers.mattes) return EC_OK;
     const char *other = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
     if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", what, other);
     if (o->clamp > 0) return ec_usage(err, "--%s and --clamp: a clamp takes light from the sum, and no layer says which; leave one out", what);
     if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths know no layers; leave one out", what);
     if (any_light && o->integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--%s belongs to --integrator path; leave it out or choose that", what);
+    if (o->layers.kinds >> EC_LAYER_MOTION & 1 && !request->choice.shutter)
+        return ec_usage(err, "--channels motion tells how far things go while the shutter is open; give --shutter A:B too");
     if (o->wave > EC_LAYER_WAVE_MOST) return ec_usage(err, "--%s: --wave can be %u at most; give fewer", what, EC_LAYER_WAVE_MOST);
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
 }

@@ -17,11 +17,6 @@ EC_FN void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, 
     scatter_f(aov + 7 * wave, slot, alpha, bits);
 }
 
-EC_FN void store_layer(constant ec_params *params, global float *radiance, uint layer, lane_u slot, v3 v, uint bits)
-{
-    if (layer) scatter_add_3(layer_at(params, radiance, layer), params->wave, slot, v.x, v.y, v.z, bits);
-}
-
 /* The number of the node that a triangle is of, and 1; 0: of none. parts: how many they are, the step that looking begins with, the first triangle
  * of each, the node of each. */
 EC_FN lane_u part_node(global const uint *parts, lane_u prim)
