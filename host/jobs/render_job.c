@@ -321,6 +321,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const double start = ec_now();
     ec_denoiser found;
+    if (job->request->ocio.config) EC_TRY(ec_ocio_open(&job->request->ocio, &job->ocio, err));
     EC_TRY(ec_require_denoiser(job->request->options.denoise, &found, &job->listener->log, err));
     if (job->share) {
         take_devices(job);
@@ -362,6 +363,8 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .has_shadow = request->ground == EC_GROUND_SHADOW,
         .shadow_error = job->shadow_error,
         .mattes = &job->mattes,
+        .view = &request->ocio,
+        .ocio = job->ocio,
         .is_png_deep = request->png_depth != 0,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),
@@ -390,5 +393,6 @@ void ec_render_job_free(ec_render_job *job)
     ec_stored_free(&job->stored);
     ec_given_free(&job->before);
     free(job->behind.rgb);
+    ec_ocio_close(job->ocio);
     free(job->whole_command);
 }

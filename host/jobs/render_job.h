@@ -37,6 +37,7 @@ typedef struct ec_render_job {
     ec_behind behind;            /* with a blurred background. Owned */
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
+    ec_ocio *ocio;               /* with --ocio. Owned */
     double shadow_error;         /* with a ground that catches shadows: of its alpha (shadow.h); NaN: not known */
     ec_render_stats stats;
     double load_seconds;         /* until devices and scene were there */

@@ -216,6 +216,16 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
 }
 
+/* Of a picture for the screen. */
+static ec_result settle_ocio(const ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err)
+{
+    const ec_option *curve = ec_options_find(options, count, "tonemap");
+    const ec_ocio_choice *o = &request->ocio;
+    const char *other = o->display ? "display" : o->view ? "view" : o->space ? "space" : NULL;
+    if (!o->config) return other ? ec_usage(err, "--ocio-%s belongs to --ocio CONFIG; give that too", other) : EC_OK;
+    return curve && given[curve - options] ? ec_usage(err, "--ocio and --tonemap: a view has a curve of its own; leave one out") : EC_OK;
+}
+
 /* An alpha wants a place, and a frame says of what job it is. */
 static ec_result settle_files(const ec_render_request *request, ec_error *err)
 {
@@ -250,6 +260,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(settle_channels(request, err));
     EC_TRY(settle_layers(request, err));
     EC_TRY(settle_files(request, err));
+    EC_TRY(settle_ocio(request, options, count, given, err));
     EC_TRY(settle_adaptive(request, err));
     EC_TRY(settle_denoise(request, err));
     EC_TRY(check_ground(request, err));

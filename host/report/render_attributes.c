@@ -45,7 +45,9 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     EC_ATTRIBUTES(attributes, EC_STRING("eclat.environment", report->environment));
     for (int i = 0; i < ec_setting_count; i++) add_option(attributes, &ec_settings[i], report->options);
     ec_attributes_made(attributes, "eclat.background", "%s", ec_background_name(&report->background).text);
-    EC_ATTRIBUTES(attributes, EC_REAL("eclat.png.exposure", report->exposure), EC_STRING("eclat.png.tonemap", ec_tonemap_names[report->tonemap]));
+    EC_ATTRIBUTES(attributes, EC_REAL("eclat.png.exposure", report->exposure));
+    if (report->ocio) ec_attributes_made(attributes, "eclat.png.ocio", "%s", report->view->config);
+    else EC_ATTRIBUTES(attributes, EC_STRING("eclat.png.tonemap", ec_tonemap_names[report->tonemap]));
 }
 
 /* "sheen; in shade; texels, 4 KB" in lines. */

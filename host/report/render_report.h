@@ -44,6 +44,8 @@ typedef struct ec_render_report {
     const ec_matte_names *mattes;   /* of the channels cryptomatte */
     bool is_png_deep;               /* 16 bits */
     ec_tonemap tonemap;
+    const ec_ocio_choice *view;     /* in its place, and … */
+    const ec_ocio *ocio;            /* … what it makes; NULL: none */
     double mean_luminance;
     uint32_t replicates;            /* that have samples; with fewer than two no error is known */
     ec_clamp_error clamp;           /* where options have one */
