@@ -190,6 +190,8 @@ typedef struct ec_scene {
     bool solid_shadows, bodies_apart;
     double center[3];             /* what was subtracted from world coordinates */
     float bounds_min[3], bounds_max[3]; /* recentred */
+    bool spans;                   /* of a frame: the box of its whole animation is known, in the world */
+    double span_min[3], span_max[3];
     /* Shown by `eclat info`. */
     uint32_t mesh_count, node_count, instance_count;
     uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */
