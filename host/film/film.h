@@ -85,7 +85,7 @@ ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err);
 /* The sums of a film that is a single part, to be owned; the film is then fit to be destroyed only. */
 ec_sums ec_film_give_sums(ec_film *film);
 
-/* Adds all parts of another film of the same size, and its first-hit features where there are none; `from` is then fit to be destroyed
+/* Adds all parts of another film of the same size and with the same layers, and its first-hit features where there are none; `from` is then fit to be destroyed
  * only. Fails where both have a batch, and then has changed nothing but for lack of memory. */
 ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err);
 

@@ -2,7 +2,9 @@
 #ifndef EC_FILM_LAYERS_H
 #define EC_FILM_LAYERS_H
 
+#include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "base/matte_kinds.h"
 #include "shared/params.h"
@@ -18,6 +20,13 @@ typedef struct ec_layers {
     uint32_t mattes;      /* a bit for each ec_matte_kind: not counted, and no films of their own (matte.h) */
     const uint32_t *matte_hashes[EC_MATTE_KINDS]; /* of those, by number plus 1 of a node or a material; somebody else's */
 } ec_layers;
+
+static inline bool ec_layers_are_same(const ec_layers *a, const ec_layers *b)
+{
+    bool same = a->kinds == b->kinds && a->group_count == b->group_count;
+    for (uint32_t g = 0; same && g < a->group_count; g++) same = !strcmp(a->groups[g], b->groups[g]);
+    return same;
+}
 
 /* Its place among them, from 1 on; 0: it is not there. */
 static inline uint32_t ec_layers_find(const ec_layers *layers, enum ec_layer_kind kind)

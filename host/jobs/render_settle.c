@@ -191,11 +191,12 @@ static bool writes_exr(const ec_outputs *outputs) { return outputs->count == 0 |
 static ec_result settle_channels(const ec_render_request *request, ec_error *err)
 {
     if (!request->channels) return EC_OK;
-    if (request->has_slice) return ec_usage(err, "--samples and --channels: a slice holds all of them; leave --channels out");
+    if (request->has_slice && request->channels & ec_channels_all() & ~ec_channels_of(EC_PLANE_RGB))
+        return ec_usage(err, "--samples and --channels: a slice holds all that pictures have; name none but layers, as direct, or leave --channels out");
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
 }
 
-/* Sums of the past, and what one rank sends another, have no layers. */
+/* What one rank sends another has no layers, nor have sums of the past what samples meet. */
 static ec_result settle_layers(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
@@ -205,8 +206,9 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     const bool any_light = request->light_groups || (o->layers.kinds & of_light);
     const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : o->layers.kinds ? "channels position, uv or motion" : "channels cryptomatte";
     if (!any_light && !o->layers.kinds && !o->layers.mattes) return EC_OK;
-    const char *other = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
-    if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", what, other);
+    const char *keeps = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : NULL;
+    const char *other = request->snapshot ? "snapshot" : o->layers.mattes ? keeps : NULL;
+    if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", o->layers.mattes ? "channels cryptomatte" : what, other);
     if (o->clamp > 0) return ec_usage(err, "--%s and --clamp: a clamp takes light from the sum, and no layer says which; leave one out", what);
     if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths know no layers; leave one out", what);
     if (any_light && o->integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--%s belongs to --integrator path; leave it out or choose that", what);

@@ -47,7 +47,8 @@ static void take_mix(eclat_picture *p)
     const uint64_t pixels = (uint64_t)m->picture.width * m->picture.height;
     ec_mix_attributes(m, &p->attributes);
     p->error = (ec_film_error){.mean_luminance = m->mean_luminance, .error = m->error, .error_bound = INFINITY};
-    for (uint64_t i = 0; i < pixels; i++) p->samples_per_pixel += (double)m->picture.constants[2 * i] / (double)pixels;
+    for (uint64_t i = 0; i < pixels; i++) p->samples_per_pixel += (double)m->picture.constants[2 * i];
+    p->samples_per_pixel /= (double)pixels;
     p->replicates = (uint32_t)m->replicates;
     snprintf(p->why, sizeof p->why, "%s", EC_MIX_WHY);
 }

@@ -23,12 +23,12 @@ static bool wants_features(const ec_render_state *r)
     return r->past.next < r->feature_batches && r->film->aov_batches == r->past.next && !r->past.allotment.weight;
 }
 
-/* Hands over what there is; of a batch that is under way too, but not of its features, nor of a pass that
+/* Hands over what there is; of a batch that is under way too, but not of its features and layers, nor of a pass that
  * is larger than the picture. A batch that is cut short cannot be gone on from: what
  * is kept ends before it. */
 static void keep(ec_render_state *r, uint32_t under_way)
 {
-    if (wants_features(r) || r->order.count > ec_render_film_pixels(r)) under_way = 0;
+    if (wants_features(r) || r->order.count > ec_render_film_pixels(r) || r->film->layers.count) under_way = 0;
     const bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way;
     if (!r->course->keep || !is_new || !(r->film->batch_count || under_way) || r->film->unsampled || r->film->cut) return;
     ec_past now = r->past;
