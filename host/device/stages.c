@@ -36,7 +36,9 @@ static const ec_arg shade[] = {WAVE_ARGS,
                                EC_ARG_LAMP_PARTS,
                                EC_ARG_EMISSION,
                                EC_ARG_GUIDE,
-                               EC_ARG_LIGHT_GROUPS};
+                               EC_ARG_LIGHT_GROUPS,
+                               EC_ARG_PARTS,
+                               EC_ARG_CAMERA_KEYS};
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
                                  EC_ARG_NORMALS, EC_ARG_TANGENTS};
 static const ec_arg emit[] = {EC_ARG_PARAMS,   EC_ARG_SEED,        EC_ARG_FIRST_PIXEL, EC_ARG_PATH_COUNT, EC_ARG_COUNTERS,    EC_ARG_INVALID,
@@ -55,9 +57,9 @@ static const ec_arg raster[] = {EC_ARG_PARAMS,     EC_ARG_SEED,      EC_ARG_FIRS
                                 EC_ARG_TILE_ENDS,  EC_ARG_TILE_LIST, FILTER_ARGS};
 static const ec_arg shade_raster[] = {EC_ARG_PARAMS,      EC_ARG_PATH_COUNT,        EC_ARG_INVALID, EC_ARG_PATHS,
                                       EC_ARG_HITS,        EC_ARG_RADIANCE,          EC_ARG_AOV,     SURFACE_ARGS,
-                                      EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS};
+                                      EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_PARTS};
 static const ec_arg whitted[] = {WAVE_ARGS,       EC_ARG_INVALID,  EC_ARG_PATHS, EC_ARG_HITS,  EC_ARG_NEXT,
-                                 EC_ARG_BRANCHES, EC_ARG_RADIANCE, EC_ARG_AOV,   SURFACE_ARGS, EC_ARG_ENVIRONMENT_TEXELS};
+                                 EC_ARG_BRANCHES, EC_ARG_RADIANCE, EC_ARG_AOV,   SURFACE_ARGS, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_PARTS};
 static const ec_arg whitted_light[] = {EC_ARG_PARAMS, EC_ARG_LIGHT, EC_ARG_STEP,    EC_ARG_COUNTERS, EC_ARG_INVALID,
                                        EC_ARG_PATHS,  EC_ARG_HITS,  EC_ARG_SHADOWS, SURFACE_ARGS,    EC_ARG_LIGHT_TABLE};
 static const ec_arg accumulate[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,

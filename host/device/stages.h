@@ -63,6 +63,7 @@ typedef enum ec_arg {
     EC_ARG_LIGHT_TRAILS,
     EC_ARG_LAMP_PARTS,
     EC_ARG_EMISSION,
+    EC_ARG_PARTS,      /* which triangles are of which node (lib/features.h); NULL: nobody asks */
     EC_ARG_LIGHT_GROUPS, /* of the environment, of each light, of each material; NULL: none */
     EC_ARG_LIGHT_SLOTS, /* what light paths are of, by slot */
     EC_ARG_SPLATS,

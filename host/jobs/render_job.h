@@ -22,6 +22,7 @@ typedef struct ec_render_job {
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
     ec_light_groups groups;      /* of the scene. Owned */
+    ec_matte_names mattes;       /* likewise */
     ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
     ec_peers peers;            /* the same as the render has them */
     ec_frame_share *share;       /* NULL: it is the only picture of its job */
@@ -36,6 +37,7 @@ typedef struct ec_render_job {
     ec_behind behind;            /* with a blurred background. Owned */
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
+    ec_ocio *ocio;               /* with --ocio. Owned */
     double shadow_error;         /* with a ground that catches shadows: of its alpha (shadow.h); NaN: not known */
     ec_render_stats stats;
     ec_render_options rendered;  /* the request's, with what was left open: ec_render_job_note_choice */

@@ -49,7 +49,7 @@ const ec_option ec_render_rows[] = {
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
     {.name = "channels", .metavar = "LIST", .set = ec_set_channels, .group = EC_GROUP_PICTURE,
      .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
-             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, or one of a layer as in stderr.Y. Slices hold all; "
+             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, motion, cryptomatte (or of it CryptoObject, CryptoMaterial, CryptoAsset), or one of a layer as in stderr.Y. Slices hold all; "
              "the last four have to be named",
      .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
     {.name = "light-groups", .metavar = "LIST", EC_STORED(TEXT, light_groups), .group = EC_GROUP_PICTURE, .integrators = PATHS,
@@ -113,6 +113,15 @@ const ec_option ec_render_rows[] = {
      .help = "write FILE: an .exr (linear, with errors: --channels), a .png, .jpg, .avif or .jxl for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
              "scene's base name, {folder} for its folder's: several scenes need one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
+    {.name = "ocio", .metavar = "CONFIG", EC_STORED(TEXT, ocio.config), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_NO_IDENTITY,
+     .help = "show pictures for the screen by a view of this OpenColorIO config, a file or a built-in one as ocio://default, in place of --tonemap; where "
+             "eclat was built with OpenColorIO"},
+    {.name = "ocio-display", .metavar = "NAME", EC_STORED(TEXT, ocio.display), .group = EC_GROUP_PICTURE,
+     .help = "display of that config", .otherwise = "the first"},
+    {.name = "ocio-space", .metavar = "NAME", EC_STORED(TEXT, ocio.space), .group = EC_GROUP_PICTURE,
+     .help = "the config's colour space of linear Rec. 709, in which pictures are", .otherwise = "found by the names that configs have for it"},
+    {.name = "ocio-view", .metavar = "NAME", EC_STORED(TEXT, ocio.view), .group = EC_GROUP_PICTURE,
+     .help = "view of that display", .otherwise = "the display's first"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
     {.name = "png-depth", .metavar = "BITS", EC_CHOSEN(png_depth, ec_png_depths), .group = EC_GROUP_PICTURE,

@@ -183,10 +183,12 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     *stats = (ec_render_stats){.strips = 1};
     EC_TRY(check_ends(options, err));
     EC_TRY(note_unneeded(scene, options->without, log, err));
-    ec_render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
+    ec_render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now(),
+                         .matte_lock = PTHREAD_MUTEX_INITIALIZER};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.replicates = ec_render_replicates(options);
     r.feature_batches = options->hides_environment ? UINT32_MAX /* of alpha as of colour */ : options->denoise ? EC_FEATURE_STRIDES * r.replicates : r.replicates;
+    r.matte.lock = &r.matte_lock;
     r.goal.pixels = (double)options->width * options->height;
     r.goal.replicates = r.replicates;
     choose_end(&r);
@@ -205,6 +207,8 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     free(r.aov);
     free(r.layers);
     free(r.layer);
+    free(r.matte.entries);
+    pthread_mutex_destroy(&r.matte_lock);
     ec_rare_lights_free(&r.lights);
     ec_sources_close(&r.sources, stats);
     return result;

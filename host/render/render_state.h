@@ -44,6 +44,8 @@ typedef struct ec_render_state {
     uint32_t kept_next, kept_under_way;
     float *aov;                /* first-hit features of a batch, until it is in the film */
     float *layers, *layer;     /* layers of a batch, until they are in the film; one of them as a batch */
+    ec_matte_log matte;        /* what the samples of a batch meet, until it is in the film */
+    pthread_mutex_t matte_lock;
     float limit;               /* ec_params.limit; 0: none, or not known yet */
     uint64_t cleaned_samples;  /* in the film when its clean picture was looked at last; 0: it was not */
     uint32_t feature_batches;  /* that have first-hit features */

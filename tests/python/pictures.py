@@ -162,6 +162,21 @@ class Files(Case):
         with self.assertWarnsRegex(eclat.Warning, "missing"):
             self.assertEqual(eclat.merge([self.folder / "a.exr"], partial=True).samples, 8)
 
+    def test_layers_are_weighed_anew(self):
+        """Without indirect light there is the direct one; with gains of 1 the picture; a mix can be mixed, and its errors are upper bounds."""
+        picture = eclat.load(CORNELL).render(**SMALL, channels="default,direct,indirect")
+        direct = eclat.mix(picture, {"indirect": 0})
+        np.testing.assert_array_equal(direct.radiance, picture.layer("direct"))
+        self.assertEqual((direct.bound, direct.samples), (None, 16))
+        self.assertIn("upper bounds", direct.why)
+        direct.save(self.folder / "direct.exr")
+        red = eclat.mix(self.folder / "direct.exr", {"direct": (2, 0, 0.5)})
+        np.testing.assert_array_equal(red.radiance, direct.radiance * np.array([2, 0, 0.5], np.float32))
+        same = eclat.mix(picture, {"direct": 1.0})
+        self.assertEqual(same.attributes["eclat.imageSha256"], picture.attributes["eclat.imageSha256"])
+        np.testing.assert_allclose(same.error, picture.error, rtol=1e-3)
+        self.error_of(eclat.mix, picture, {"lamp": 2}, kind="usage")
+
 
 class Compare(Case):
     def test_noise_and_more(self):
