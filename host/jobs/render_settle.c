@@ -201,7 +201,7 @@ static ec_result settle_channels(const ec_render_request *request, ec_error *err
 {
     if (!request->channels) return EC_OK;
     if (request->has_slice && request->channels & ec_channels_all() & ~ec_channels_of(EC_PLANE_RGB))
-        return ec_usage(err, "--samples and --channels: a slice holds all that pictures have; name none but layers, as direct, or leave --channels out");
+        return ec_usage(err, "--samples and --channels: a slice holds all of them; name none but layers, as direct, or leave --channels out");
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
 }
 
