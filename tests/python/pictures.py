@@ -175,7 +175,7 @@ class Files(Case):
         same = eclat.mix(picture, {"direct": 1.0})
         self.assertEqual(same.attributes["eclat.imageSha256"], picture.attributes["eclat.imageSha256"])
         np.testing.assert_allclose(same.error, picture.error, rtol=1e-3)
-        self.error_of(eclat.mix, picture, {"lamp": 2}, kind="usage")
+        self.error_of(eclat.mix, picture, {"direct": -1}, kind="usage")
 
 
 class Compare(Case):
