@@ -53,7 +53,7 @@ uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features)
     const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
     if (stage->features & EC_FEATURE_AREA_LIGHTS) return f & EC_FEATURE_AREA_LIGHTS ? f : f & ~EC_FEATURE_ALPHA;
     if (!(stage->features & EC_FEATURE_ALPHA) || (f & EC_FEATURE_PANES)) return f;
-    return f & (EC_FEATURE_CULLING | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION |
+    return f & (EC_FEATURE_CULLING | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_COPLANAR |
                 (f & EC_FEATURE_ALPHA ? EC_FEATURE_ALPHA | of_alpha : 0));
 }
 

@@ -55,6 +55,7 @@ typedef enum ec_arg {
     EC_ARG_SRGB,
     EC_ARG_PLACES,
     EC_ARG_MOTION,
+    EC_ARG_COPLANAR,   /* NULL: nothing lies on anything */
     EC_ARG_TIMES,      /* of paths, by slot */
     EC_ARG_CAMERA_KEYS, /* NULL: it stands still */
     EC_ARG_LIGHT_TABLE,

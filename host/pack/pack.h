@@ -38,6 +38,8 @@ typedef struct ec_pack {
     uint32_t *places;              /* of instances: ec_place_header and what it says; NULL: there are none */
     uint64_t motion_words;
     uint32_t *motion;              /* keys of what moves (EC_MOTION_* in shared/scene_buffers.h); NULL: nothing does */
+    uint64_t coplanar_words;
+    uint32_t *coplanar;            /* faces that lie on one another (kernels/lib/coplanar.h); NULL: none do */
     bool lamps_move;               /* triangles, points or spots among the lights */
     uint32_t light_count;          /* only lights of positive power */
     ec_light_data *lights;
