@@ -167,14 +167,14 @@ static void set_environment(const ec_pack *pack, ec_params *params)
 }
 
 /* Steps so small that what they round off is 2^-30 of the mean radiance of the scene, about, and sums of 2^33 times that fit. */
-static void set_light_paths(const ec_render_options *o, const ec_pack *pack, ec_params *params)
+static void set_light_paths(const ec_render_options *o, const ec_pack *pack, uint64_t called, ec_params *params)
 {
     const double pixels = (double)o->width * o->height, paths = fmax(floor(o->light_paths * pixels + 0.5), 1);
     int exponent;
     if (!pack->caster_count) return;
     frexp(pack->mean_radiance, &exponent);
     params->splat_unit = ldexpf(1, exponent - 31 < -120 ? -120 : exponent - 31);
-    params->light_paths = o->light_paths > 0 ? (float)(paths / pixels) : 0.0f;
+    params->light_paths = called & EC_FEATURE_LIGHT_PATHS ? (float)(paths / pixels) : 0.0f;
     params->caster_count = pack->caster_count;
     for (uint32_t j = 0; j < pack->caster_count; j++) {
         memcpy(params->casters[j], pack->casters[j].centre, sizeof pack->casters[j].centre);
@@ -204,7 +204,7 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->multiple = (called & EC_FEATURE_MULTISCATTER) != 0;
     params->light_choices = pack->light_choices;
     params->light_tree_numbers = pack->light_tree_numbers;
-    set_light_paths(o, pack, params);
+    set_light_paths(o, pack, called, params);
     params->layer_count = o->layers.count;
     for (int k = 0; k < EC_LAYER_KINDS; k++) params->layer_of[k] = ec_layers_find(&o->layers, k);
     params->layer_groups = ec_layers_groups(&o->layers);

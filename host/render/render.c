@@ -92,6 +92,14 @@ static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *e
     return ec_sources_alone(&r->sources) ? EC_OK : ec_render_foretell(r, err);
 }
 
+/* Who leaves it out. */
+static void tell_scattering(const ec_render_options *o, const ec_log *log)
+{
+    if (o->integrator != EC_INTEGRATOR_PATH)
+        ec_note(log, "bodies absorb here what they would scatter: only --integrator path scatters light inside them");
+    if (o->light_paths > 0) ec_note(log, "--light-paths: none are sent, since light paths do not scatter inside bodies, as light does in this scene");
+}
+
 static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene,
                         const ec_log *log, ec_error *err)
 {
@@ -106,6 +114,7 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
                 head->bodies_too_many, EC_BODIES_MOST);
     if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(called & EC_FEATURE_MULTISCATTER))
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
+    if (called & EC_FEATURE_SCATTERING) tell_scattering(r->options, log);
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
     if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err));
     EC_TRY(open_sources(r, log, err));

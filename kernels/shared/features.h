@@ -46,6 +46,7 @@
 #define EC_FEATURE_MULTISCATTER EC_FEATURE_BIT(35)
 #define EC_FEATURE_UV EC_FEATURE_BIT(36)
 #define EC_FEATURE_LAYERS EC_FEATURE_BIT(37)
+#define EC_FEATURE_SCATTERING EC_FEATURE_BIT(38)
 #define EC_FEATURE_LENS EC_FEATURE_BIT(40)
 #define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
@@ -81,6 +82,7 @@
     X(TRANSMISSION, "transmission")                                                                \
     X(TRANSMISSION_TEXTURE, "transmission-texture")                                                \
     X(ABSORPTION, "absorption")                                                                    \
+    X(SCATTERING, "volume-scattering")                                                             \
     X(SOBOL, "sobol-sampler")                                                                      \
     X(TERMINATOR, "smooth-terminator")                                                             \
     X(CLEARCOAT, "clearcoat")                                                                      \
