@@ -200,6 +200,7 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->light_count = ec_pipeline_joins(o, pack) ? pack->light_count : 0;
     set_environment(pack, params);
     params->nested = pack->bodies.count > 0;
+    for (int k = 0; k < 3; k++) params->fog[k] = (float)o->fog[k];
     params->terminator = (called & EC_FEATURE_TERMINATOR) != 0;
     params->multiple = (called & EC_FEATURE_MULTISCATTER) != 0;
     params->light_choices = pack->light_choices;
@@ -242,7 +243,7 @@ static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_sce
     EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, alone, batch, err));
     set_params(o, batch, pack, head->effects.called.bits, &head->params);
     head->bodies_too_many = pack->bodies.too_many;
-    EC_TRY(ec_insides_make(pack, &cargo->insides, err));
+    EC_TRY(ec_insides_make(pack, head->effects.called.bits, &cargo->insides, err));
     head->params.camera_medium = ec_insides_of(&cargo->insides, &scene->cameras[o->camera]);
     EC_TRY(tell_content(cargo, scene, called_for, o, batch, &stats->content, err));
     EC_TRY(ec_cargo_add_scene(cargo, scene, pack, err));

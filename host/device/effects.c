@@ -23,6 +23,8 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     if (options->layers.count) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels or --light-groups: %u layers", options->layers.count);
     if (ec_layers_find(&options->layers, EC_LAYER_UV)) ec_effects_call(called, EC_FEATURE_UV, "--channels uv");
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
+    static const uint64_t of_fog[] = {EC_FEATURE_FOG, EC_FEATURE_SCATTERING, EC_FEATURE_ABSORPTION};
+    for (int i = 0; options->fog[0] > 0 && i < 3; i++) ec_effects_call(called, of_fog[i], "--fog %g,%g,%g", options->fog[0], options->fog[1], options->fog[2]);
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
     effects->built = options->all_effects ? ec_universal_features(effects) : called->bits | options->more_effects;
     effects->built &= ~(effects->without & EC_FEATURE_PANES); /* paths through panes count on shadow rays to pass them too */

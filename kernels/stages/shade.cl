@@ -129,8 +129,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             lane_f u1, u2;
             slot_to_pixel(params, first_pixel, pixel_list, slot, &x, &y);
             sample_pair(sampler_make(seed, x, y), EC_PAIR_MEDIUM(bounce), &u1, &u2);
-            event = scatter_along(&g, filled, o, d, &s, length, u1, u2, &beta);
-            strewn = event.m;
+            length = found ? length : F(EC_HUGE);
+            stretch along = stretch_make(params, &g, filled, active & medium_is_air(medium, nested), o, d, length);
+            event = scatter_along(&along, o, d, &s, found, length, u1, u2, &beta);
+            strewn = active & event.m;
+            emits = emits & !strewn; /* the environment, behind fog */
         } else beta = v3_mul(beta, medium_transmittance(&g, filled, length));
     }
     lane_i met = found & !strewn;
@@ -239,6 +242,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf, share);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
         if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
+        if (HAS(FOG) && params->fog[0] > 0.0f) {
+            lane_i in_air = medium_is_air(medium_towards(&h, &s, medium, wi_local.z, nested), nested);
+            lane_f length = l.is_far ? F(EC_HUGE) : sqrt(v3_dot(l.towards, l.towards));
+            arriving = v3_scale(arriving, fog_leaves(params, in_air, above, l.wi, length));
+        }
         lane_u group = U(0);
         if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
         lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted);

@@ -88,7 +88,8 @@ class VolumeScatter(Case):
         return scene
 
     def render(self, path, *options):
-        run = self.assert_ok(eclat("render", path, "--env", "1,1,1", "--json", "-q", "-o", self.path("a.exr"), *options))
+        sky = [] if "--env" in options else ["--env", "1,1,1"]
+        run = self.assert_ok(eclat("render", path, *sky, "--json", "-q", "-o", self.path("a.exr"), *options))
         return json.loads(run.stdout)
 
     def assert_seen(self, path, expected, *options, accuracy=0):
@@ -124,6 +125,36 @@ class VolumeScatter(Case):
         path = self.scene_of(body(ALBEDO, [9, 4, 2], 0.5, 1.4, 0.3)).add(positions, indices=indices, streams=[("NORMAL", 3, normals)]).write(self.path("a.gltf"))
         ways = [], ["--lanes", "1"], ["--lanes", "8"], ["--effects", "all"], ["--accel", "kdtree"], ["--wave", "4096"]
         self.assertEqual(len({self.render(path, "--size", "32x24", "--spp", "8", *way)["image_sha256"] for way in ways}), 1)
+
+    def test_white_fog_in_white_light(self):
+        """Around a white ball and one of glass, which the fog is not in."""
+        positions, normals, indices = ball(24, 0, 0.5)
+        scene = self.scene_of(body([1, 1, 1], [0, 0, 0], ior=1.5))
+        scene.json["materials"].append({"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}})
+        for k in 0, 1:
+            scene.add(positions, k, indices=indices, streams=[("NORMAL", 3, normals)] if k == 0 else [], translation=[1.2 * k - 0.6, 0, 0])
+        self.assert_seen(scene.write(self.path("a.gltf")), [1, 1, 1], "--fog", "2,1,0.5", "--size", "24x16", "--spp", "256", accuracy=2e-4)
+
+    def test_lamp_in_fog(self):
+        """What fog scatters once of a lamp's light to a camera that looks past it, and what it leaves of the sky behind."""
+        density, albedo, g, flux, corner, steps = 0.1, 0.8, 0.6, 10, 5, 20000
+        radius = 1.001 * math.sqrt(3) * corner
+        light = density * albedo * (1 - g * g) / (4 * math.pi) * flux * radius / steps
+        seen = sum(light / (1 + g * g + 2 * g * t / math.hypot(t, 1)) ** 1.5 / (t * t + 1) * math.exp(-density * (t + math.hypot(t, 1)))
+                   for t in (radius * (k + 0.5) / steps for k in range(steps)))
+        scene = self.scene_of(body(ALBEDO, [0, 0, 0])).extend("KHR_lights_punctual", {"lights": [{"type": "point", "intensity": flux}]})
+        scene.add([s * corner + e for s in (1, -1) for e in (0, 0, 0, s * -1e-3, 0, 0, 0, s * -1e-3, 0)])
+        scene.node(translation=[0, 1, 0], extensions={"KHR_lights_punctual": {"light": 0}})
+        path, look = scene.write(self.path("a.gltf")), ["--fog", f"{density},{albedo},{g}", "--eye", "0,0,0", "--look-at", "1,0,0", "--fov", "0.2", "--size", "8x8"]
+        for expected, sky, depth in (seen, "0,0,0", "2"), (math.exp(-density * radius), "1,1,1", "1"):
+            self.assert_seen(path, [expected] * 3, *look, "--env", sky, "--max-depth", depth, "--spp", "4096", accuracy=1e-4 * seen)
+
+    def test_odd_fog(self):
+        for fog, word in ("1,2", "three numbers"), ("-1,0,0", "first"), ("1,1.5,0", "second"), ("1,1,1", "third"):
+            run = eclat("render", self.path("none.gltf"), "--fog", fog, "-o", self.path("a.png"))
+            self.assertIn(word, self.assert_one_error(run, 2))
+        run = eclat("render", self.path("none.gltf"), "--fog", "1,1,0", "--integrator", "whitted", "-o", self.path("a.png"))
+        self.assertIn("--fog", self.assert_one_error(run, 2))
 
     def test_told_where_it_is_left_out(self):
         path = self.scene_of(body(ALBEDO, [9, 4, 2], ior=1.4)).add(block(1, 0, -1)).write(self.path("a.gltf"))
