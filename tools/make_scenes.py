@@ -16,12 +16,12 @@ import zlib
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from scenes import (brushed_metal, car_paint, cornell_box, curl, drink, furnace, glass, keyhole, ladder, lamps, pinlamp, prism,  # noqa: E402
-                    ring, showcase, six_lamps, soap_film, spheres, stadium, terminator, toy, vase, veach_plates, velvet)
+                    ring, showcase, six_lamps, soap_film, spheres, stadium, terminator, toy, vase, veach_plates, velvet, wax)
 
 SCENES = {"brushed-metal": brushed_metal, "car-paint": car_paint, "cornell-box": cornell_box, "curl": curl, "drink": drink,
           "furnace": furnace, "glass": glass, "keyhole": keyhole, "ladder": ladder, "lamps": lamps, "pinlamp": pinlamp, "prism": prism,
           "ring": ring, "showcase": showcase, "six-lamps": six_lamps, "soap-film": soap_film, "spheres": spheres, "stadium": stadium,
-          "terminator": terminator, "toy": toy, "vase": vase, "veach-plates": veach_plates, "velvet": velvet}
+          "terminator": terminator, "toy": toy, "vase": vase, "veach-plates": veach_plates, "velvet": velvet, "wax": wax}
 WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 CODE = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
 

@@ -186,14 +186,14 @@ static void set_environment(const ec_pack *pack, ec_params *params)
 }
 
 /* Steps so small that what they round off is 2^-30 of the mean radiance of the scene, about, and sums of 2^33 times that fit. */
-static void set_light_paths(const ec_render_options *o, const ec_pack *pack, ec_params *params)
+static void set_light_paths(const ec_render_options *o, const ec_pack *pack, uint64_t called, ec_params *params)
 {
     const double pixels = (double)o->width * o->height, paths = fmax(floor(o->light_paths * pixels + 0.5), 1);
     int exponent;
     if (!pack->caster_count) return;
     frexp(pack->mean_radiance, &exponent);
     params->splat_unit = ldexpf(1, exponent - 31 < -120 ? -120 : exponent - 31);
-    params->light_paths = o->light_paths > 0 ? (float)(paths / pixels) : 0.0f;
+    params->light_paths = called & EC_FEATURE_LIGHT_PATHS ? (float)(paths / pixels) : 0.0f;
     params->caster_count = pack->caster_count;
     for (uint32_t j = 0; j < pack->caster_count; j++) {
         memcpy(params->casters[j], pack->casters[j].centre, sizeof pack->casters[j].centre);
@@ -219,11 +219,12 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->light_count = ec_pipeline_joins(o, pack) ? pack->light_count : 0;
     set_environment(pack, params);
     params->nested = pack->bodies.count > 0;
+    for (int k = 0; k < 3; k++) params->fog[k] = (float)o->fog[k];
     params->terminator = (called & EC_FEATURE_TERMINATOR) != 0;
     params->multiple = (called & EC_FEATURE_MULTISCATTER) != 0;
     params->light_choices = pack->light_choices;
     params->light_tree_numbers = pack->light_tree_numbers;
-    set_light_paths(o, pack, params);
+    set_light_paths(o, pack, called, params);
     params->layer_count = o->layers.count;
     for (int k = 0; k < EC_LAYER_KINDS; k++) params->layer_of[k] = ec_layers_find(&o->layers, k);
     params->layer_groups = ec_layers_groups(&o->layers);
@@ -262,7 +263,7 @@ static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_sce
     EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, alone, batch, err));
     set_params(o, batch, pack, head->effects.called.bits, &head->params);
     head->bodies_too_many = pack->bodies.too_many;
-    EC_TRY(ec_insides_make(pack, &cargo->insides, err));
+    EC_TRY(ec_insides_make(pack, head->effects.called.bits, &cargo->insides, err));
     head->params.camera_medium = ec_insides_of(&cargo->insides, &scene->cameras[o->camera]);
     EC_TRY(tell_content(cargo, scene, called_for, o, batch, &stats->content, err));
     EC_TRY(ec_cargo_add_scene(cargo, scene, pack, err));

@@ -46,10 +46,10 @@ static ec_result fill(const ec_pack *pack, uint32_t *number, ec_insides *insides
     return EC_OK;
 }
 
-ec_result ec_insides_make(const ec_pack *pack, ec_insides *insides, ec_error *err)
+ec_result ec_insides_make(const ec_pack *pack, uint64_t called, ec_insides *insides, ec_error *err)
 {
     *insides = (ec_insides){.nested = pack->bodies.count > 0};
-    if (!(pack->effects.bits & EC_FEATURES_MEDIUM)) return EC_OK;
+    if (!(called & EC_FEATURES_MEDIUM)) return EC_OK;
     uint32_t *number = malloc((pack->plain.scene.material_count + 1) * sizeof *number);
     ec_result result = number ? fill(pack, number, insides, err) : ec_fail(err, "out of memory for materials");
     free(number);

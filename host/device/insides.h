@@ -11,7 +11,7 @@ typedef struct ec_insides {
 } ec_insides;
 
 /* pack is not needed afterwards. */
-ec_result ec_insides_make(const ec_pack *pack, ec_insides *insides, ec_error *err);
+ec_result ec_insides_make(const ec_pack *pack, uint64_t called, ec_insides *insides, ec_error *err);
 void ec_insides_free(ec_insides *insides); /* zero-initialised is fine */
 
 /* As paths keep it. An orthographic camera is all over its plane: outside. */

@@ -61,6 +61,7 @@ typedef struct ec_render_options {
     double clamp_luminance;     /* the same in itself, where it is known beforehand; 0 = a pilot finds the picture's mean */
     bool guiding;               /* directions by what light paths have found */
     double light_paths;         /* for each camera path, where there is something that bends light sharply; 0 = none; EC_LIGHT_PATHS_AUTO: path tracing by all ways, without clamp and layers */
+    double fog[3];              /* around bodies: extinction, 1/m, 0 = none; albedo; mean cosine of scattering */
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */

@@ -110,6 +110,7 @@ static const schema material = {
     choice("alphaMode", "OPAQUE MASK BLEND"), plain("doubleSided", kind::flag), name, object(EC_KHR "unlit", {}),
     number(EC_KHR "emissive_strength/emissiveStrength"), number(EC_KHR "volume/thicknessFactor"),
     object(EC_KHR "volume/thicknessTexture", texture_info), number(EC_KHR "volume/attenuationDistance"),
+    numbers(EC_KHR "volume_scatter/multiscatterColor", 3),
     numbers(GLOSS "diffuseFactor", 4), object(GLOSS "diffuseTexture", texture_info), numbers(GLOSS "specularFactor", 3),
     number(GLOSS "glossinessFactor"), object(GLOSS "specularGlossinessTexture", texture_info)};
 

@@ -208,6 +208,9 @@ const ec_option ec_render_rows[] = {
      .otherwise = "off"},
     {.name = "cutoff", .metavar = "W", EC_RANGED(REAL, options.cutoff, 0, 1), .group = EC_GROUP_TRANSPORT, .integrators = OF(WHITTED),
      .help = "whitted only: drop branches whose weight is below W, 0 to 1; 0 follows all", .otherwise = EC_TEXT(EC_DEFAULT_CUTOFF)},
+    {.name = "fog", .metavar = "D,A,G", .set = ec_set_fog, .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,
+     .help = "fill the ball about the scene, but for its bodies, with fog: D, what it takes of light per metre; A, the share of that which it scatters, 0 to 1; G, the "
+             "mean cosine of the angle, -0.999 (back) to 0.999 (forward). As in 0.05,0.9,0.6"},
     {.name = "integrator", .metavar = "NAME", EC_CHOSEN(options.integrator, ec_integrator_names), .group = EC_GROUP_TRANSPORT,
      .uses = EC_OPTION_INFO | EC_OPTION_WINDOW,
      .help = "path is the path tracer. For comparison, whitted traces mirrored and refracted rays, with hard shadows from the centres of lights; raster "

@@ -1,5 +1,6 @@
 #include "jobs/render_setters.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,6 +68,17 @@ SETTER(parallel)
 SETTER(screen_window) { return ec_parse_window(option, value, SCREEN_MOST, REQUEST->options.screen_window, err); }
 
 SETTER(denoise) { return ec_parse_denoise(option, value, &REQUEST->options.denoise, err); }
+
+SETTER(fog)
+{
+    double fog[3];
+    EC_TRY(ec_parse_triple(option, value, fog, err));
+    if (!(fog[0] >= 0 && fog[0] <= 1e30)) return ec_usage(err, "--%s: '%s': the first number, what fog takes of light per metre, must be from 0 to 1e30", option, value);
+    if (!(fog[1] >= 0 && fog[1] <= 1)) return ec_usage(err, "--%s: '%s': the second number, the share that is scattered, must be from 0 to 1", option, value);
+    if (!(fabs(fog[2]) <= 0.999)) return ec_usage(err, "--%s: '%s': the third number, the mean cosine, must be from -0.999 to 0.999", option, value);
+    memcpy(REQUEST->options.fog, fog, sizeof fog);
+    return EC_OK;
+}
 
 /* --ground without a value is matte. */
 SETTER(ground)

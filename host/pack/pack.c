@@ -53,6 +53,13 @@ static float head_on_reflectance(float ior)
     return r * r;
 }
 
+/* KHR_materials_volume_scatter: of the colour that is seen of a dense body the share that one scattering leaves (Kulla and Conty 2017). */
+static float single_albedo(float color, float g)
+{
+    const double c = color, s = 4.09712 + 4.20863 * c - sqrt(9.59217 + 41.6808 * c + 17.7126 * c * c);
+    return c > 0 ? (float)fmin(fmax((1 - s * s) / (1 - g * s * s), 0), 1) : 0.0f;
+}
+
 /* Between bodies reflectance depends on both sides: the kernels multiply by it. */
 static void pack_bodies(const ec_scene *scene, ec_pack *pack)
 {
@@ -83,6 +90,7 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
                    (m->unlit ? EC_MATERIAL_UNLIT : 0) | (m->alpha_mode == EC_ALPHA_MASK ? EC_MATERIAL_MASK : 0) |
                    (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0) | (ec_refracts(m) ? EC_MATERIAL_REFRACTS : 0) |
                    (ec_bounds(m) ? EC_MATERIAL_BOUNDS : 0);
+        for (int k = 0; k < 3; k++) d->scatter_albedo[k] = single_albedo(m->scatter[k], m->scatter_anisotropy);
         d->anisotropy_cosine = cosf(m->anisotropy_rotation);
         d->anisotropy_sine = sinf(m->anisotropy_rotation);
         for (int k = 0; k < EC_SLOT_COUNT; k++) pack_slot(scene, &m->textures[k], ec_material_slots[k].is_srgb, &d->slots[k]);

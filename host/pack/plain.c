@@ -29,6 +29,8 @@ static void plain_transmission(const ec_scene *scene, ec_material *m)
     if (m->transmission * least == 1.0f) m->diffuse_transmission = 0.0f; /* nothing of the light is left for it */
     if (!ec_refracts(m) || m->ior <= 1.0f) m->dispersion = 0.0f;
     if (!ec_refracts(m) && !ec_bounds(m)) memset(m->absorption, 0, sizeof m->absorption);
+    for (int k = 0; k < 3; k++)
+        if (m->absorption[k] == 0.0f) m->scatter[k] = 0.0f; /* no extinction to have a share of */
 }
 
 /* A film of no thickness, or of air, is none; one of the same thickness everywhere needs no texture. */

@@ -95,6 +95,14 @@ static ec_result open_sources(ec_render_state *r, const ec_peers *peers, const e
     return ec_sources_open(&r->sources, r->options->seed, peers, log, &r->source, r->stats, err);
 }
 
+/* Who leaves it out. */
+static void tell_scattering(const ec_render_options *o, const ec_log *log)
+{
+    if (o->integrator != EC_INTEGRATOR_PATH)
+        ec_note(log, "bodies absorb here what they would scatter: only --integrator path scatters light inside them");
+    if (o->light_paths > 0) ec_note(log, "--light-paths: none are sent, since light paths do not scatter inside bodies, as light does in this scene");
+}
+
 /* The scene is what the course expects. */
 static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
 {
@@ -105,6 +113,7 @@ static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
                 head->bodies_too_many, EC_BODIES_MOST);
     if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(head->effects.called.bits & EC_FEATURE_MULTISCATTER))
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
+    if (head->effects.called.bits & EC_FEATURE_SCATTERING) tell_scattering(r->options, log);
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
     return past && past->allotment.weight ? ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err) : EC_OK;
 }
@@ -136,12 +145,13 @@ static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const 
     const ec_peers *peers = r->course->peers;
     const bool is_judged = ec_render_may_have_caustics(r->options, scene), is_alone = count == 1 && !peers;
     const uint32_t first = is_judged ? 1 : count;
-    bool pays = false;
+    bool pays = false, scatters;
     EC_TRY(ec_sources_pack(devices, first, peers != NULL && !is_judged, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
     r->params = r->sources.cargo.head.params;
     EC_TRY(admit(r, log, err));
+    scatters = r->sources.cargo.head.effects.called.bits & EC_FEATURE_SCATTERING; /* no light path does, and the cargo is spent when it is loaded */
     EC_TRY(open_sources(r, is_judged ? NULL : peers, log, err));
-    if (is_judged) EC_TRY(ec_render_judge_caustics(r, &pays, log, err));
+    if (is_judged && !scatters) EC_TRY(ec_render_judge_caustics(r, &pays, log, err));
     if (pays) choose_light_paths(r);
     if (is_judged && (pays || !is_alone)) {
         const ec_render_stats before = *r->stats;

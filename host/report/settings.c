@@ -46,6 +46,13 @@ static void get_screen_window(const ec_render_options *o, ec_setting_value *v)
     v->field.text = v->made;
 }
 
+static void get_fog(const ec_render_options *o, ec_setting_value *v)
+{
+    snprintf(v->made, sizeof v->made, "%.9g,%.9g,%.9g", o->fog[0], o->fog[1], o->fog[2]);
+    v->field.text = o->fog[0] > 0 ? v->made : "none";
+    v->is_unsaid = !(o->fog[0] > 0);
+}
+
 static void get_max_depth(const ec_render_options *o, ec_setting_value *v)
 {
     *v = o->max_depth ? (ec_setting_value){WHOLE(o->max_depth)} : (ec_setting_value){NONE("inf")};
@@ -86,6 +93,7 @@ const ec_setting ec_settings[] = {
     {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reports: with what it took, report/error_text.h */
     {"light-paths", "light_paths", "eclat.lightPaths", EC_IDENTITY_BY_VALUE, get_light_paths},
     {"guiding", "guiding", "eclat.guiding", EC_IDENTITY_BY_VALUE, get_guiding},
+    {"fog", "fog", "eclat.fog", EC_IDENTITY_BY_VALUE, get_fog},
     {"terminator", "terminator", "eclat.terminator", EC_IDENTITY_BY_VALUE, get_terminator},
     {"scattering", "scattering", "eclat.scattering", EC_IDENTITY_BY_CONTENT, get_scattering},
     {"light-choice", "light_choice", "eclat.lightChoice", EC_IDENTITY_BY_CONTENT, get_light_choice},

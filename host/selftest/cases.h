@@ -27,6 +27,7 @@ typedef struct ec_selftest {
     CASE("environment/sun", false, ec_selftest_sun, "float tables lose dim texels, 0/0 in black rows (pbrt, Mitsuba)")           \
     CASE("scatter/slab", false, ec_selftest_slabs, "glass that darkens or brightens what is behind it")                          \
     CASE("scatter/nested glass", false, ec_selftest_nested_glass, "black glass: paths lost at faces or by depth")                \
+    CASE("scatter/white milk", true, ec_selftest_milk, "light lost on its way through what scatters it")                         \
     CASE("numbers/arithmetic", false, ec_selftest_arithmetic, "cracks between triangles: products contracted (half of all)")     \
     CASE("numbers/functions", false, ec_selftest_functions, "directions off the sphere")                                         \
     CASE("numbers/not finite", false, ec_selftest_not_finite, "tests for NaN folded away: black pixels that nobody counts")      \

@@ -61,3 +61,21 @@ ec_result ec_selftest_nested_glass(ec_selftest *t, ec_error *err)
     o.max_depth = 1000;
     return ec_shot_only_row(t, "", scene, &o, 1, err);
 }
+
+/* Nor does milk that absorbs nothing: hundreds of events, and total reflection from inside. */
+ec_result ec_selftest_milk(ec_selftest *t, ec_error *err)
+{
+    ec_model *m = ec_model_new();
+    ec_scene *scene;
+    ec_material milk = ec_material_glass(1.33, 0, 20);
+    for (int k = 0; k < 3; k++) milk.scatter[k] = 1;
+    milk.scatter_anisotropy = 0.7f;
+    ec_model_sphere(m, ec_model_material(m, &milk), (double[3]){0}, 1, 3, false);
+    ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.3);
+    EC_TRY(ec_model_scene(m, &scene, err));
+    shine_from_everywhere(scene);
+    ec_render_options o = ec_shot_options(t, 16, 64);
+    o.survival = 1;
+    o.max_depth = 10000;
+    return ec_shot_only_row(t, "", scene, &o, 1, err);
+}

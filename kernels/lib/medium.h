@@ -29,14 +29,22 @@ EC_FN lane_u medium_material(const geometry *g, lane_u medium, bool nested)
     return nested ? bodies_material(g, medium) : medium;
 }
 
-/* Beer-Lambert over `distance` metres of a material. */
+/* Around all bodies? */
+EC_FN lane_i medium_is_air(lane_u medium, bool nested) { return nested ? medium == 0u : medium == EC_NO_ID; }
+
+/* What is left of each channel after `distance` metres (Beer-Lambert). */
+EC_FN v3 extinguished(v3 density, lane_f distance)
+{
+    return v3_make(exp_negative(-density.x * distance), exp_negative(-density.y * distance), exp_negative(-density.z * distance));
+}
+
+/* Likewise of a material. */
 EC_FN v3 medium_transmittance(const geometry *g, lane_u material, lane_f distance)
 {
     lane_i inside = material != EC_NO_ID;
     if (!any_lane(inside)) return v3_splat(F(1.0f));
     quad a = gather_quad(g->materials, (inside ? material : U(0)) + EC_WORD_absorption);
-    v3 t = v3_make(exp_negative(-a.a * distance), exp_negative(-a.b * distance), exp_negative(-a.c * distance));
-    return v3_select(inside, t, v3_splat(F(1.0f)));
+    return v3_select(inside, extinguished(v3_make(a.a, a.b, a.c), distance), v3_splat(F(1.0f)));
 }
 
 #endif

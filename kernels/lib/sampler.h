@@ -13,6 +13,7 @@
 #define EC_PAIR_PIXEL 0u
 #define EC_PAIR_LENS 1u
 #define EC_PAIR_TIME 0x80000000u /* when, while the shutter is open: behind all bounces */
+#define EC_PAIR_MEDIUM(b) (0x40000000u + (b)) /* how far light goes inside a body that scatters it */
 #define EC_PAIR_BOUNCE(b) (2u + 3u * (b))
 #define EC_PAIR_LIGHT 0u    /* which light, and the point on it */
 #define EC_PAIR_BSDF 1u     /* which lobe, and the direction */

@@ -46,6 +46,8 @@
 #define EC_FEATURE_MULTISCATTER EC_FEATURE_BIT(35)
 #define EC_FEATURE_UV EC_FEATURE_BIT(36)
 #define EC_FEATURE_LAYERS EC_FEATURE_BIT(37)
+#define EC_FEATURE_SCATTERING EC_FEATURE_BIT(38)
+#define EC_FEATURE_FOG EC_FEATURE_BIT(39)
 #define EC_FEATURE_LENS EC_FEATURE_BIT(40)
 #define EC_FEATURE_PIXEL_FILTER EC_FEATURE_BIT(41)
 #define EC_FEATURE_ENVIRONMENT_TURN EC_FEATURE_BIT(42)
@@ -82,6 +84,8 @@
     X(TRANSMISSION, "transmission")                                                                \
     X(TRANSMISSION_TEXTURE, "transmission-texture")                                                \
     X(ABSORPTION, "absorption")                                                                    \
+    X(SCATTERING, "volume-scattering")                                                             \
+    X(FOG, "fog")                                                                                  \
     X(SOBOL, "sobol-sampler")                                                                      \
     X(TERMINATOR, "smooth-terminator")                                                             \
     X(CLEARCOAT, "clearcoat")                                                                      \
@@ -124,7 +128,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #define EC_FEATURES_BENDING (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)
 /* What asks which body a ray is in. */
-#define EC_FEATURES_MEDIUM (EC_FEATURE_ABSORPTION | EC_FEATURE_NESTED)
+#define EC_FEATURES_MEDIUM (EC_FEATURE_ABSORPTION | EC_FEATURE_NESTED | EC_FEATURE_FOG)
 /* What sends paths from lights. */
 #define EC_FEATURES_FROM_LIGHTS (EC_FEATURE_LIGHT_PATHS | EC_FEATURE_GUIDING)
 #define EC_FEATURES_UV (EC_FEATURES_TEXTURED | EC_FEATURE_UV)

@@ -42,6 +42,9 @@
     F(transmission_color, 3, 1, 0, 1, DIFFUSE_TRANSMISSION_COLOR, 0, NONE, 0, EC_KHR "diffuse_transmission/diffuseTransmissionColorFactor") \
     F(diffuse_transmission, 1, 0, 0, 1, DIFFUSE_TRANSMISSION, 3, DIFFUSE_TRANSMISSION, "has diffuse transmission", \
       EC_KHR "diffuse_transmission/diffuseTransmissionFactor") \
+    S(scatter, 3, 0, 0, 1, NONE, 0, SCATTERING, "scatters light in its volume", EC_KHR "volume_scatter/multiscatterColorFactor") /* after many events */ \
+    V(scatter_albedo) /* share that goes on after one */ \
+    F(scatter_anisotropy, 1, 0, -0.999f, 0.999f, NONE, 0, NONE, 0, EC_KHR "volume_scatter/scatterAnisotropy") /* mean cosine; its absorption is all extinction */ \
     F(film, 1, 0, 0, 1, IRIDESCENCE, 0, IRIDESCENCE, "has iridescence", EC_KHR "iridescence/iridescenceFactor") \
     F(film_ior, 1, 1.3f, 1, 1e3f, NONE, 0, NONE, 0, EC_KHR "iridescence/iridescenceIor") \
     F(film_least, 1, 100, 0, 1e6f, NONE, 0, NONE, 0, EC_KHR "iridescence/iridescenceThicknessMinimum") /* nm, texture 0 */ \

@@ -53,6 +53,7 @@ typedef struct ec_params {
     ec_uint environment_turned;   /* 0: environment_turn is not looked at */
     ec_uint light_tree_numbers;   /* of 2^31 random numbers those by which light sampling goes to the tree */
     ec_uint panes_count;          /* is a pane that a shadow ray passes a vertex, as max_depth counts them? Not in Whitted's */
+    ec_float fog[3];              /* around bodies, in the ball about the scene: extinction, 1/m, of every channel, 0: none; albedo; mean cosine */
     ec_uint nested;               /* bodies may lie in one another: media are sets (lib/medium.h) */
     ec_uint camera_medium;        /* what the camera is inside of */
     ec_uint film_row;             /* the picture's row that the films begin with */
@@ -78,7 +79,7 @@ typedef struct ec_params {
     ec_uint layer_groups;         /* the first light group's; the others follow */
     ec_uint layer_ids;            /* behind them: which node and material a sample meets (lib/features.h) */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 548);
+EC_ASSERT_SIZE(ec_params, 560);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u

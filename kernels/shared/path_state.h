@@ -11,7 +11,7 @@ enum ec_path_field {
     EC_PATH_SLOT,                          /* uint: where in the wave the sample's radiance is kept */
     EC_PATH_PRIM,                          /* uint: triangle the ray leaves; EC_NO_ID for camera rays */
     EC_PATH_FIELDS,
-    EC_PATH_MEDIUM = EC_PATH_FIELDS,       /* with ABSORPTION or NESTED only: uint, what the ray is inside of (lib/medium.h) */
+    EC_PATH_MEDIUM = EC_PATH_FIELDS,       /* with ABSORPTION, NESTED or FOG only: uint, what the ray is inside of (lib/medium.h) */
     EC_PATH_MEDIUM_FIELDS,
     EC_PATH_SX = EC_PATH_MEDIUM_FIELDS,    /* with PANES only: where light was last looked for; EC_PATH_PDF is of that point */
     EC_PATH_SY, EC_PATH_SZ,

@@ -9,6 +9,7 @@
 #include "../lib/light_path.h"
 #include "../lib/motion_vector.h"
 #include "../lib/roulette.h"
+#include "../lib/scatter.h"
 #include "../lib/shadow.h"
 #include "../lib/terminator.h"
 
@@ -119,15 +120,30 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     quad emission = material_quad(&g, &h, EC_WORD_emission);
     lane_u flags = as_lane_u(emission.d), medium = U(EC_NO_ID);
     if (HAS_MEDIUM) medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
+    lane_i strewn = !TRUE_MASK; /* scattered before the surface was met */
+    scattering event;
     if (HAS(ABSORPTION)) {
         v3 way = v3_sub(s.p, o);
-        beta = v3_mul(beta, medium_transmittance(&g, medium_material(&g, medium, nested), sqrt(v3_dot(way, way))));
+        lane_u filled = medium_material(&g, medium, nested);
+        lane_f length = sqrt(v3_dot(way, way));
+        if (HAS(SCATTERING)) {
+            lane_u x, y;
+            lane_f u1, u2;
+            slot_to_pixel(params, first_pixel, pixel_list, slot, &x, &y);
+            sample_pair(sampler_make(seed, x, y), EC_PAIR_MEDIUM(bounce), &u1, &u2);
+            length = found ? length : F(EC_HUGE);
+            stretch along = stretch_make(params, &g, filled, active & medium_is_air(medium, nested), o, d, length);
+            event = scatter_along(&along, o, d, &s, found, length, u1, u2, &beta);
+            strewn = active & event.m;
+            emits = emits & !strewn; /* the environment, behind fog */
+        } else beta = v3_mul(beta, medium_transmittance(&g, filled, length));
     }
+    lane_i met = found & !strewn;
 
     v3 source = o; /* where light was last looked for */
     if (HAS(PANES) && bounce) source = queue_load_v3(paths, wave, EC_PATH_SX, i);
     if (HAS(EMISSION)) {
-        lane_i m = found & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
+        lane_i m = met & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
             v3 way = v3_sub(s.p, source);
@@ -150,9 +166,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             emits = emits | m;
         }
     }
-    lane_i scatters = found;
+    lane_i scatters = met;
     if (HAS(UNLIT)) {
-        lane_i m = found & ((flags & EC_MATERIAL_UNLIT) != 0u);
+        lane_i m = met & ((flags & EC_MATERIAL_UNLIT) != 0u);
         emitted = v3_select(m, s.base, emitted);
         emits = emits | m;
         scatters = scatters & !m;
@@ -176,7 +192,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (HAS(LAYERS) && HAS(MOTION) && motion && bounce == 0 && params->layer_of[EC_LAYER_MOTION])
         store_motion_vector(params, radiance, motion, camera_keys, slot, &h, prim, d, active, found);
     /* This vertex ends segment bounce + 1; light sampled here would arrive over segment bounce + 2. */
-    if (bounce + 2 > params->max_depth || !any_lane(scatters)) return;
+    if (bounce + 2 > params->max_depth || !any_lane(scatters | strewn)) return;
 
     lane_u pixel, sample;
     slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
@@ -193,6 +209,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     lane_i lifted = !TRUE_MASK;
     v3 start = HAS(TERMINATOR) && params->terminator && normals ? terminator_origin(&g, &h, &s, &lifted) : s.p;
     v3 above = surface_offset(start, s.p_error, s.ng, wo);
+    if (HAS(SCATTERING)) { /* an event has no surface to be above of, nor to leave */
+        above = v3_select(strewn, event.p, above);
+        lifted = lifted | strewn;
+        prim = strewn ? U(EC_NO_ID) : prim;
+    }
 
     lane_f way2 = F(0.0f), wo_z = b.wo.z;
     if (by_light) {
@@ -202,7 +223,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     const bool guides = HAS(GUIDING) && guide_table;
     guide guided;
     if (guides) guided = guide_at(guide_table, scatters, s.p, &b);
-    lane_i joins = scatters & !bsdf_is_single(&b); /* no light sample lies in a mirror's one direction */
+    lane_i joins = (scatters & !bsdf_is_single(&b)) | strewn; /* no light sample lies in a mirror's one direction */
     if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
         lane_f pdf_bsdf;
         sample_pair_u(random, pair + EC_PAIR_LIGHT, &r1, &r2);
@@ -210,6 +231,12 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         v3 wi_local = surface_to_local(&s, l.wi);
         v3 f = bsdf_eval(&b, wi_local, &pdf_bsdf);
         lane_f share = F(0.0f);
+        if (HAS(SCATTERING)) {
+            lane_f phase = phase_value(event.g, d, l.wi);
+            f = v3_select(strewn, v3_splat(phase), f);
+            pdf_bsdf = strewn ? phase : pdf_bsdf;
+            wi_local.z = strewn ? F(1.0f) : wi_local.z;
+        }
         lane_i scatters_there = pdf_bsdf > 0.0f;
         if (guides) pdf_bsdf = guide_mix(&guided, pdf_bsdf, l.wi);
         if (by_light && any_lane(joins & (k != 0.0f))) {
@@ -219,6 +246,11 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf, share);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
         if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
+        if (HAS(FOG) && params->fog[0] > 0.0f) {
+            lane_i in_air = medium_is_air(medium_towards(&h, &s, medium, wi_local.z, nested), nested);
+            lane_f length = l.is_far ? F(EC_HUGE) : sqrt(v3_dot(l.towards, l.towards));
+            arriving = v3_scale(arriving, fog_leaves(params, in_air, above, l.wi, length));
+        }
         lane_u group = U(0);
         if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
         lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted);
@@ -238,7 +270,14 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         next_way = bsdf_sample(&b, params->sample == EC_SAMPLE_HEMISPHERE, to_unit(r1), number, u_pass);
         wi = surface_to_world(&s, next_way.wi); /* unit to 8 u: frame and local direction are */
     }
-    lane_i alive = scatters & (next_way.pdf != 0.0f) & same_side(&s, wi, next_way.wi, lifted);
+    if (HAS(SCATTERING)) {
+        v3 strewn_way = phase_sample(event.g, d, to_unit(r1), to_unit(r2));
+        wi = v3_select(strewn, strewn_way, wi);
+        next_way.wi.z = strewn ? F(1.0f) : next_way.wi.z;
+        next_way.weight = v3_select(strewn, v3_splat(F(1.0f)), next_way.weight);
+        next_way.pdf = strewn ? phase_value(event.g, d, strewn_way) : next_way.pdf;
+    }
+    lane_i alive = (scatters | strewn) & (next_way.pdf != 0.0f) & same_side(&s, wi, next_way.wi, lifted);
     beta = v3_mul(beta, next_way.weight);
     lane_i finite = v3_is_finite(beta);
     uint bad = mask_bits(alive & !finite);
@@ -248,6 +287,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (roulette) {
         if (!HAS(TRANSMISSION)) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass); /* no sooner: registers are scarce above */
         lane_f survival = roulette_survival(brightest * roulette_scale, params->survival);
+        if (HAS(SCATTERING) && params->survival == 0.0f) /* hundreds of events in a dense body need not lose light */
+            survival = (strewn & (brightest >= EC_SURVIVAL_MOST)) ? F(1.0f) : survival;
         alive = alive & (u_survives < survival);
         beta = v3_scale(beta, 1.0f / survival);
     }

@@ -63,6 +63,10 @@ static void test_weights(void)
     PAIR(ABSORPTION, (m->transmission = 1, m->volume = true, m->absorption[1] = 1), (m->transmission = 1, m->absorption[1] = 1));
     PAIR(ABSORPTION, (m->transmission = 1, m->volume = true, m->absorption[1] = 1),
          (m->transmission = 1, m->volume = true, m->absorption[1] = 1, USE(TRANSMISSION, BLACK)));
+    PAIR(SCATTERING, (m->transmission = 1, m->volume = true, m->absorption[1] = m->scatter[1] = 1),
+         (m->transmission = 1, m->volume = true, m->absorption[1] = m->scatter[0] = 1)); /* in red nothing is in its way */
+    PAIR(SCATTERING, (m->diffuse_transmission = 1, m->volume = true, m->absorption[1] = m->scatter[1] = 1),
+         (m->transmission = 1, m->absorption[1] = m->scatter[1] = 1));
     PAIR(CLEARCOAT, (m->coat = 1, USE(CLEARCOAT, WHITE)), (m->coat = 1, USE(CLEARCOAT, GREEN)));
     PAIR(CLEARCOAT, m->coat = 1, (m->coat = 1, m->unlit = true));
     PAIR(SHEEN, (m->sheen[1] = 1, USE(SHEEN_COLOR, GREEN)), (m->sheen[0] = m->sheen[2] = 1, USE(SHEEN_COLOR, GREEN)));

@@ -113,6 +113,25 @@ static void test_dispersion(void)
     expect_failure(LAYER("KHR_materials_dispersion", "'dispersion':true"), textured_blobs, "KHR_materials_dispersion.dispersion must be a number");
 }
 
+/* Extinction is the volume's; drafts before 2026 called the colour otherwise. */
+static void test_scattering(void)
+{
+    static const char *const names[] = {"multiscatterColorFactor", "multiscatterColor"};
+    ec_scene *s;
+    char text[1200];
+    for (int i = 0; i < 2; i++) {
+        snprintf(text, sizeof text, LAYER("KHR_materials_volume_scatter", "'%s':[0.5,0.25,1],'scatterAnisotropy':-0.5},'KHR_materials_transmission':{},"
+                 "'KHR_materials_volume':{'thicknessFactor':1,'attenuationDistance':2,'attenuationColor':[1,0.5,1]"), names[i]);
+        const ec_material *m = load_layer(text, &s, false);
+        CHECK(m->scatter[0] == 0.5f && m->scatter[1] == 0.25f && m->scatter[2] == 1 && m->scatter_anisotropy == -0.5f && m->absorption[1] > 0);
+        ec_scene_free(s);
+    }
+    const ec_material *m = load_layer(LAYER("KHR_materials_volume_scatter", "'multiscatterColorFactor':[-1,0.5,3],'scatterAnisotropy':1"), &s, true);
+    CHECK(m->scatter[0] == 0 && m->scatter[1] == 0.5f && m->scatter[2] == 1 && m->scatter_anisotropy == 0.999f);
+    ec_scene_free(s);
+    expect_failure(LAYER("KHR_materials_volume_scatter", "'multiscatterColor':[1,1]"), textured_blobs, "KHR_materials_volume_scatter.multiscatterColor must have 3 numbers");
+}
+
 int main(void)
 {
     test_coat();
@@ -121,5 +140,6 @@ int main(void)
     test_film();
     test_diffuse_transmission();
     test_dispersion();
+    test_scattering();
     TEST_END();
 }

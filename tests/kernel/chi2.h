@@ -6,7 +6,7 @@
 #include "kernel/kernel_run.h"
 
 #define SAMPLES (1u << 17)
-#define TESTS 180 /* at least as many as there are */
+#define TESTS 190 /* at least as many as there are */
 
 static ec_cl cl;
 static const double pi = 3.14159265358979323846;

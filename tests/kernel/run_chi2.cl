@@ -1,6 +1,7 @@
 /* Directions from the sampling routines, with the densities that they claim, for test_chi2_*.c. */
 #include "lib/bsdf.h"
 #include "lib/light.h"
+#include "lib/scatter.h"
 #include "packed_material.h"
 
 /* Numbers of a hash: what is tested is the map from them to directions. */
@@ -72,6 +73,16 @@ kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out
     bsdf_eval(&b, d.wi, &pdf);
     store(out, n, turned(d.wi, 1.0f - m[PACKED_TURN]), pdf);
     LANE_STORE(d.pdf > 0.0f ? d.weight.y : F(0.0f), out + 4 * n + get_global_id(0) * LANES);
+}
+
+/* Light that goes along d scattered in a body. */
+kernel void phase_samples(uint n, uint seed, float g, constant float *d, global float *out)
+{
+    lane_u r1, r2, unused;
+    v3 along = v3_make(F(d[0]), F(d[1]), F(d[2]));
+    numbers(LANE_NUMBERS + (uint)get_global_id(0) * LANES, seed, &r1, &r2, &unused);
+    v3 w = phase_sample(F(g), along, to_unit(r1), to_unit(r2));
+    store(out, n, w, phase_value(F(g), along, w));
 }
 
 /* The density of given directions. */

@@ -25,7 +25,7 @@ static void words_are_those_of_the_structs(void)
 #define WORD(type, field) IS_AT(field)
     EC_MATERIAL_FIELDS(FIELD, FILES, WORD, IS_AT)
     static const int in_fours[] = {EC_WORD_base_color, EC_WORD_emission, EC_WORD_metallic, EC_WORD_f0, EC_WORD_absorption, EC_WORD_ior, EC_WORD_coat,
-                                   EC_WORD_sheen, EC_WORD_anisotropy, EC_WORD_transmission_color, EC_WORD_film, EC_WORD_slots};
+                                   EC_WORD_sheen, EC_WORD_anisotropy, EC_WORD_transmission_color, EC_WORD_scatter_albedo, EC_WORD_film, EC_WORD_slots};
     for (size_t i = 0; i < sizeof in_fours / sizeof *in_fours; i++) CHECK(in_fours[i] % 4 == 0);
     CHECK(EC_PRIM_WORDS * 4 == sizeof(ec_prim));
     CHECK(EC_MATERIAL_WORDS * 4 == sizeof(ec_material_data));

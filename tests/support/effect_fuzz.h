@@ -21,7 +21,7 @@ enum { EF_MATERIALS = 7 };
 /* Not a scene's to call for. */
 #define EF_NEVER                                                                                                      \
     (EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LIGHT_TREE | EC_FEATURE_LAMP_PARTS | \
-     EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_MULTISCATTER)
+     EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_MULTISCATTER | EC_FEATURE_FOG)
 
 typedef enum effect_run { EF_SHARED, EF_EXACT } effect_run;
 
@@ -69,6 +69,7 @@ static inline uint64_t ef_close(uint64_t set)
         {EC_FEATURE_EMISSION, EC_FEATURE_AREA_LIGHTS},
         {EC_FEATURE_AREA_LIGHTS, EC_FEATURE_EMISSION},
         {EC_FEATURE_ENVIRONMENT_MAP, EC_FEATURE_ENVIRONMENT},
+        {EC_FEATURE_SCATTERING, EC_FEATURE_ABSORPTION | EC_FEATURE_TRANSMISSION},
         {EC_FEATURE_TRANSMISSION_TEXTURE | EC_FEATURE_ABSORPTION | EC_FEATURE_DISPERSION, EC_FEATURE_TRANSMISSION},
         {EC_FEATURE_IRIDESCENCE_TEXTURE, EC_FEATURE_IRIDESCENCE},
         {EC_FEATURE_DIFFUSE_TRANSMISSION_TEXTURE, EC_FEATURE_DIFFUSE_TRANSMISSION},
@@ -152,6 +153,8 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
     }
     const bool takes_light_in = glass || EF_HAS(DIFFUSE_TRANSMISSION);
     if (EF_HAS(ABSORPTION) || (!takes_light_in && EF_NEARLY(ABSORPTION))) m->absorption[0] = 1, m->absorption[1] = ef_between(d, 142, 0, 0, 1, 1e30f);
+    if (EF_HAS(SCATTERING)) m->scatter[1] = ef_between(d, 158, 1e-3f, 0.2f, 1, 1), m->scatter[2] = 0.5f, m->scatter_anisotropy = ef_between(d, 159, -0.999f, -0.5f, 0.9f, 0.999f);
+    else if (EF_NEARLY(SCATTERING)) m->scatter[2] = 1; /* in blue, in which nothing is in the way of light */
     if (coat || EF_NEARLY(CLEARCOAT)) {
         m->coat = 0.2f + 0.8f * ef_real(d, 143);
         m->coat_roughness = EF_HAS(SMOOTH) ? 0 : ef_between(d, 144, 0.05f, 0.2f, 1, 1);

@@ -118,7 +118,7 @@ static inline ec_scene *em_everything(void)
     list[1].specular = 1;
     list[2].transmission = list[3].transmission = list[12].transmission = 1;
     list[3].volume = list[12].volume = true;
-    list[3].absorption[0] = list[3].dispersion = 1;
+    list[3].absorption[0] = list[3].scatter[0] = list[3].dispersion = 1;
     list[4].coat = list[4].coat_roughness = 1;
     list[5].sheen[0] = list[5].sheen_roughness = 1;
     list[6].anisotropy = 1;

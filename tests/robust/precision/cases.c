@@ -72,6 +72,11 @@ const ec_precision_case ec_precision_cases[] = {
     {"surface_to_local", "surface_to_local", "surface.h", ec_inputs_two_directions, 6, 0, 0, 12, {VECTOR("local", 0), VECTOR("and back", 3)}},
     {"medium_transmittance", "medium_transmittance", "medium.h", ec_inputs_distance, 19, 0, 0, 5, {EACH("T", 0, 3)}},
 
+    {"phase_value", "phase_value", "scatter.h", ec_inputs_phase, 7, 0, 0, 24, {EACH("p", 0, 1)}},
+    {"phase_sample", "phase_sample", "scatter.h", ec_inputs_phase, 9, 0, BIT(7), 40, {VECTOR("wi", 0)}},
+    {"scatter_distance", "scatter_distance", "scatter.h", ec_inputs_free_way, 2, BIT(1), 0, 8, {EACH("t", 0, 1)}},
+    {"fog_span", "fog_span", "scatter.h", ec_inputs_fog, 7, 0, 0, 16, {SCALED("from, span", 0, 2)}},
+
     {"slab_near", "slab", "ray.h", ec_inputs_box, 12, 0, 0, 8, {EACH("near, far", 0, 2)}},
     {"edges_distance", "triangle", "ray.h", ec_inputs_triangle, 15, 0, 0, 16, {STATED("t", 0, 1), SCALED("b1, b2", 2, 2)}},
 
@@ -136,6 +141,6 @@ void ec_precision_fill(float *memory, ec_params *params)
     }
     put_material(memory, 0, -1);
     put_material(memory, 1, 0);
-    *params = (ec_params){.width = 4096, .height = 4096, .batch = 1, .environment = {1, 1, 1, 0}, .environment_pmf = 1,
+    *params = (ec_params){.scene_radius = 10, .width = 4096, .height = 4096, .batch = 1, .environment = {1, 1, 1, 0}, .environment_pmf = 1,
                           .environment_width = EC_PRECISION_MAP_WIDTH, .environment_height = EC_PRECISION_MAP_HEIGHT};
 }

@@ -95,3 +95,35 @@ void ec_inputs_distance(uint64_t *random, float *x)
     x[0] = (float)ec_draw_log(random, 1e-6, 1e4);
     for (int k = 0; k < 3; k++) x[EC_WORD_absorption + k] = (float)(ec_draw_log(random, 1e-8, 80) / x[0]);
 }
+
+/* Narrow peaks, and directions in them. */
+void ec_inputs_phase(uint64_t *random, float *x)
+{
+    double d[3], wi[3];
+    const double narrow = ec_random_unit(random) < 0.5 ? ec_draw_log(random, 1e-7, 1) : 1 - ec_draw_log(random, 1e-3, 1);
+    x[0] = (float)ec_draw_sign(random, fmin(narrow, 0.999));
+    ec_inputs_direction(random, x + 1);
+    for (int k = 0; k < 3; k++) d[k] = x[1 + k];
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), fall = ec_draw_log(random, 1e-6, 2);
+    for (int k = 0; k < 3; k++) d[k] /= length;
+    ec_draw_direction_about(random, d, ec_draw_sign(random, 1 - fall), wi);
+    ec_put_unit(x + 4, wi);
+    x[7] = ec_draw_unit(random);
+    x[8] = ec_draw_unit(random);
+}
+
+void ec_inputs_free_way(uint64_t *random, float *x)
+{
+    x[0] = (float)ec_draw_log(random, 1e-6, 1e6);
+    x[1] = ec_draw_unit(random);
+}
+
+/* In and around the scene's ball. */
+void ec_inputs_fog(uint64_t *random, float *x)
+{
+    double o[3];
+    draw_vector(random, 1e-2, 1e2, o);
+    ec_put(x, o);
+    ec_inputs_direction(random, x + 3);
+    x[6] = (float)ec_draw_log(random, 1e-3, 1e3);
+}

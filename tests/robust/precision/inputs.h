@@ -9,7 +9,7 @@ typedef void ec_precision_inputs(uint64_t *random, float *x);
 /* inputs.c: numbers, vectors, directions */
 ec_precision_inputs ec_inputs_turn, ec_inputs_exponent, ec_inputs_logarithm, ec_inputs_plane, ec_inputs_two_vectors,
     ec_inputs_vector, ec_inputs_colour, ec_inputs_direction, ec_inputs_two_directions, ec_inputs_densities,
-    ec_inputs_share, ec_inputs_distance;
+    ec_inputs_share, ec_inputs_distance, ec_inputs_phase, ec_inputs_free_way, ec_inputs_fog;
 
 /* inputs_bsdf.c */
 ec_precision_inputs ec_inputs_interface, ec_inputs_refraction, ec_inputs_opaque, ec_inputs_into_glass, ec_inputs_off_glass,

@@ -1,9 +1,10 @@
-/* lib/geometry.h, surface.h, medium.h, ray.h */
+/* lib/geometry.h, surface.h, medium.h, scatter.h, ray.h */
 #ifndef EC_PRECISION_KERNEL_SURFACE_H
 #define EC_PRECISION_KERNEL_SURFACE_H
 
 #include "lib/medium.h"
 #include "lib/ray.h"
+#include "lib/scatter.h"
 #include "kernel.h"
 
 /* Words: vertices 0, 3, 6; b1, b2 9; three uv pairs 11; three normals 18. The normals are memory, as of a mesh of one triangle an
@@ -95,6 +96,19 @@ PRECISION(medium_transmittance)
 {
     geometry g = {.materials = in};
     PUT_V(0, medium_transmittance(&g, ITEM * EC_PRECISION_WORDS, X(0)));
+}
+
+/* Words: mean cosine 0, light's way 1, where it goes on 4, u 7. */
+PRECISION(phase_value) { PUT(0, phase_value(X(0), V(1), V(4))); }
+PRECISION(phase_sample) { PUT_V(0, phase_sample(X(0), V(1), X(7), X(8))); }
+/* Words: extinction 0, u 1. */
+PRECISION(scatter_distance) { PUT(0, scatter_distance(X(0), X(1))); }
+/* Words: from 0, along 3, metres to the surface 6. */
+PRECISION(fog_span)
+{
+    lane_f from, span = fog_span(params, V(0), V(3), X(6), &from);
+    PUT(0, from);
+    PUT(1, span);
 }
 
 /* Words: o 0, d 3, box or vertices 6. */

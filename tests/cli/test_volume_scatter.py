@@ -1,0 +1,168 @@
+# tier: full
+"""Light scattered inside bodies (KHR_materials_volume_scatter) against closed forms: a white body loses nothing, a half-space returns what Chandrasekhar's
+H function says, a slab what is scattered once; and the same bits whatever traces it."""
+import json
+import math
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
+from hard_scene import Scene
+from support import Case, eclat, read_exr
+from test_caustic_forms import ball
+
+
+def gauss(n):
+    """Points and weights of Gauss and Legendre on [0, 1], by Newton's method."""
+    points = []
+    for i in range(n):
+        x = math.cos(math.pi * (i + 0.75) / (n + 0.5))
+        for _ in range(8):
+            p, q = 1, 0
+            for k in range(n):
+                p, q = ((2 * k + 1) * x * p - k * q) / (k + 1), p
+            slope = n * (x * p - q) / (x * x - 1)
+            x -= p / slope
+        points.append(((x + 1) / 2, 1 / ((1 - x * x) * slope * slope)))
+    return points
+
+
+def returned(albedo, cosine):
+    """Of uniform white light, by a half-space that scatters alike in all directions (Chandrasekhar 1960, chapter 5)."""
+    points, root = gauss(24), math.sqrt(1 - albedo)
+    h = [1] * len(points)
+    for _ in range(400):
+        h = [1 / (root + albedo / 2 * sum(w * x * k / (x + y) for (x, w), k in zip(points, h))) for y, _ in points]
+    return 1 - root / (root + albedo / 2 * sum(w * x * k / (x + cosine) for (x, w), k in zip(points, h)))
+
+
+def once(albedo, g):
+    """Seen head-on in uniform white light: a slab one mean free path thick, scattered at most once."""
+    total, directions = math.exp(-1), gauss(100)
+    for t, weight in gauss(40):
+        inner = 0
+        for u, w in directions:
+            c = 2 * u - 1
+            phase = (1 - g * g) / (4 * math.pi * (1 + g * g - 2 * g * c) ** 1.5)
+            inner += 2 * w * 2 * math.pi * phase * math.exp(-((1 - t) / c if c > 0 else t / -c))
+        total += albedo * weight * math.exp(-t) * inner
+    return total
+
+
+def colour(albedo, g):
+    """The colour that a file has for a single-scattering albedo."""
+    low, high = 0, 1
+    for _ in range(60):
+        c = (low + high) / 2
+        s = 4.09712 + 4.20863 * c - math.sqrt(9.59217 + 41.6808 * c + 17.7126 * c * c)
+        low, high = (c, high) if (1 - s * s) / (1 - g * s * s) < albedo else (low, c)
+    return low
+
+
+def body(albedo, density, g=0, ior=1, roughness=0, diffuse=False):
+    walls = {"KHR_materials_transmission": {"transmissionFactor": 1}}
+    if diffuse:
+        walls = {"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1}, "KHR_materials_specular": {"specularFactor": 0}}
+    return {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": roughness}, "extensions": {
+        **walls, "KHR_materials_ior": {"ior": ior},
+        "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0.1, "attenuationColor": [math.exp(-0.1 * d) for d in density]},
+        "KHR_materials_volume_scatter": {"multiscatterColorFactor": [colour(a, g) for a in albedo], "scatterAnisotropy": g}}}
+
+
+def block(half, top, bottom):
+    """A box about the z axis."""
+    corners = [(x * half, y * half, z) for x in (-1, 1) for y in (-1, 1) for z in (bottom, top)]
+    faces = (0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)
+    return [c for a, b, d, e in faces for i in (a, b, d, a, d, e) for c in corners[i]]
+
+
+ALBEDO = [0.3, 0.8, 0.97]
+
+
+class VolumeScatter(Case):
+    def scene_of(self, material):
+        scene = Scene(material)
+        for name in material["extensions"]:
+            scene.extend(name)
+        return scene
+
+    def render(self, path, *options):
+        sky = [] if "--env" in options else ["--env", "1,1,1"]
+        run = self.assert_ok(eclat("render", path, *sky, "--json", "-q", "-o", self.path("a.exr"), *options))
+        return json.loads(run.stdout)
+
+    def assert_seen(self, path, expected, *options, accuracy=0):
+        said = self.render(path, *options)
+        se = said["error"] * said["mean_luminance"] / math.sqrt(said["width"] * said["height"])
+        self.assertLess(se, 2e-3)
+        for channel, value in zip("RGB", expected):
+            pixels = read_exr(self.path("a.exr"))[1][channel]
+            mean = sum(pixels) / len(pixels)
+            spread = math.sqrt(sum((p - mean) ** 2 for p in pixels)) / len(pixels)
+            self.assertLess(abs(mean - value), 4 * spread + accuracy, f"{channel}: {mean:.5f} +- {spread:.5f}, not {value:.5f}")
+
+    def test_white_body_in_white_light(self):
+        positions, normals, indices = ball(24, 0, 0.5)
+        for material in body([1, 1, 1], [2, 5, 10], ior=1.5), body([1, 1, 1], [10, 5, 20], -0.5, diffuse=True):
+            scene = self.scene_of(material).add(positions, 0, indices=indices, streams=[("NORMAL", 3, normals)])
+            self.assert_seen(scene.write(self.path("a.gltf")), [1, 1, 1], "--size", "24x24", "--spp", "128", accuracy=2e-4)
+
+    def test_half_space(self):
+        path = self.scene_of(body(ALBEDO, [1, 1, 1])).add(block(3000, 0, -60)).write(self.path("a.gltf"))
+        for eye, cosine in ("0,0,9", 1), ("8.660254,0,5", 0.5):
+            self.assert_seen(path, [returned(a, cosine) for a in ALBEDO], "--eye", eye, "--look-at", "0,0,0", "--up", "0,1,0", "--parallel", "1", "--size", "16x16",
+                             "--spp", "1024", accuracy=1e-4)
+
+    def test_scattered_once(self):
+        for g in 0, 0.7:
+            path = self.scene_of(body(ALBEDO, [1, 1, 1], g)).add(block(300, 0, -1)).write(self.path("a.gltf"))
+            self.assert_seen(path, [once(a, g) for a in ALBEDO], "--eye", "0,0,9", "--look-at", "0,0,0", "--up", "0,1,0", "--parallel", "1", "--max-depth", "4",
+                             "--size", "16x16", "--spp", "4096", accuracy=1e-4)
+
+    def test_same_bits(self):
+        positions, normals, indices = ball(12, 0, 0.5)
+        path = self.scene_of(body(ALBEDO, [9, 4, 2], 0.5, 1.4, 0.3)).add(positions, indices=indices, streams=[("NORMAL", 3, normals)]).write(self.path("a.gltf"))
+        ways = [], ["--lanes", "1"], ["--lanes", "8"], ["--effects", "all"], ["--accel", "kdtree"], ["--wave", "4096"]
+        self.assertEqual(len({self.render(path, "--size", "32x24", "--spp", "8", *way)["image_sha256"] for way in ways}), 1)
+
+    def test_white_fog_in_white_light(self):
+        """Around a white ball and one of glass, which the fog is not in."""
+        positions, normals, indices = ball(24, 0, 0.5)
+        scene = self.scene_of(body([1, 1, 1], [0, 0, 0], ior=1.5))
+        scene.json["materials"].append({"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}})
+        for k in 0, 1:
+            scene.add(positions, k, indices=indices, streams=[("NORMAL", 3, normals)] if k == 0 else [], translation=[1.2 * k - 0.6, 0, 0])
+        self.assert_seen(scene.write(self.path("a.gltf")), [1, 1, 1], "--fog", "2,1,0.5", "--size", "24x16", "--spp", "256", accuracy=2e-4)
+
+    def test_lamp_in_fog(self):
+        """What fog scatters once of a lamp's light to a camera that looks past it, and what it leaves of the sky behind."""
+        density, albedo, g, flux, corner, steps = 0.1, 0.8, 0.6, 10, 5, 20000
+        radius = 1.001 * math.sqrt(3) * corner
+        light = density * albedo * (1 - g * g) / (4 * math.pi) * flux * radius / steps
+        seen = sum(light / (1 + g * g + 2 * g * t / math.hypot(t, 1)) ** 1.5 / (t * t + 1) * math.exp(-density * (t + math.hypot(t, 1)))
+                   for t in (radius * (k + 0.5) / steps for k in range(steps)))
+        scene = self.scene_of(body(ALBEDO, [0, 0, 0])).extend("KHR_lights_punctual", {"lights": [{"type": "point", "intensity": flux}]})
+        scene.add([s * corner + e for s in (1, -1) for e in (0, 0, 0, s * -1e-3, 0, 0, 0, s * -1e-3, 0)])
+        scene.node(translation=[0, 1, 0], extensions={"KHR_lights_punctual": {"light": 0}})
+        path, look = scene.write(self.path("a.gltf")), ["--fog", f"{density},{albedo},{g}", "--eye", "0,0,0", "--look-at", "1,0,0", "--fov", "0.2", "--size", "8x8"]
+        for expected, sky, depth in (seen, "0,0,0", "2"), (math.exp(-density * radius), "1,1,1", "1"):
+            self.assert_seen(path, [expected] * 3, *look, "--env", sky, "--max-depth", depth, "--spp", "4096", accuracy=1e-4 * seen)
+
+    def test_odd_fog(self):
+        for fog, word in ("1,2", "three numbers"), ("-1,0,0", "first"), ("1,1.5,0", "second"), ("1,1,1", "third"):
+            run = eclat("render", self.path("none.gltf"), "--fog", fog, "-o", self.path("a.png"))
+            self.assertIn(word, self.assert_one_error(run, 2))
+        run = eclat("render", self.path("none.gltf"), "--fog", "1,1,0", "--integrator", "whitted", "-o", self.path("a.png"))
+        self.assertIn("--fog", self.assert_one_error(run, 2))
+
+    def test_told_where_it_is_left_out(self):
+        path = self.scene_of(body(ALBEDO, [9, 4, 2], ior=1.4)).add(block(1, 0, -1)).write(self.path("a.gltf"))
+        for options, word in (["--integrator", "whitted"], "only --integrator path scatters light inside"), (["--light-paths", "1"], "--light-paths: none are sent"):
+            run = self.assert_ok(eclat("render", path, "--size", "8x8", "--spp", "8", "-o", self.path("a.png"), *options))
+            self.assertIn(word, run.stderr)
+            self.assertNotIn("light-paths  ", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
