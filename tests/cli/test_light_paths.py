@@ -23,7 +23,11 @@ class LightPaths(OtherWay):
 
     def test_bits(self):
         """Whatever order, width, structure or share."""
-        self.assert_same_bits(JOB, [["--lanes", "8"], ["--lanes", "1"], ["--wave", "4096"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]])
+        self.assert_same_bits(JOB, [["--lanes", "1"], ["--wave", "4096"]])
+
+    @full
+    def test_more_bits(self):
+        self.assert_same_bits(JOB, [["--lanes", "8"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]])
 
     def test_slices_and_resume(self):
         self.assert_slices_and_resume(JOB)
@@ -58,6 +62,7 @@ class LightPaths(OtherWay):
                 self.assertNotIn("caustics", run.stderr)
                 self.assertEqual(json.loads(run.stdout)["image_sha256"], self.render(*job, "--light-paths", "0")["image_sha256"])
 
+    @full
     def test_auto_error(self):
         """--error, which allots samples by itself, does not where there are light paths; a job that goes on, or is shared out, chooses as the whole."""
         job = [RING, "--size", "24x18"]
