@@ -14,6 +14,7 @@ ec_result ec_call_scene(const ec_call *call, const char *command, const char **s
 void ec_call_free(ec_call *call)
 {
     ec_merged_free(&call->merged);
+    ec_mix_free(&call->mix);
     ec_render_job_free(&call->render);
     ec_words_free(&call->words);
     ec_given_free(&call->given);

@@ -31,7 +31,7 @@ EC_ROWS(options)
 static ec_result check(const ec_call *call, const ec_outputs *outputs, ec_error *err)
 {
     if (call->input_count == 0) return ec_usage(err, "mix needs a picture with layers, IN.exr, gains as in lamp=2, and -o OUT.exr; see 'eclat mix --help'");
-    if (outputs->count == 0) return ec_usage(err, "mix needs -o OUT.exr, where the picture goes; see 'eclat mix --help'");
+    if (outputs->count == 0 && !call->wants_picture) return ec_usage(err, "mix needs -o OUT.exr, where the picture goes; see 'eclat mix --help'");
     ec_inputs inputs = {.files = (const char *const *)call->inputs, .file_count = 1};
     return ec_outputs_check(outputs, &inputs, err);
 }
@@ -55,16 +55,20 @@ static ec_result tell(const ec_call *call, const ec_mix *mix, ec_error *err)
     return EC_OK;
 }
 
+static ec_result write_mix(ec_call *call, ec_outputs *outputs, ec_error *err)
+{
+    const mix_request *request = call->request;
+    return ec_mix_write(&call->mix, outputs, request->exposure, request->tonemap, err);
+}
+
 static ec_result run(ec_call *call, ec_error *err)
 {
     mix_request *request = call->request;
-    ec_mix mix = {.command = NULL};
     EC_TRY(check(call, &request->outputs, err));
-    ec_result result = ec_mix_make(call->inputs[0], call->inputs + 1, call->input_count - 1, call->line, &mix, err);
-    if (result == EC_OK) result = ec_mix_write(&mix, &request->outputs, request->exposure, request->tonemap, err);
-    if (result == EC_OK) result = tell(call, &mix, err);
-    ec_mix_free(&mix);
-    return result;
+    EC_TRY(ec_mix_make(call->inputs[0], call->inputs + 1, call->input_count - 1, call->line, &call->mix, err));
+    call->write = write_mix;
+    if (request->outputs.count) EC_TRY(write_mix(call, &request->outputs, err));
+    return tell(call, &call->mix, err);
 }
 
 const ec_command ec_cmd_mix = {

@@ -10,6 +10,7 @@
 #include "jobs/given.h"
 #include "jobs/listener.h"
 #include "jobs/merge_job.h"
+#include "jobs/mix_job.h"
 #include "jobs/render_job.h"
 #include "jobs/option.h"
 
@@ -28,9 +29,10 @@ typedef struct ec_call {
     ec_ranks *ranks;            /* the other processes of an MPI job; NULL: there are none */
     bool wants_picture;         /* in memory: files are for the asking */
     int stop;                   /* a descriptor, readable once the command is to end; -1: none */
-    /* Left by the command, the first three if a picture is wanted and there is one. Owned. */
+    /* Left by the command, the first four if a picture is wanted and there is one. Owned. */
     ec_render_job render;       /* its film */
-    ec_merged merged;           /* or its picture */
+    ec_merged merged;           /* or its picture, */
+    ec_mix mix;                 /* or that of layers weighed anew */
     ec_result (*write)(struct ec_call *call, ec_outputs *outputs, ec_error *err);
     char folder[PATH_MAX];      /* in which it began */
     bool says_no;

@@ -4,6 +4,7 @@
 #define EC_DEVICE_BATCH_SOURCE_H
 
 #include "base/error.h"
+#include "film/matte_log.h"
 #include "film/sums.h"
 #include "device/options.h"
 #include "device/stats.h"
@@ -45,6 +46,7 @@ typedef struct ec_batch_order {
     bool with_features;               /* first-hit features too, ec_film's, of the same positions … */
     float *aov;                       /* … and room for all of them; NULL: where `features` is. Of a device alone */
     float *layers;                    /* room for three floats a layer of all positions; NULL: no layers are wanted */
+    ec_matte_log *matte;              /* takes what samples meet; NULL: nobody asks */
     /* Asked between waves, with the positions that are done, the first time when the device has done them; false gives the batch up. */
     bool (*go_on)(void *user, uint32_t done);
     void *user;

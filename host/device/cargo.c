@@ -94,6 +94,25 @@ static ec_result add_light_groups(ec_cargo *cargo, const ec_render_options *o, e
     return EC_OK;
 }
 
+/* As lib/features.h looks in it. */
+static ec_result add_parts(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
+{
+    const bool begins = scene->part_count && !scene->parts[0].first;
+    const uint32_t count = scene->part_count + !begins, before = count - scene->part_count;
+    if (!o->layers.mattes) return EC_OK;
+    uint32_t *table = calloc(2 + 2 * (size_t)count, sizeof *table), step = 1;
+    if (!table) return ec_fail(err, "out of memory for %u nodes", count);
+    while (2 * step < count) step *= 2;
+    table[0] = count, table[1] = step;
+    for (uint32_t i = 0; i < scene->part_count; i++) {
+        const ec_part *part = &scene->parts[i];
+        table[2 + before + i] = part->first;
+        table[2 + count + before + i] = part->node == EC_NO_NODE ? 0 : part->node + 1;
+    }
+    ec_cargo_add(cargo, EC_ARG_PARTS, "nodes of triangles", (2 + 2 * (uint64_t)count) * sizeof *table, 0, table, table);
+    return EC_OK;
+}
+
 static bool wants_light_tree(const ec_render_options *o, const ec_pack *pack)
 {
     if (!ec_pipeline_joins(o, pack) || o->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return false;
@@ -209,6 +228,7 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->layer_count = o->layers.count;
     for (int k = 0; k < EC_LAYER_KINDS; k++) params->layer_of[k] = ec_layers_find(&o->layers, k);
     params->layer_groups = ec_layers_groups(&o->layers);
+    params->layer_ids = o->layers.mattes ? o->layers.count + 1 : 0;
     params->scene_radius = pack->scene_radius;
     params->scene_max = pack->scene_max;
 }
@@ -249,6 +269,7 @@ static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_sce
     EC_TRY(ec_cargo_add_scene(cargo, scene, pack, err));
     EC_TRY(ec_cargo_add_camera(cargo, scene, o, err));
     EC_TRY(add_light_groups(cargo, o, err));
+    EC_TRY(add_parts(cargo, scene, o, err));
     return add_filter(cargo, o, err);
 }
 

@@ -44,7 +44,7 @@ typedef struct ec_cargo_buffer {
     void *owned;                     /* data, if it is to be freed, and has room for the slack; NULL: it lies in what the cargo was made of */
 } ec_cargo_buffer;
 
-enum { EC_CARGO_BUFFERS = EC_SCENE_BUFFERS + 3 + EC_ACCEL_COUNT * EC_ACCEL_BUFFERS };
+enum { EC_CARGO_BUFFERS = EC_SCENE_BUFFERS + 4 + EC_ACCEL_COUNT * EC_ACCEL_BUFFERS };
 
 /* Not to be copied: buffers point into it. */
 typedef struct ec_cargo {

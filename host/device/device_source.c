@@ -163,6 +163,7 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     const uint32_t seed = ec_render_seed(s->seed);
     uint32_t before;
     *complete = true;
+    s->mattes.met.count = 0;
     s->base.batches = 1;
     EC_TRY(choose_samples(s, order, &before, err));
     EC_TRY(upload_list(s, order, err));
@@ -176,12 +177,14 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
         if (!s->has_begun && p->wave > FIRST_PATHS) count = (count + FIRST_SHARE - 1) / FIRST_SHARE;
         if (count > order->count - reached) count = order->count - reached;
         EC_TRY(ec_pipeline_run_wave(p, seed, before + reached, count, order->with_features, err));
+        if (order->matte) EC_TRY(ec_mattes_read(&s->mattes, p, order->list != NULL, reached, count, err));
         if (!s->has_begun) EC_TRY(ec_cl_finish(p->cl, err));
         s->has_begun = true;
         reached += count;
         *complete = order->go_on(order->user, reached) || reached == order->count;
     }
     EC_TRY(tell(s, order, !*complete, err));
+    if (order->matte) EC_TRY(ec_mattes_tell(&s->mattes, order->matte, err));
     if (!*complete && order->with_features && !order->into) mark_unreached(s, order, reached);
     return EC_OK;
 }
@@ -204,6 +207,7 @@ static void close_device(ec_batch_source *source)
     s->base.mean = s->base.features = NULL;
     ec_pipeline_destroy(&s->pipeline);
     ec_sums_destroy(&s->base.sums);
+    ec_mattes_free(&s->mattes);
 }
 
 ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *s,

@@ -3,6 +3,7 @@
 #define EC_DEVICE_DEVICE_SOURCE_H
 
 #include "device/batch_source.h"
+#include "device/mattes.h"
 #include "device/pipeline.h"
 
 typedef struct ec_device_source {
@@ -12,6 +13,7 @@ typedef struct ec_device_source {
     uint32_t replicates;
     uint32_t rows;                    /* that it renders: from params.film_row on */
     uint32_t unfit;                   /* values of batches in blocks that were not finite */
+    ec_mattes mattes;
     bool has_begun;
 } ec_device_source;
 

@@ -21,6 +21,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
         ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--light-paths %g, aimed at %u bodies that bend or mirror light", options->light_paths, pack->caster_count);
     if (pack->caster_count && options->guiding) ec_effects_call(called, EC_FEATURE_GUIDING, "--guiding, by light paths to %u bodies that bend or mirror light", pack->caster_count - 1);
     if (options->layers.count) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels or --light-groups: %u layers", options->layers.count);
+    else if (options->layers.mattes) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels cryptomatte");
     if (ec_layers_find(&options->layers, EC_LAYER_UV)) ec_effects_call(called, EC_FEATURE_UV, "--channels uv");
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
     static const uint64_t of_fog[] = {EC_FEATURE_FOG, EC_FEATURE_SCATTERING, EC_FEATURE_ABSORPTION};
@@ -54,7 +55,7 @@ uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features)
     const uint64_t of_alpha = EC_FEATURE_BASE_COLOR_TEXTURE | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_FLOAT_TEXTURE;
     if (stage->features & EC_FEATURE_AREA_LIGHTS) return f & EC_FEATURE_AREA_LIGHTS ? f : f & ~EC_FEATURE_ALPHA;
     if (!(stage->features & EC_FEATURE_ALPHA) || (f & EC_FEATURE_PANES)) return f;
-    return f & (EC_FEATURE_CULLING | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION |
+    return f & (EC_FEATURE_CULLING | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_SOBOL | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_COPLANAR |
                 (f & EC_FEATURE_ALPHA ? EC_FEATURE_ALPHA | of_alpha : 0));
 }
 

@@ -30,6 +30,8 @@ typedef enum ec_integrator {
 } ec_integrator;
 
 #define EC_LIGHT_PATHS_MOST 16
+#define EC_LIGHT_PATHS_AUTO (-1.0) /* render/caustics.c decides: EC_LIGHT_PATHS_FEW, or none */
+#define EC_LIGHT_PATHS_FEW 0.0625
 #define EC_WHITTED_DEPTH 10     /* segments of Whitted's trees where max_depth is 0 */
 #define EC_WHITTED_DEPTH_MOST 64 /* each takes 48 bytes a path in flight */
 
@@ -58,7 +60,7 @@ typedef struct ec_render_options {
     double clamp;               /* most luminance of a sample's indirect light, in mean luminances of the picture (limit.c); 0 = no limit */
     double clamp_luminance;     /* the same in itself, where it is known beforehand; 0 = a pilot finds the picture's mean */
     bool guiding;               /* directions by what light paths have found */
-    double light_paths;         /* for each camera path, where there is something that bends light sharply; 0 = none */
+    double light_paths;         /* for each camera path, where there is something that bends light sharply; 0 = none; EC_LIGHT_PATHS_AUTO: path tracing by all ways, without clamp and layers */
     double fog[3];              /* around bodies: extinction, 1/m, 0 = none; albedo; mean cosine of scattering */
     double survival;            /* of Russian roulette at every surface; 0 = by throughput, 1 = off: refused without a max_depth */
     ec_sampler_type sampler;

@@ -6,7 +6,7 @@
 #define EC_NARROW_WAVE 32768 /* of which PoCL compiles every kernel once: see ec_kernel_run */
 
 /* A slot has R, G, B, and again of indirect light where it is kept apart, or of each layer. */
-static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3 + 3 * p->params.layer_count; }
+static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3 + 3 * p->params.layer_count + (p->params.layer_ids ? 3 : 0); }
 
 /* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads. (Queues that
  * stay in the cache gain 5 % of processor time there; launches of a tenth the size lose 40 % of wall time.) */

@@ -5,7 +5,7 @@
 
 #define FILTER_ARGS                                                                                \
     EC_ARG_PRIMS, EC_ARG_INDICES, EC_ARG_UVS, EC_ARG_COLORS, EC_ARG_MATERIALS,         \
-        EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS, EC_ARG_SRGB, EC_ARG_PLACES, EC_ARG_MOTION, EC_ARG_TIMES
+        EC_ARG_TEXTURE_TABLE, EC_ARG_TEXELS, EC_ARG_SRGB, EC_ARG_PLACES, EC_ARG_MOTION, EC_ARG_TIMES, EC_ARG_COPLANAR
 #define ACCEL_ARGS EC_ARG_ACCEL, EC_ARG_ACCEL + 1, EC_ARG_ACCEL + 2, EC_ARG_ACCEL + 3, EC_ARG_ACCEL + 4
 #define SURFACE_ARGS                                                                               \
     EC_ARG_PRIMS, EC_ARG_INDICES, EC_ARG_NORMALS, EC_ARG_TANGENTS, EC_ARG_UVS, EC_ARG_COLORS, EC_ARG_MATERIALS,        \
@@ -36,12 +36,14 @@ static const ec_arg shade[] = {WAVE_ARGS,
                                EC_ARG_LAMP_PARTS,
                                EC_ARG_EMISSION,
                                EC_ARG_GUIDE,
-                               EC_ARG_LIGHT_GROUPS};
+                               EC_ARG_LIGHT_GROUPS,
+                               EC_ARG_PARTS,
+                               EC_ARG_CAMERA_KEYS};
 static const ec_arg connect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_INVALID, EC_ARG_SHADOWS, EC_ARG_RADIANCE, ACCEL_ARGS, FILTER_ARGS,
                                  EC_ARG_NORMALS, EC_ARG_TANGENTS};
 static const ec_arg emit[] = {EC_ARG_PARAMS,   EC_ARG_SEED,        EC_ARG_FIRST_PIXEL, EC_ARG_PATH_COUNT, EC_ARG_COUNTERS,    EC_ARG_INVALID,
                               EC_ARG_PATHS,    EC_ARG_RADIANCE,    EC_ARG_LIGHT_SLOTS, SURFACE_ARGS,      EC_ARG_MOTION,      EC_ARG_TIMES,
-                              EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_TABLE, EC_ARG_EMISSION};
+                              EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_TABLE, EC_ARG_EMISSION, EC_ARG_COPLANAR};
 static const ec_arg shade_light[] = {WAVE_ARGS, EC_ARG_INVALID, EC_ARG_PATHS, EC_ARG_HITS, EC_ARG_NEXT, EC_ARG_SHADOWS, EC_ARG_LIGHT_SLOTS,
                                      EC_ARG_PIXEL_FILTER, EC_ARG_CAMERA_KEYS, SURFACE_ARGS, EC_ARG_MOTION, EC_ARG_TIMES, EC_ARG_LIGHT_TABLE,
                                      EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_ENVIRONMENT_TABLE, EC_ARG_LIGHT_TREE, EC_ARG_LAMP_PARTS, EC_ARG_EMISSION,
@@ -51,13 +53,13 @@ static const ec_arg splat[] = {EC_ARG_PARAMS, EC_ARG_SEED, EC_ARG_FIRST_PIXEL, E
 static const ec_arg raster_setup[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_PRIMS, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS};
 static const ec_arg raster_fill[] = {EC_ARG_PARAMS, EC_ARG_TRIANGLE_COUNT, EC_ARG_RASTER_TRIS, EC_ARG_TILE_ENDS, EC_ARG_TILE_LIST};
 static const ec_arg raster[] = {EC_ARG_PARAMS,     EC_ARG_SEED,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
-                                EC_ARG_PATH_COUNT, EC_ARG_HITS,      EC_ARG_RASTER_TRIS, EC_ARG_TILE_STARTS,
+                                EC_ARG_PATH_COUNT, EC_ARG_PATHS, EC_ARG_HITS,      EC_ARG_RASTER_TRIS, EC_ARG_TILE_STARTS,
                                 EC_ARG_TILE_ENDS,  EC_ARG_TILE_LIST, FILTER_ARGS};
 static const ec_arg shade_raster[] = {EC_ARG_PARAMS,      EC_ARG_PATH_COUNT,        EC_ARG_INVALID, EC_ARG_PATHS,
                                       EC_ARG_HITS,        EC_ARG_RADIANCE,          EC_ARG_AOV,     SURFACE_ARGS,
-                                      EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS};
+                                      EC_ARG_LIGHT_TABLE, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_PARTS};
 static const ec_arg whitted[] = {WAVE_ARGS,       EC_ARG_INVALID,  EC_ARG_PATHS, EC_ARG_HITS,  EC_ARG_NEXT,
-                                 EC_ARG_BRANCHES, EC_ARG_RADIANCE, EC_ARG_AOV,   SURFACE_ARGS, EC_ARG_ENVIRONMENT_TEXELS};
+                                 EC_ARG_BRANCHES, EC_ARG_RADIANCE, EC_ARG_AOV,   SURFACE_ARGS, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_PARTS};
 static const ec_arg whitted_light[] = {EC_ARG_PARAMS, EC_ARG_LIGHT, EC_ARG_STEP,    EC_ARG_COUNTERS, EC_ARG_INVALID,
                                        EC_ARG_PATHS,  EC_ARG_HITS,  EC_ARG_SHADOWS, SURFACE_ARGS,    EC_ARG_LIGHT_TABLE};
 static const ec_arg accumulate[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
@@ -72,7 +74,8 @@ static const ec_arg slot_layers[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_P
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
 #define SHADING_FEATURES                                                                           \
     (EC_FEATURE_ALL & ~(EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | \
-                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_SCATTERING | EC_FEATURE_FOG | EC_FEATURES_FROM_LIGHTS | CAMERA_FEATURES))
+                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_SCATTERING | EC_FEATURE_FOG | EC_FEATURES_FROM_LIGHTS | \
+                        EC_FEATURE_COPLANAR | CAMERA_FEATURES))
 #define PATH_FEATURES                                                                              \
     (SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | \
      EC_FEATURE_MOTION | EC_FEATURES_FROM_LIGHTS)
@@ -84,21 +87,21 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, 0,
                      EC_FEATURE_SOBOL | EC_FEATURES_MEDIUM | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | CAMERA_FEATURES, ARGS(generate)},
     [EC_INTERSECT] = {"intersect", "intersect", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, 0,
-                      EC_FEATURE_CULLING | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | ALPHA_FEATURES, ARGS(intersect)},
+                      EC_FEATURE_CULLING | EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_COPLANAR | ALPHA_FEATURES, ARGS(intersect)},
     [EC_SHADE] = {"shade", "shade", EC_OF(PATH), EC_LANES_OF_PIPELINE, 0,
                   PATH_FEATURES | EC_FEATURE_SCATTERING | EC_FEATURE_FOG,
                   ARGS(shade)},
     [EC_CONNECT] = {"connect", "connect shadow rays", EC_OF(PATH) | EC_OF(WHITTED), EC_LANES_OF_ACCEL, 0,
-                    EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_CULLING | SHADOW_FEATURES, ARGS(connect)},
+                    EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_LIGHT_PATHS | EC_FEATURE_LAYERS | EC_FEATURE_CULLING | EC_FEATURE_COPLANAR | SHADOW_FEATURES, ARGS(connect)},
     [EC_EMIT] = {"emit", "start light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURES_FROM_LIGHTS,
-                 LIGHT_PATH_FEATURES & ~(EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LENS), ARGS(emit)},
+                 (LIGHT_PATH_FEATURES & ~(EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LENS)) | EC_FEATURE_COPLANAR, ARGS(emit)},
     [EC_SHADE_LIGHT] = {"shade_light", "shade light paths", EC_OF(PATH), EC_LANES_OF_PIPELINE, EC_FEATURES_FROM_LIGHTS,
                         LIGHT_PATH_FEATURES | EC_FEATURE_CULLING, ARGS(shade_light)},
     [EC_SPLAT] = {"splat", "add light paths' light to pixels", EC_OF(PATH), 1, EC_FEATURE_LIGHT_PATHS, 0, ARGS(splat)},
     [EC_RASTER_SETUP] = {"raster_setup", "set up triangles", EC_OF(RASTER), 1, 0, 0, ARGS(raster_setup)},
     [EC_RASTER_FILL] = {"raster_fill", "fill tiles", EC_OF(RASTER), 1, 0, 0, ARGS(raster_fill)},
     [EC_RASTER] = {"raster", "rasterise", EC_OF(RASTER), EC_LANES_OF_PIPELINE, 0,
-                   EC_FEATURE_SOBOL | EC_FEATURE_CULLING | ALPHA_FEATURES, ARGS(raster)},
+                   EC_FEATURE_SOBOL | EC_FEATURE_CULLING | EC_FEATURE_COPLANAR | ALPHA_FEATURES, ARGS(raster)},
     [EC_SHADE_RASTER] = {"shade_raster", "shade without visibility", EC_OF(RASTER), EC_LANES_OF_PIPELINE, 0,
                          SHADING_FEATURES, ARGS(shade_raster)},
     [EC_WHITTED] = {"whitted", "grow ray trees", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES, ARGS(whitted)},

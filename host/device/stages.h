@@ -55,6 +55,7 @@ typedef enum ec_arg {
     EC_ARG_SRGB,
     EC_ARG_PLACES,
     EC_ARG_MOTION,
+    EC_ARG_COPLANAR,   /* NULL: nothing lies on anything */
     EC_ARG_TIMES,      /* of paths, by slot */
     EC_ARG_CAMERA_KEYS, /* NULL: it stands still */
     EC_ARG_LIGHT_TABLE,
@@ -63,6 +64,7 @@ typedef enum ec_arg {
     EC_ARG_LIGHT_TRAILS,
     EC_ARG_LAMP_PARTS,
     EC_ARG_EMISSION,
+    EC_ARG_PARTS,      /* which triangles are of which node (lib/features.h); NULL: nobody asks */
     EC_ARG_LIGHT_GROUPS, /* of the environment, of each light, of each material; NULL: none */
     EC_ARG_LIGHT_SLOTS, /* what light paths are of, by slot */
     EC_ARG_SPLATS,

@@ -17,6 +17,7 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_MATERIALS, pack->materials, 0, {"materials", 0, pack->material_count * sizeof *pack->materials}},
         {EC_ARG_PLACES, pack->places, 0, {"places of instances", EC_FEATURE_INSTANCES, pack->place_words * 4ull}},
         {EC_ARG_MOTION, pack->motion, 0, {"keys of what moves", EC_FEATURE_MOTION, pack->motion_words * 4ull}},
+        {EC_ARG_COPLANAR, pack->coplanar, 0, {"faces in one plane", EC_FEATURE_COPLANAR, pack->coplanar_words * 4ull}},
         {EC_ARG_SRGB, pack->srgb, 0, {"sRGB table", 0, sizeof pack->srgb}},
         {EC_ARG_INDICES, s->indices, 16, {"indices", EC_FEATURES_ATTRIBUTES, 12 * triangles}},
         {EC_ARG_NORMALS, s->normals, 16, {"normals", EC_FEATURE_SMOOTH_NORMALS, s->normals ? 12 * vertices : 0}},

@@ -12,6 +12,8 @@ typedef enum ec_plane {
     EC_PLANE_RGB, EC_PLANE_SAMPLES, EC_PLANE_STDERR, EC_PLANE_STDERR_Y, EC_PLANE_LOW, EC_PLANE_HIGH, EC_PLANE_HEAVY, EC_PLANE_CLAMPED,
     EC_PLANE_DENOISED, EC_PLANE_BEST, EC_PLANE_DENOISED_STDERR, /* where --denoise made them */
     EC_PLANE_FEATURES, /* of first hits */
+    EC_PLANE_MATTE, /* EC_MATTE_FLOATS (film/matte.h) of each ec_matte_kind: this one, and those that follow */
+    EC_PLANE_MATTE_END = EC_PLANE_MATTE + EC_MATTE_KINDS - 1,
     EC_PLANE_LAYER /* EC_LAYER_PLANES (film/layer_films.h) of the layer of each ec_layer_kind: this one, and those that follow */
 } ec_plane;
 enum { EC_PLACE_ALPHA = 7, EC_FEATURE_CHANNELS }; /* in that plane: the last one, and how many */
@@ -35,7 +37,11 @@ typedef struct ec_channel_row {
     ec_channel_choice when;
 } ec_channel_row;
 
-enum { EC_CHANNEL_ROWS = 51 };
+/* Two names of a pixel and their coverages are four channels of a file: CryptoObject00.R, .G, .B, .A, CryptoObject01.R … */
+static inline bool ec_channel_is_matte(const ec_channel_row *row) { return row->plane >= EC_PLANE_MATTE && row->plane <= EC_PLANE_MATTE_END; }
+static inline uint32_t ec_channel_count(const ec_channel_row *row) { return ec_channel_is_matte(row) ? 2 * EC_MATTE_RANKS : 1; }
+
+enum { EC_CHANNEL_ROWS = 56 };
 extern const ec_channel_row ec_channel_rows[EC_CHANNEL_ROWS];
 
 /* Those of a light group, after "light.NAME.". */

@@ -32,6 +32,7 @@ void ec_film_destroy(ec_film *film)
     free(film->rare);
     for (uint32_t k = 0; film->layer_films && k < film->layers.count; k++) ec_film_destroy(&film->layer_films[k]);
     free(film->layer_films);
+    ec_matte_free(&film->matte);
     *film = (ec_film){0};
 }
 

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/luminance.h"
 #include "film/layers.h"
+#include "film/matte.h"
 #include "film/parts.h"
 #include "film/rare.h"
 #include "film/tail.h"
@@ -49,6 +50,7 @@ typedef struct ec_film {
     ec_film_clean clean;          /* owned; of the samples that there were when it was made */
     ec_layers layers;             /* that the picture has beside its radiance … */
     struct ec_film *layer_films;  /* … and a film of each (film/layer_films.h); NULL: none. Owned */
+    ec_matte matte;               /* what its samples meet, where layers has mattes; else zeros. Owned */
     ec_rare *rare;                /* light that hardly any sample meets; NULL: there is none, or nobody has looked. Owned */
 } ec_film;
 
@@ -83,7 +85,7 @@ ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err);
 /* The sums of a film that is a single part, to be owned; the film is then fit to be destroyed only. */
 ec_sums ec_film_give_sums(ec_film *film);
 
-/* Adds all parts of another film of the same size, and its first-hit features where there are none; `from` is then fit to be destroyed
+/* Adds all parts of another film of the same size and with the same layers, and its first-hit features where there are none; `from` is then fit to be destroyed
  * only. Fails where both have a batch, and then has changed nothing but for lack of memory. */
 ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err);
 

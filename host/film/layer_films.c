@@ -9,6 +9,7 @@
 ec_result ec_film_set_layers(ec_film *film, const ec_layers *layers, ec_error *err)
 {
     film->layers = *layers;
+    if (layers->mattes) EC_TRY(ec_matte_create(&film->matte, (uint64_t)film->width * film->height, err));
     if (!layers->count) return EC_OK;
     film->layer_films = calloc(layers->count, sizeof *film->layer_films);
     if (!film->layer_films) return ec_fail(err, "out of memory for %u layers", layers->count);

@@ -2,8 +2,11 @@
 #ifndef EC_FILM_LAYERS_H
 #define EC_FILM_LAYERS_H
 
+#include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
+#include "base/matte_kinds.h"
 #include "shared/params.h"
 
 enum { EC_LAYER_BYTES = 12 /* of a pixel in a batch */, EC_LAYER_WAVE_MOST = 1 << 26 /* so that 32 bits number all floats of a wave */ };
@@ -14,7 +17,16 @@ typedef struct ec_layers {
     uint32_t kinds;       /* a bit for each ec_layer_kind */
     uint32_t group_count;
     char groups[EC_GROUPS_MOST][EC_GROUP_NAME];
+    uint32_t mattes;      /* a bit for each ec_matte_kind: not counted, and no films of their own (matte.h) */
+    const uint32_t *matte_hashes[EC_MATTE_KINDS]; /* of those, by number plus 1 of a node or a material; somebody else's */
 } ec_layers;
+
+static inline bool ec_layers_are_same(const ec_layers *a, const ec_layers *b)
+{
+    bool same = a->kinds == b->kinds && a->group_count == b->group_count;
+    for (uint32_t g = 0; same && g < a->group_count; g++) same = !strcmp(a->groups[g], b->groups[g]);
+    return same;
+}
 
 /* Its place among them, from 1 on; 0: it is not there. */
 static inline uint32_t ec_layers_find(const ec_layers *layers, enum ec_layer_kind kind)

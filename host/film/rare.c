@@ -41,6 +41,19 @@ double ec_rare_unmet(const ec_rare *rare, double samples, double mean, double li
     return sum;
 }
 
+double ec_rare_caustics(const ec_rare *rare, double mean, const ec_rare_kind **most)
+{
+    double sum = 0, largest = 0;
+    *most = NULL;
+    for (uint32_t i = 0; i < rare->count; i++) {
+        const ec_rare_kind *kind = &rare->kinds[i];
+        const double luminance = luminance_of(kind, mean, 0) / mean, variance = kind->caustic * luminance * luminance / kind->chance;
+        sum += variance;
+        if (variance > largest) *most = kind, largest = variance;
+    }
+    return sum;
+}
+
 uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y)
 {
     return (uint32_t)((uint64_t)y * EC_RARE_TILES / rare->height) * EC_RARE_TILES + (uint32_t)((uint64_t)x * EC_RARE_TILES / rare->width);

@@ -29,6 +29,7 @@ typedef struct ec_rare_kind {
     double luminance; /* that they bring to a pixel in the mean */
     bool is_relative; /* luminance is relative to the picture's mean: how bright a picture it makes is not known */
     double clamped;   /* share of it that a clamp of indirect light limits (film/clamp.h) */
+    double caustic;   /* share of it that light paths could bring; 0 where they do */
     double gathered;  /* root mean square over pixels of what they bring, over the mean: 1 where it is even */
     uint8_t share[EC_RARE_SHARES]; /* of their light in each tile, row by row: 255 is the brightest tile's … */
     double peak;                   /* … which has so many times the mean tile's */
@@ -52,6 +53,10 @@ void ec_rare_way(const char *through, const char *light, char *text, size_t size
  * than EC_RARE_MET of are not met; *most: the kind that matters most, or NULL. rare may be NULL. mean: the picture's luminance. limit: of a
  * sample's indirect light, where the picture is clamped; else 0. */
 double ec_rare_unmet(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most);
+
+/* Variance of a sample by what light paths could bring, over the square of the picture's mean luminance; *most: the kind of which there is most,
+ * or NULL. */
+double ec_rare_caustics(const ec_rare *rare, double mean, const ec_rare_kind **most);
 
 /* The tile that a pixel of the picture lies in. */
 uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y);

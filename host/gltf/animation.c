@@ -6,11 +6,14 @@
 
 #include "gltf/gltf.h"
 #include "gltf/reader.h"
+#include "gltf/span.h"
 
 struct ec_animation {
     ec_gltf *gltf;
     char *path;
     double posed_at; /* the moment that it is posed at and no scene has been made of; NaN: one has */
+    bool spans;      /* a box is known, in which all of it is at all times: */
+    double low[3], high[3];
 };
 
 /* Pictures are decoded when the first scene needs them, and kept. */
@@ -54,6 +57,35 @@ ec_result ec_animation_show(ec_animation *a, const ec_scene_choice *choice, ec_s
     a->posed_at = NAN;
     EC_TRY(ec_scene_from_gltf(&moment, a->gltf, scene, log, err));
     a->gltf->image_light.used = false;
+    (*scene)->spans = a->spans;
+    memcpy((*scene)->span_min, a->low, sizeof a->low);
+    memcpy((*scene)->span_max, a->high, sizeof a->high);
+    return EC_OK;
+}
+
+/* How long what is played takes; 0: the file does not say. */
+static ec_result find_seconds(const ec_animation *a, const ec_scene_choice *choice, double *seconds, ec_error *err)
+{
+    const ec_scene_contents *c = &a->gltf->contents;
+    const bool all = choice->animation && !strcmp(choice->animation, "all");
+    uint32_t one = 0;
+    *seconds = 0;
+    if (choice->animation && !all) EC_TRY(ec_scene_names_find(&c->animations, "animation", choice->animation, &one, err));
+    for (uint32_t i = 0; i < c->animations.count; i++)
+        if ((all || i == one) && isfinite(c->seconds[i])) *seconds = fmax(*seconds, c->seconds[i]);
+    return EC_OK;
+}
+
+ec_result ec_animation_find_span(ec_animation *a, const ec_scene_choice *choice, ec_error *err)
+{
+    ec_scene_choice moment;
+    double seconds;
+    EC_TRY(ec_settle_moment(a->path, choice, &moment, err));
+    if (!moment.animated) return EC_OK;
+    EC_TRY(find_seconds(a, choice, &seconds, err));
+    a->posed_at = NAN;
+    EC_TRY(ec_gltf_span(a->gltf, &moment, seconds, a->low, a->high, err));
+    a->spans = a->low[0] <= a->high[0];
     return EC_OK;
 }
 

@@ -3,6 +3,7 @@
 #include "gltf/deform.h"
 #include "base/text.h"
 #include "gltf/flatten.h"
+#include "gltf/thicken.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -87,7 +88,7 @@ static ec_result deform_mesh(deformer *d, const ec_pose *pose, int32_t index)
     for (uint32_t k = 0; k < g->meshes[index].primitive_count; k++) {
         ec_gltf_primitive moved = g->meshes[index].primitives[k], *out = &g->meshes[g->mesh_count - 1].primitives[k];
         char where[96];
-        if (!moved.drawn) continue;
+        if (!moved.drawn && !ec_is_thin(&moved)) continue;
         snprintf(where, sizeof where, "meshes[%d].primitives[%u]", index, k);
         EC_TRY(prepare(d, pose, &moved, where));
         EC_TRY(ec_pose_primitive(g, pose, &moved, where, d->err));

@@ -22,7 +22,7 @@ static ec_result build(const ec_scene_choice *choice, ec_gltf *g, ec_placement_l
     take_facts(g, s);
     EC_TRY(ec_flatten_prepare(g, placements, s, log, err));
     EC_TRY(ec_gltf_deform(g, placements, err));
-    EC_TRY(ec_gltf_thicken(g, placements, err));
+    EC_TRY(ec_gltf_thicken(g, placements, false, err));
     EC_TRY(ec_gltf_materials_assign(g, s, log, err));
     EC_TRY(ec_gltf_textures_load(g, placements, s, log, err));
     EC_TRY(ec_gltf_hide(g, placements, s, log, err));

@@ -2,6 +2,7 @@
  * are close enough to the way things take; a vertex is known again by the node, primitive and number it comes from. One path for moving
  * nodes, skins and morph targets: only where vertices are counts. */
 #include "gltf/motion.h"
+#include "gltf/thicken.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -78,6 +79,7 @@ static ec_result read_placed(ec_tracks *t, ec_gltf *g, ec_placement_list *placem
     EC_TRY(ec_gltf_place_instances(g, placements, NULL, err));
     EC_TRY(ec_flatten_prepare(g, placements, &counted, NULL, err));
     EC_TRY(ec_gltf_deform(g, placements, err));
+    EC_TRY(ec_gltf_thicken(g, placements, true, err));
     t->values[moment] = malloc(((size_t)t->count * t->words + 1) * sizeof(float));
     if (!t->values[moment]) return ec_fail(err, "%s: out of memory for %u moving vertices", g->path, t->count);
     EC_TRY(read_vertices(t, g, placements, t->values[moment], err));

@@ -93,6 +93,29 @@ static void close_up(ec_scene *s, uint32_t from, uint32_t to)
     for (uint32_t i = 0; i < s->placed_count; i++) s->placed[i].id -= from - to;
 }
 
+/* Triangles keep their nodes: what moves of one and what stays are parts of their own; those of meshes kept once lie behind, and close up. */
+static ec_result reorder_parts(const sorting *o, uint32_t used, ec_error *err)
+{
+    ec_scene *s = o->s;
+    const uint32_t count = s->part_count;
+    EC_FREED ec_part *old = s->parts;
+    uint32_t triangle = 0;
+    s->part_count = 0;
+    s->parts = malloc((3 * (size_t)count + 1) * sizeof *s->parts);
+    if (!s->parts) return ec_fail(err, "%s: out of memory for %u nodes", o->t->base->path, count);
+    for (int pass = MOVES; pass >= STAYS; pass--)
+        for (uint32_t p = 0; p < count; p++) {
+            const uint32_t next = p + 1 < count ? old[p + 1].first : o->triangles, end = next < o->triangles ? next : o->triangles;
+            for (uint32_t t = old[p].first; t < end; t++) {
+                if (o->fate[t] != pass) continue;
+                ec_part_add(s, triangle++, old[p].node);
+            }
+        }
+    for (uint32_t p = 0; p < count; p++)
+        if (old[p].first >= o->triangles) ec_part_add(s, old[p].first - (o->triangles - used), old[p].node);
+    return EC_OK;
+}
+
 static ec_result reorder(const sorting *o, ec_error *err)
 {
     ec_scene *s = o->s;
@@ -110,7 +133,7 @@ static ec_result reorder(const sorting *o, ec_error *err)
     memcpy(s->indices, corners, 3 * (size_t)used * sizeof *corners);
     memcpy(s->triangle_material, materials, used * sizeof *materials);
     close_up(s, o->triangles, used);
-    s->part_count = 0;
+    EC_TRY(reorder_parts(o, used, err));
     for (int i = 0; i < EC_STREAMS; i++) EC_TRY(permute(o, ec_scene_stream(s, i), ec_stream_width[i], err));
     return EC_OK;
 }

@@ -3,13 +3,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char *name_of(const ec_gltf *g, const ec_gltf_node *node)
+{
+    return node->name || node->mesh < 0 ? node->name : g->meshes[node->mesh].name;
+}
+
+/* Nodes hang in trees, as gltf_tree.c has checked. */
+static void find_roots(const ec_gltf *g, uint32_t *roots)
+{
+    for (uint32_t i = 0; i < g->node_count; i++) roots[i] = i;
+    for (uint32_t i = 0; i < g->node_count; i++)
+        for (uint32_t k = 0; k < g->nodes[i].child_count; k++) roots[g->nodes[i].children[k]] = i;
+    for (uint32_t i = 0; i < g->node_count; i++)
+        while (roots[i] != roots[roots[i]]) roots[i] = roots[roots[i]];
+}
+
 ec_result ec_parts_start(ec_scene *s, const ec_gltf *g, uint32_t most, ec_error *err)
 {
     s->parts = malloc(((size_t)most + 1) * sizeof *s->parts);
     s->node_names = calloc((size_t)g->node_count + 1, sizeof *s->node_names);
-    bool ok = s->parts && s->node_names;
-    for (uint32_t i = 0; ok && i < g->node_count; i++)
-        if (g->nodes[i].name) ok = (s->node_names[i] = strdup(g->nodes[i].name)) != NULL;
+    s->node_roots = malloc(((size_t)g->node_count + 1) * sizeof *s->node_roots);
+    bool ok = s->parts && s->node_names && s->node_roots;
+    for (uint32_t i = 0; ok && i < g->node_count; i++) {
+        const char *name = name_of(g, &g->nodes[i]);
+        if (name) ok = (s->node_names[i] = strdup(name)) != NULL;
+    }
+    if (ok) find_roots(g, s->node_roots);
     return ok ? EC_OK : ec_fail(err, "%s: out of memory for %u nodes", g->path, g->node_count);
 }
 

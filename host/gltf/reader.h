@@ -28,6 +28,8 @@ void ec_animation_close(ec_animation *animation); /* after its scenes; NULL is f
  * light that the file has all around is in the first scene only, which may lend it to the others. */
 ec_result ec_animation_show(ec_animation *animation, const ec_scene_choice *choice, ec_scene **scene, const ec_log *log,
                             ec_error *err);
+/* Before the first scene: where all of it is from the beginning of the animation to its end, for the scenes' spans. */
+ec_result ec_animation_find_span(ec_animation *animation, const ec_scene_choice *choice, ec_error *err);
 /* SHA-256 over all files that it is made of, whether they are shown or not: in hexadecimal. */
 void ec_animation_digest(const ec_animation *animation, char digest[65]);
 

@@ -16,8 +16,6 @@ typedef struct eye {
     double per_depth, fixed;
 } eye;
 
-static bool is_thin(const ec_gltf_primitive *p) { return p->mode < EC_GLTF_TRIANGLES && p->streams.of[EC_POSITION] >= 0; }
-
 /* Points, or lines' segments. */
 static uint64_t count_parts(const ec_gltf *g, const ec_gltf_primitive *p)
 {
@@ -70,7 +68,7 @@ static void frame_all(const ec_gltf *g, const ec_placement_list *list, eye *e)
         const int32_t mesh = list->items[i].mesh;
         for (uint32_t k = 0; mesh >= 0 && k < g->meshes[mesh].primitive_count; k++) {
             const ec_gltf_primitive *p = &g->meshes[mesh].primitives[k];
-            if (!is_thin(p) && !p->drawn) continue;
+            if (!ec_is_thin(p) && !p->drawn) continue;
             for (uint64_t v = p->lowest; v <= p->highest; v++) {
                 double world[3];
                 to_world(g, p, &list->items[i], (uint32_t)v, world);
@@ -160,14 +158,15 @@ static ec_result thicken(ec_gltf *g, const ec_gltf_primitive *p, const ec_placem
 static bool has_thin(const ec_gltf *g, int32_t mesh)
 {
     for (uint32_t k = 0; mesh >= 0 && k < g->meshes[mesh].primitive_count; k++)
-        if (is_thin(&g->meshes[mesh].primitives[k]) && count_parts(g, &g->meshes[mesh].primitives[k])) return true;
+        if (ec_is_thin(&g->meshes[mesh].primitives[k]) && count_parts(g, &g->meshes[mesh].primitives[k])) return true;
     return false;
 }
 
 /* A mesh beside the one that stands there, in the world's directions: balls stay round whatever the node does. */
-static ec_result visit(ec_gltf *g, ec_placement_list *list, uint32_t index, const eye *e, ec_error *err)
+static ec_result visit(ec_gltf *g, ec_placement_list *list, uint32_t index, const eye *e, bool moving, ec_error *err)
 {
     const ec_placement at = list->items[index];
+    if (moving && !at.moves) return ec_placement_append(list, &(ec_placement){.node = at.node, .mesh = -1, .extra = true}, err);
     ec_gltf_mesh *grown = realloc(g->meshes, ((size_t)g->mesh_count + 1) * sizeof *grown);
     if (grown) g->meshes = grown;
     const ec_gltf_mesh *from = &g->meshes[at.mesh];
@@ -178,17 +177,18 @@ static ec_result visit(ec_gltf *g, ec_placement_list *list, uint32_t index, cons
     }
     ec_gltf_mesh *mesh = &g->meshes[g->mesh_count];
     *mesh = (ec_gltf_mesh){.primitives = primitives};
-    ec_placement here = {.node = at.node, .mesh = (int32_t)g->mesh_count++, .linear = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .reached = g->animated != NULL, .extra = true};
+    ec_placement here = {.node = at.node, .mesh = (int32_t)g->mesh_count++, .linear = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .reached = g->animated != NULL,
+                         .moves = at.moves, .extra = true};
     for (int k = 0; k < 3; k++) here.origin[k] = at.origin[k];
     for (uint32_t k = 0; k < from->primitive_count; k++)
-        if (is_thin(&from->primitives[k]) && count_parts(g, &from->primitives[k])) {
+        if (ec_is_thin(&from->primitives[k]) && count_parts(g, &from->primitives[k])) {
             EC_TRY(thicken(g, &from->primitives[k], &at, e, &primitives[mesh->primitive_count], err));
             mesh->primitive_count++;
         }
     return ec_placement_append(list, &here, err);
 }
 
-ec_result ec_gltf_thicken(ec_gltf *g, ec_placement_list *list, ec_error *err)
+ec_result ec_gltf_thicken(ec_gltf *g, ec_placement_list *list, bool moving, ec_error *err)
 {
     eye e = {.fixed = 0};
     bool any = false;
@@ -196,6 +196,6 @@ ec_result ec_gltf_thicken(ec_gltf *g, ec_placement_list *list, ec_error *err)
     if (!any) return EC_OK;
     if (!look_through(g, list, &e)) frame_all(g, list, &e);
     for (uint32_t i = 0, count = list->count; i < count; i++)
-        if (has_thin(g, list->items[i].mesh)) EC_TRY(visit(g, list, i, &e, err));
+        if (has_thin(g, list->items[i].mesh)) EC_TRY(visit(g, list, i, &e, moving, err));
     return EC_OK;
 }

@@ -26,8 +26,12 @@ uint64_t ec_ball_indices(const ec_thick_mesh *mesh);
 /* ends: the same for a point; vertices: of the primitive, at the ends. */
 void ec_ball_append(ec_thick_mesh *mesh, const double ends[2][3], const double radii[2], const uint32_t vertices[2]);
 
+/* Is it points or lines? */
+static inline bool ec_is_thin(const ec_gltf_primitive *p) { return p->mode < EC_GLTF_TRIANGLES && p->streams.of[EC_POSITION] >= 0; }
+
 /* thicken.c: puts a mesh of triangles at the place of each that has points or lines, as wide as gltf->point_size pixels of a picture 512 high
- * are where they stand, for the scene's first camera. */
-ec_result ec_gltf_thicken(ec_gltf *gltf, ec_placement_list *placements, ec_error *err);
+ * are where they stand, for the scene's first camera. Comes after morph targets and skins. moving: for those alone that move within the
+ * shutter; the others' places stay empty. */
+ec_result ec_gltf_thicken(ec_gltf *gltf, ec_placement_list *placements, bool moving, ec_error *err);
 
 #endif

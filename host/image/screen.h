@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "image/behind.h"
+#include "image/ocio.h"
 #include "image/tone_curve.h"
 
 typedef enum ec_backdrop { EC_BACKDROP_ENVIRONMENT, EC_BACKDROP_TRANSPARENT, EC_BACKDROP_COLOR, EC_BACKDROP_BLUR } ec_backdrop;
@@ -20,6 +21,7 @@ typedef struct ec_screen {
     ec_tonemap tonemap;
     ec_background background;
     const ec_behind *behind; /* of a blur */
+    const ec_ocio *ocio;     /* in place of the tone curve and sRGB's; NULL: none */
 } ec_screen;
 
 /* A grid of pixels, rows from the top. */
@@ -33,7 +35,7 @@ static inline uint32_t ec_raster_pixel_bytes(const ec_raster *r) { return r->cha
 
 /* Linear Rec. 709 radiance, 3 floats a pixel, to 8 or 16 bits of sRGB: rgb * 2^exposure, tone curve, exact sRGB curve; non-finite values become 0.
  * alpha, every stride-th float: the part of each pixel that surfaces cover, whose light alone rgb then is; looked at where the background is not the
- * environment. A colour lies behind what the tone curve has made, a blurred environment before it. first: number of the first pixel in the picture, row by row. */
+ * environment. A colour lies behind what the tone curve or a view has made, as sRGB, a blurred environment before it. first: number of the first pixel in the picture, row by row. */
 void ec_screen_pixels(const ec_screen *screen, const float *rgb, const float *alpha, uint32_t stride, uint64_t first, uint64_t count, const ec_raster *to, void *out);
 
 #endif

@@ -54,22 +54,72 @@ static void put(double x, const ec_raster *to, uint8_t *out, uint32_t channel)
     out[2 * channel + 1] = (uint8_t)value;
 }
 
-void ec_screen_pixels(const ec_screen *s, const float *rgb, const float *alpha, uint32_t stride, uint64_t first, uint64_t count, const ec_raster *to, void *out)
+/* What ec_screen_pixels is given. */
+typedef struct showing {
+    const ec_screen *screen;
+    const float *rgb, *alpha;
+    uint64_t stride, first;
+    const ec_raster *to;
+    uint8_t *out;
+    double behind[3]; /* the background's colour, linear */
+} showing;
+
+/* A pixel's radiance after the exposure, not multiplied by how much of it is covered, which is returned. */
+static double light_of(const showing *s, uint64_t i, double light[3])
 {
-    const double scale = exp2(s->exposure);
-    const bool covers = s->background.kind != EC_BACKDROP_ENVIRONMENT, shows = s->background.kind == EC_BACKDROP_COLOR;
-    double behind[3];
-    for (int c = 0; c < 3; c++) behind[c] = ec_srgb_to_linear(s->background.rgb[c] / 255.0);
-#pragma omp parallel for schedule(static) if (count > 1 << 14)
+    const ec_screen *screen = s->screen;
+    const double alone = screen->background.kind != EC_BACKDROP_ENVIRONMENT ? fmin(fmax(s->alpha[s->stride * i], 0), 1) : 1, covered = screen->behind ? 1 : alone;
+    double far[3] = {0};
+    if (screen->behind && alone < 1) ec_behind_look(screen->behind, (uint32_t)((s->first + i) % s->to->width), (uint32_t)((s->first + i) / s->to->width), far);
+    for (int c = 0; c < 3; c++) light[c] = covered > 0 ? expose(s->rgb[3 * i + (uint64_t)c] + (1 - alone) * far[c], exp2(screen->exposure) / covered) : 0;
+    return covered;
+}
+
+/* shown: from 0 to 1, before sRGB's curve. */
+static void put_pixel(const showing *s, uint64_t i, const double shown[3], double covered)
+{
+    uint8_t *pixel = s->out + i * ec_raster_pixel_bytes(s->to);
+    const bool lies_on = s->screen->background.kind == EC_BACKDROP_COLOR;
+    for (uint32_t c = 0; c < 3; c++) put(srgb_encode(lies_on ? covered * shown[c] + (1 - covered) * s->behind[c] : shown[c]), s->to, pixel, c);
+    if (s->to->channels == 4) put(covered, s->to, pixel, 3);
+}
+
+/* A view's values are taken for those of sRGB. */
+static void put_view(const showing *s, uint64_t i, const float *view, double covered)
+{
+    double shown[3];
+    for (int c = 0; c < 3; c++) shown[c] = ec_srgb_to_linear(view[c] > 0 ? fmin(view[c], 1) : 0);
+    put_pixel(s, i, shown, covered);
+}
+
+enum { BLOCK = 1 << 10 };
+
+static void show_block(const showing *s, uint64_t first, uint64_t count)
+{
+    float view[3 * BLOCK];
+    double covered[BLOCK], light[3];
     for (uint64_t i = 0; i < count; i++) {
-        const double alone = covers ? fmin(fmax(alpha[stride * i], 0), 1) : 1, covered = s->behind ? 1 : alone;
-        uint8_t *pixel = (uint8_t *)out + i * ec_raster_pixel_bytes(to);
-        double light[3], far[3] = {0};
-        if (s->behind && alone < 1) ec_behind_look(s->behind, (uint32_t)((first + i) % to->width), (uint32_t)((first + i) / to->width), far);
-        for (int c = 0; c < 3; c++) light[c] = covered > 0 ? expose(rgb[3 * i + (uint64_t)c] + (1 - alone) * far[c], scale / covered) : 0;
-        ec_tone_curve_apply(s->tonemap, light);
-        for (uint32_t c = 0; c < 3; c++) put(srgb_encode(shows ? covered * light[c] + (1 - covered) * behind[c] : light[c]), to, pixel, c);
-        if (to->channels == 4) put(covered, to, pixel, 3);
+        covered[i] = light_of(s, first + i, light);
+        for (uint64_t c = 0; c < 3; c++) view[3 * i + c] = (float)light[c];
+    }
+    ec_ocio_show(s->screen->ocio, view, count);
+    for (uint64_t i = 0; i < count; i++) put_view(s, first + i, view + 3 * i, covered[i]);
+}
+
+void ec_screen_pixels(const ec_screen *screen, const float *rgb, const float *alpha, uint32_t stride, uint64_t first, uint64_t count, const ec_raster *to, void *out)
+{
+    showing s = {.screen = screen, .rgb = rgb, .alpha = alpha, .stride = stride, .first = first, .to = to, .out = out};
+    for (int c = 0; c < 3; c++) s.behind[c] = ec_srgb_to_linear(screen->background.rgb[c] / 255.0);
+#pragma omp parallel for schedule(static) if (count > 1 << 14)
+    for (uint64_t block = 0; block < count; block += BLOCK) {
+        const uint64_t end = count - block < BLOCK ? count : block + BLOCK;
+        if (screen->ocio) show_block(&s, block, end - block);
+        for (uint64_t i = block; !screen->ocio && i < end; i++) {
+            double light[3];
+            const double covered = light_of(&s, i, light);
+            ec_tone_curve_apply(screen->tonemap, light);
+            put_pixel(&s, i, light, covered);
+        }
     }
 }
 

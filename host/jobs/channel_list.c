@@ -36,6 +36,14 @@ uint32_t ec_channels_layers(ec_channel_set set)
     return kinds;
 }
 
+uint32_t ec_channels_mattes(ec_channel_set set)
+{
+    uint32_t kinds = 0;
+    for (uint32_t k = 0; k < EC_MATTE_KINDS; k++)
+        if (set & ec_channels_of(EC_PLANE_MATTE + k)) kinds |= 1u << k;
+    return kinds;
+}
+
 static bool is_word(const char *word, size_t size, const char *name) { return strlen(name) == size && !strncmp(word, name, size); }
 
 /* Of this name, or of this layer; none: there is no such channel. */
@@ -46,6 +54,7 @@ static ec_channel_set named(const char *word, size_t size)
     if (is_word(word, size, "default")) return ec_channels_default();
     for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++) {
         const char *name = ec_channel_rows[i].name;
+        if (ec_channel_is_matte(&ec_channel_rows[i]) && is_word(word, size, "cryptomatte")) set |= 1ull << i;
         if (is_word(word, size, name) || (size > 0 && !strncmp(name, word, size) && name[size] == '.')) set |= 1ull << i;
     }
     return set;
@@ -59,7 +68,7 @@ ec_result ec_parse_channels(const char *option, const char *text, ec_channel_set
         const ec_channel_set found = named(word, size);
         if (!found)
             return ec_usage(err, "--%s: '%.*s' is no channel; give all, default, A, samples, stderr, low95, high95, heavy, clamped, denoised, best, albedo, "
-                                 "normal, depth, direct, indirect, position, uv or one of a layer, as stderr.Y, with commas between them", option, EC_CUT(word, size < 80 ? (int)size : 80));
+                                 "normal, depth, direct, indirect, position, uv, motion, cryptomatte, CryptoObject, CryptoMaterial, CryptoAsset or one of a layer, as stderr.Y, with commas between them", option, EC_CUT(word, size < 80 ? (int)size : 80));
         *set |= found;
         word += size;
         if (!*word) return EC_OK;
@@ -70,6 +79,6 @@ uint32_t ec_channels_bytes(ec_channel_set set)
 {
     uint32_t bytes = 0;
     for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++)
-        if (set >> i & 1) bytes += ec_channel_bytes(ec_channel_rows[i].type);
+        if (set >> i & 1) bytes += ec_channel_count(&ec_channel_rows[i]) * ec_channel_bytes(ec_channel_rows[i].type);
     return bytes;
 }

@@ -33,13 +33,13 @@ static void put(ec_identity *identity, const char *name, const char *value, bool
 
 static void add(ec_identity *identity, const char *name, const char *value) { put(identity, name, value, false); }
 
-/* An environment in a file counts by its bytes, not by its name. */
-static ec_result add_environment(ec_identity *identity, const char *environment, ec_error *err)
+/* What is in a file, as an environment, counts by its bytes, not by its name. */
+static ec_result add_file(ec_identity *identity, const char *option, const char *environment, ec_error *err)
 {
     char text[96];
     if (!environment) return EC_OK;
     if (ec_is_built_in(environment) || access(environment, R_OK) != 0) {
-        add(identity, "--env", environment);
+        add(identity, option, environment);
         return EC_OK;
     }
     EC_TRY(ec_image_check_regular(environment, err));
@@ -47,7 +47,7 @@ static ec_result add_environment(ec_identity *identity, const char *environment,
     if (!hex) return ec_fail(err, "cannot read '%s'", environment);
     snprintf(text, sizeof text, "the file of SHA-256 %s", hex);
     free(hex);
-    add(identity, "--env", text);
+    add(identity, option, text);
     return EC_OK;
 }
 
@@ -60,7 +60,8 @@ ec_result ec_frames_identify(const ec_given_options *given, const ec_render_requ
     ec_content_kernels(text);
     add(identity, "kernels", text);
     add(identity, "files", files);
-    EC_TRY(add_environment(identity, request->environment, err));
+    EC_TRY(add_file(identity, "--env", request->environment, err));
+    EC_TRY(add_file(identity, "--ocio", request->ocio.config, err));
     for (int i = 0; i < given->count; i++) {
         char name[40];
         const ec_option *row = ec_render_row(given->list[i].option);

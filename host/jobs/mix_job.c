@@ -195,13 +195,19 @@ ec_result ec_mix_make(const char *path, char **gains, int count, const char *com
     return result;
 }
 
+void ec_mix_attributes(const ec_mix *mix, ec_report_attributes *attributes)
+{
+    attributes->count = 0;
+    attributes->text_used = 0;
+    EC_ATTRIBUTES(attributes, EC_STRING("eclat.command", mix->command), EC_STRING("eclat.version", ECLAT_VERSION), EC_STRING("eclat.imageSha256", mix->sha256));
+    if (isfinite(mix->error))
+        EC_ATTRIBUTES(attributes, EC_WHOLE("eclat.replicates", (uint64_t)mix->replicates), EC_REAL("eclat.error", mix->error), EC_STRING("eclat.errorBoundWhy", EC_MIX_WHY));
+}
+
 ec_result ec_mix_write(const ec_mix *mix, ec_outputs *outputs, double exposure, ec_tonemap tonemap, ec_error *err)
 {
-    ec_report_attributes attributes = {.count = 0};
-    EC_ATTRIBUTES(&attributes, EC_STRING("eclat.command", mix->command), EC_STRING("eclat.version", ECLAT_VERSION), EC_STRING("eclat.imageSha256", mix->sha256));
-    if (isfinite(mix->error))
-        EC_ATTRIBUTES(&attributes, EC_WHOLE("eclat.replicates", (uint64_t)mix->replicates), EC_REAL("eclat.error", mix->error),
-                      EC_STRING("eclat.errorBoundWhy", "errors of a mix are upper bounds, since its layers may err alike"));
+    ec_report_attributes attributes;
+    ec_mix_attributes(mix, &attributes);
     const ec_picture_style style = {.screen = {.exposure = (float)exposure, .tonemap = tonemap}, .attributes = attributes.list, .attribute_count = attributes.count};
     return ec_outputs_write(outputs, &mix->picture, &style, err);
 }

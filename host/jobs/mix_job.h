@@ -6,6 +6,8 @@
 #include "jobs/write_outputs.h"
 #include "report/attributes.h"
 
+#define EC_MIX_WHY "errors of a mix are upper bounds, since its layers may err alike"
+
 typedef struct ec_mix {
     const char *command;
     double gains[EC_LAYER_KINDS + EC_GROUPS_MOST][3]; /* of each of the picture's layers */
@@ -19,6 +21,7 @@ typedef struct ec_mix {
 /* Reads a picture and weighs its light groups, or direct and indirect light if those are named. gains: NAME=GAIN or NAME=R,G,B each; 1 of layers that
  * are not named. To be freed on failure too. */
 ec_result ec_mix_make(const char *path, char **gains, int count, const char *command, ec_mix *mix, ec_error *err);
+void ec_mix_attributes(const ec_mix *mix, ec_report_attributes *attributes);
 ec_result ec_mix_write(const ec_mix *mix, ec_outputs *outputs, double exposure, ec_tonemap tonemap, ec_error *err);
 void ec_mix_free(ec_mix *mix); /* zero-initialised is fine */
 

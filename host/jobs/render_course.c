@@ -84,6 +84,7 @@ static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
     const ec_log *log = &job->listener->log;
     char difference[1200];
     ec_identity_of(&job->request->options, &stats->content, &job->job.identity);
+    if (job->request->light_groups) ec_identity_add(&job->job.identity, "--light-groups", job->request->light_groups);
     if (!job->request->resume) {
         warn_of_older(job, log);
         return EC_OK;
@@ -91,6 +92,8 @@ static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
     if (ec_identity_differs(&job->stored.job.identity, &job->job.identity, difference, sizeof difference))
         return ec_fail(err, "cannot go on from '%s': %s; use the scene, options and version that it was made with, or start anew",
                        job->request->resume, difference);
+    if (!ec_layers_are_same(&job->film.layers, &job->request->options.layers))
+        return ec_fail(err, "cannot go on from '%s': it has not the layers of its own command; take an older file, or start anew", job->request->resume);
     if (strcmp(job->stored.job.device, job->device_text))
         ec_warn(log, "'%s' was rendered on %s: where that rounds otherwise than %s, the last bits are not those of one run",
                 job->request->resume, job->stored.job.device, job->device_text);
@@ -136,6 +139,7 @@ static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row,
     ec_render_job *job = user;
     const char *outputs[EC_OUTPUTS_MAX];
     if (first_row == 0) {
+        ec_render_job_note_choice(job, stats);
         ec_render_report report = ec_render_job_report(job, outputs);
         report.stats = stats;
         report.replicates = ec_film_replicates(film);

@@ -310,7 +310,10 @@ static ec_result find_layers(ec_render_job *job, ec_error *err)
     o->layers.group_count = job->groups.count;
     o->layers.count = (uint32_t)__builtin_popcount(o->layers.kinds) + job->groups.count;
     memcpy(o->layers.groups, job->groups.names, sizeof o->layers.groups);
-    if (o->layers.count && job->ranks) return ec_usage(err, "--channels direct, indirect, position or uv, and --light-groups, are for one process; leave them out, or mpirun");
+    EC_TRY(ec_matte_names_find(job->scene, o->layers.mattes, &job->mattes, err));
+    for (uint32_t k = 0; k < EC_MATTE_KINDS; k++) o->layers.matte_hashes[k] = job->mattes.hashes[k];
+    if ((o->layers.count || o->layers.mattes) && job->ranks)
+        return ec_usage(err, "--channels direct, indirect, position, uv, motion or cryptomatte, and --light-groups, are for one process; leave them out, or mpirun");
     return EC_OK;
 }
 
@@ -318,6 +321,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
 {
     const double start = ec_now();
     ec_denoiser found;
+    if (job->request->ocio.config) EC_TRY(ec_ocio_open(&job->request->ocio, &job->ocio, err));
     EC_TRY(ec_require_denoiser(job->request->options.denoise, &found, &job->listener->log, err));
     if (job->share) {
         take_devices(job);
@@ -334,6 +338,15 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     return check_memory(job, err);
 }
 
+void ec_render_job_note_choice(ec_render_job *job, const ec_render_stats *stats)
+{
+    ec_render_options *o = &job->rendered;
+    *o = job->request->options;
+    if (o->light_paths != EC_LIGHT_PATHS_AUTO) return;
+    o->light_paths = stats->light_paths;
+    o->adaptive &= !(o->light_paths > 0);
+}
+
 ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX])
 {
     const ec_render_request *request = job->request;
@@ -345,7 +358,7 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .camera = job->camera_text,
         .viewpoint = job->viewpoint,
         .environment = job->environment_text,
-        .options = &request->options,
+        .options = &job->rendered,
         .stats = &job->stats,
         .verbose = request->verbose,
         .device = job->devices,
@@ -358,6 +371,9 @@ ec_render_report ec_render_job_report(const ec_render_job *job, const char *outp
         .behind = request->background.kind == EC_BACKDROP_BLUR ? &job->behind : NULL,
         .has_shadow = request->ground == EC_GROUND_SHADOW,
         .shadow_error = job->shadow_error,
+        .mattes = &job->mattes,
+        .view = &request->ocio,
+        .ocio = job->ocio,
         .is_png_deep = request->png_depth != 0,
         .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
         .replicates = ec_film_replicates(&job->film),
@@ -380,10 +396,12 @@ void ec_render_job_free(ec_render_job *job)
 {
     ec_scene_free(job->scene);
     ec_light_groups_free(&job->groups);
+    ec_matte_names_free(&job->mattes);
     ec_film_destroy(&job->film);
     ec_row_writer_abort(job->rows);
     ec_stored_free(&job->stored);
     ec_given_free(&job->before);
     free(job->behind.rgb);
+    ec_ocio_close(job->ocio);
     free(job->whole_command);
 }

@@ -22,6 +22,7 @@ typedef struct ec_render_job {
     const char *command;         /* the command line */
     ec_scene *scene;             /* owned */
     ec_light_groups groups;      /* of the scene. Owned */
+    ec_matte_names mattes;       /* likewise */
     ec_ranks *ranks;             /* the other processes of an MPI job; NULL: there are none */
     ec_peers peers;            /* the same as the render has them */
     ec_frame_share *share;       /* NULL: it is the only picture of its job */
@@ -36,8 +37,10 @@ typedef struct ec_render_job {
     ec_behind behind;            /* with a blurred background. Owned */
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */
     ec_row_writer *rows;         /* owned; NULL: no strip is complete, or the picture was rendered whole */
+    ec_ocio *ocio;               /* with --ocio. Owned */
     double shadow_error;         /* with a ground that catches shadows: of its alpha (shadow.h); NaN: not known */
     ec_render_stats stats;
+    ec_render_options rendered;  /* the request's, with what was left open: ec_render_job_note_choice */
     double load_seconds;         /* until devices and scene were there */
     char camera_text[256];
     ec_viewpoint viewpoint;
@@ -91,6 +94,8 @@ ec_result ec_render_job_tell(const ec_render_job *job, const ec_render_report *r
 
 /* All of a prepared job: runs and delivers it. Where the device fails, the picture so far is written, and the job fails all the same. */
 ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err);
+/* What was left open and the render has chosen, for reports. */
+void ec_render_job_note_choice(ec_render_job *job, const ec_render_stats *stats);
 /* A report of the job so far; outputs: room for the paths. Texts are the job's. */
 ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
 

@@ -49,7 +49,7 @@ const ec_option ec_render_rows[] = {
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
     {.name = "channels", .metavar = "LIST", .set = ec_set_channels, .group = EC_GROUP_PICTURE,
      .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
-             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, or one of a layer as in stderr.Y. Slices hold all; "
+             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, motion, cryptomatte (or of it CryptoObject, CryptoMaterial, CryptoAsset), or one of a layer as in stderr.Y. Slices hold all; "
              "the last four have to be named",
      .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
     {.name = "light-groups", .metavar = "LIST", EC_STORED(TEXT, light_groups), .group = EC_GROUP_PICTURE, .integrators = PATHS,
@@ -113,6 +113,15 @@ const ec_option ec_render_rows[] = {
      .help = "write FILE: an .exr (linear, with errors: --channels), a .png, .jpg, .avif or .jxl for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
              "scene's base name, {folder} for its folder's: several scenes need one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
+    {.name = "ocio", .metavar = "CONFIG", EC_STORED(TEXT, ocio.config), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_NO_IDENTITY,
+     .help = "show pictures for the screen by a view of this OpenColorIO config, a file or a built-in one as ocio://default, in place of --tonemap; where "
+             "eclat was built with OpenColorIO"},
+    {.name = "ocio-display", .metavar = "NAME", EC_STORED(TEXT, ocio.display), .group = EC_GROUP_PICTURE,
+     .help = "display of that config", .otherwise = "the first"},
+    {.name = "ocio-space", .metavar = "NAME", EC_STORED(TEXT, ocio.space), .group = EC_GROUP_PICTURE,
+     .help = "the config's colour space of linear Rec. 709, in which pictures are", .otherwise = "found by the names that configs have for it"},
+    {.name = "ocio-view", .metavar = "NAME", EC_STORED(TEXT, ocio.view), .group = EC_GROUP_PICTURE,
+     .help = "view of that display", .otherwise = "the display's first"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
      .help = "orthographic projection; the picture is M metres high"},
     {.name = "png-depth", .metavar = "BITS", EC_CHOSEN(png_depth, ec_png_depths), .group = EC_GROUP_PICTURE,
@@ -214,11 +223,12 @@ const ec_option ec_render_rows[] = {
      .otherwise = "auto"},
     {.name = "max-depth", .metavar = "N", .set = ec_set_max_depth, .group = EC_GROUP_TRANSPORT, .integrators = TRACERS,
      .help = "maximum number of segments in a path: 1 shows emission alone, 2 adds direct light; or inf", .otherwise = "inf, ended by roulette; whitted: 10, at most 64"},
-    {.name = "light-paths", .metavar = "N", EC_RANGED(REAL, options.light_paths, 0, EC_LIGHT_PATHS_MOST), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
+    {.name = "light-paths", .metavar = "N", .set = ec_set_light_paths, .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
      .uses = EC_OPTION_INFO,
      .help = "trace N paths from the lights for each path from the camera, towards what bends or mirrors light sharply, and weigh what both find: caustics "
-             "converge many times sooner. Only with --sample mis, and without --adaptive and --clamp",
-     .otherwise = "0"},
+             "converge many times sooner; auto traces 1/16 where a first look foretells that caustics would be most of the noise, else none. Only with "
+             "--sample mis, and without --adaptive and --clamp",
+     .otherwise = "auto"},
     {.name = "guiding", EC_STORED(FLAG, options.guiding), .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,
      .help = "learn from paths from the lights where light comes from, where something bends or mirrors it sharply, and sample directions by it too (path "
              "guiding): caustics, also those seen in mirrors and through glass, converge sooner. Only with --sample mis"},

@@ -6,7 +6,7 @@
 
 void ec_render_request_start(void *request)
 {
-    *(ec_render_request *)request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF};
+    *(ec_render_request *)request = (ec_render_request){.env_strength = 1, .options.cutoff = EC_DEFAULT_CUTOFF, .options.light_paths = EC_LIGHT_PATHS_AUTO};
 }
 
 ec_channel_set ec_render_channels(const ec_render_request *r)
@@ -38,5 +38,8 @@ ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *no
     const char *adaptive = ec_identity_value(&job->identity, "--adaptive");
     if (asked.adaptive == EC_ADAPTIVE_AUTO && adaptive) request->adaptive = strcmp(adaptive, "on") ? EC_ADAPTIVE_OFF : EC_ADAPTIVE_ON;
     if (!request->checkpoint) request->checkpoint = request->resume;
-    return ec_render_request_settle(request, ec_render_rows, ec_render_row_count, given, err);
+    EC_TRY(ec_render_request_settle(request, ec_render_rows, ec_render_row_count, given, err));
+    const char *light_paths = ec_identity_value(&job->identity, "--light-paths");
+    if (light_paths && !strcmp(light_paths, "auto")) o->light_paths = EC_LIGHT_PATHS_AUTO; /* with --adaptive that is on by itself */
+    return EC_OK;
 }

@@ -67,6 +67,7 @@ typedef struct ec_render_request {
     double every;              /* seconds between two of these */
     const char *resume;        /* a checkpoint to resume; NULL: none */
     ec_tonemap tonemap;
+    ec_ocio_choice ocio;       /* in its place; config NULL: none */
     uint32_t plan_ranks;       /* say what up to so many ranks would buy, and render no picture; 0: render */
     double plan_gbit, plan_microseconds; /* what is assumed for that */
     bool quiet, verbose, json;

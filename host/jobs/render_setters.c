@@ -169,6 +169,14 @@ SETTER(grid_density)
     return EC_OK;
 }
 
+SETTER(light_paths)
+{
+    REQUEST->options.light_paths = EC_LIGHT_PATHS_AUTO;
+    if (!strcmp(value, "auto")) return EC_OK;
+    if (ec_parse_real(option, value, 0, EC_LIGHT_PATHS_MOST, &REQUEST->options.light_paths, err) == EC_OK) return EC_OK;
+    return ec_usage(err, "--%s: '%s' is neither auto nor a number from 0 to %d", option, value, EC_LIGHT_PATHS_MOST);
+}
+
 SETTER(max_depth)
 {
     if (!strcmp(value, "inf")) {

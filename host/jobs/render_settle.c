@@ -128,10 +128,19 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
     ec_render_options *o = &request->options;
     if (o->light_paths > 0 && request->adaptive == EC_ADAPTIVE_ON)
         return ec_usage(err, "--light-paths and --adaptive: light paths fall where they will, not on the pixels that are due; leave one out");
-    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && o->light_paths == 0);
+    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && !(o->light_paths > 0));
     if (o->adaptive && ec_render_replicates(o) < 2)
         return ec_usage(err, "--adaptive and --replicates 1: a single replicate does not tell where noise is; give 2 or more");
     return EC_OK;
+}
+
+/* None where light paths cannot be had. */
+static void settle_light_paths(ec_render_request *request)
+{
+    ec_render_options *o = &request->options;
+    const bool can = o->integrator == EC_INTEGRATOR_PATH && o->sample == EC_SAMPLE_MIS && !(o->clamp > 0) && !o->layers.kinds && !request->light_groups &&
+                     request->adaptive != EC_ADAPTIVE_ON;
+    if (o->light_paths == EC_LIGHT_PATHS_AUTO && !can) o->light_paths = 0;
 }
 
 /* A shadow is a part of the alpha, of the whole picture. */
@@ -191,26 +200,41 @@ static bool writes_exr(const ec_outputs *outputs) { return outputs->count == 0 |
 static ec_result settle_channels(const ec_render_request *request, ec_error *err)
 {
     if (!request->channels) return EC_OK;
-    if (request->has_slice) return ec_usage(err, "--samples and --channels: a slice holds all of them; leave --channels out");
+    if (request->has_slice && request->channels & ec_channels_all() & ~ec_channels_of(EC_PLANE_RGB))
+        return ec_usage(err, "--samples and --channels: a slice holds all of them; name none but layers, as direct, or leave --channels out");
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
 }
 
-/* Sums of the past, and what one rank sends another, have no layers. */
+/* What one rank sends another has no layers, nor have sums of the past what samples meet. */
 static ec_result settle_layers(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
     const uint32_t of_light = 1u << EC_LAYER_DIRECT | 1u << EC_LAYER_INDIRECT;
     o->layers.kinds = ec_channels_layers(request->channels);
+    o->layers.mattes = ec_channels_mattes(request->channels);
     const bool any_light = request->light_groups || (o->layers.kinds & of_light);
-    const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : "channels position or uv";
-    if (!any_light && !o->layers.kinds) return EC_OK;
-    const char *other = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
-    if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", what, other);
+    const char *what = request->light_groups ? "light-groups" : any_light ? "channels direct or indirect" : o->layers.kinds ? "channels position, uv or motion" : "channels cryptomatte";
+    if (!any_light && !o->layers.kinds && !o->layers.mattes) return EC_OK;
+    const char *keeps = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : NULL;
+    const char *other = request->snapshot ? "snapshot" : o->layers.mattes ? keeps : NULL;
+    if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", o->layers.mattes ? "channels cryptomatte" : what, other);
     if (o->clamp > 0) return ec_usage(err, "--%s and --clamp: a clamp takes light from the sum, and no layer says which; leave one out", what);
     if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths know no layers; leave one out", what);
     if (any_light && o->integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--%s belongs to --integrator path; leave it out or choose that", what);
+    if (o->layers.kinds >> EC_LAYER_MOTION & 1 && !request->choice.shutter)
+        return ec_usage(err, "--channels motion tells how far things go while the shutter is open; give --shutter A:B too");
     if (o->wave > EC_LAYER_WAVE_MOST) return ec_usage(err, "--%s: --wave can be %u at most; give fewer", what, EC_LAYER_WAVE_MOST);
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
+}
+
+/* Of a picture for the screen. */
+static ec_result settle_ocio(const ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err)
+{
+    const ec_option *curve = ec_options_find(options, count, "tonemap");
+    const ec_ocio_choice *o = &request->ocio;
+    const char *other = o->display ? "display" : o->view ? "view" : o->space ? "space" : NULL;
+    if (!o->config) return other ? ec_usage(err, "--ocio-%s belongs to --ocio CONFIG; give that too", other) : EC_OK;
+    return curve && given[curve - options] ? ec_usage(err, "--ocio and --tonemap: a view has a curve of its own; leave one out") : EC_OK;
 }
 
 /* An alpha wants a place, and a frame says of what job it is. */
@@ -247,7 +271,9 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     EC_TRY(settle_channels(request, err));
     EC_TRY(settle_layers(request, err));
     EC_TRY(settle_files(request, err));
+    EC_TRY(settle_ocio(request, options, count, given, err));
     EC_TRY(settle_adaptive(request, err));
+    settle_light_paths(request);
     EC_TRY(settle_denoise(request, err));
     EC_TRY(check_ground(request, err));
     request->capped = limits->spp == 0 && ec_render_has_limit(limits);
@@ -264,6 +290,7 @@ const char *ec_render_whole_for(const ec_render_request *r)
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
     if (r->ground == EC_GROUND_SHADOW) return "--ground=shadow"; /* two more pictures */
+    if (ec_channels_mattes(r->channels)) return "--channels cryptomatte"; /* what each pixel has met waits for the last sample */
     if (r->exposure.is_auto) return "--exposure auto"; /* by all pixels */
     if (r->checkpoint) return "--checkpoint";
     if (r->snapshot) return "--snapshot";

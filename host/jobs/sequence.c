@@ -174,6 +174,7 @@ static ec_result begin(sequence *s, ec_error *err)
     char files[65];
     EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* patterns first of all */
     EC_TRY(ec_animation_open(r->scene, &first, &s->share->animation, log, err));
+    if (r->ground != EC_GROUND_NONE) EC_TRY(ec_animation_find_span(s->share->animation, &first, err));
     ec_animation_digest(s->share->animation, files);
     EC_TRY(ec_frames_identify(s->given, r, files, &s->identity, err));
     ec_inputs inputs = {.scene = r->scene, .files = &r->environment, .file_count = 1};

@@ -19,9 +19,19 @@ ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, 
     for (int i = 0; made && i < count; i++) made = (*planes[i] = malloc(pixel_count * values[i] * sizeof(float))) != NULL;
     if (made && with_cut) made = (picture->clamped = malloc(pixel_count * 2 * sizeof(float))) != NULL;
     if (made && layers->count) made = (picture->layer_values = malloc(pixel_count * EC_LAYER_PLANES * layers->count * sizeof(float))) != NULL;
+    for (uint32_t k = 0; k < EC_MATTE_KINDS; k++)
+        if (made && layers->mattes >> k & 1) made = (picture->mattes[k] = malloc(pixel_count * EC_MATTE_FLOATS * sizeof(float))) != NULL;
     if (made) return EC_OK;
     ec_picture_free(picture);
     return ec_fail(err, "out of memory for a picture of %ux%u pixels; try a smaller --size", width, rows);
+}
+
+static void fill_mattes(ec_picture *picture, const ec_film *film, uint64_t first)
+{
+    for (uint64_t i = 0; i < (uint64_t)film->width * picture->height; i++)
+        for (uint32_t k = 0; k < EC_MATTE_KINDS; k++)
+            if (picture->mattes[k])
+                ec_matte_pixel(&film->matte, &film->layers, k, first + i, ec_film_samples(film, first + i), picture->mattes[k] + EC_MATTE_FLOATS * i);
 }
 
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows)
@@ -35,6 +45,7 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
     picture->clean = ec_film_clean_from(&film->clean, (uint64_t)first * film->width);
     picture->heavy_count = ec_film_resolve_rows(film, first, rows, &planes, picture->room);
     if (picture->layer_values) ec_film_resolve_layers(film, first, rows, picture->rgb, picture->layer_values);
+    if (film->layers.mattes) fill_mattes(picture, film, (uint64_t)first * film->width);
     for (size_t i = 0; i < pixel_count; i++) picture->constants[2 * i + 1] = 1;
 }
 
@@ -46,6 +57,8 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
     here.clean = ec_film_clean_from(&picture->clean, before);
     here.layers = picture->layers;
     if (picture->layer_values) here.layer_values = picture->layer_values + EC_LAYER_PLANES * picture->layers.count * before;
+    for (uint32_t k = 0; k < EC_MATTE_KINDS; k++)
+        if (picture->mattes[k]) here.mattes[k] = picture->mattes[k] + EC_MATTE_FLOATS * before;
     if (picture->clamped) here.clamped = picture->clamped + 2 * before;
     if (!picture->heavy) return here;
     here.stderr_rgb = picture->stderr_rgb + 3 * before;
@@ -75,6 +88,7 @@ void ec_picture_free(ec_picture *picture)
     free(picture->constants);
     free(picture->clamped);
     free(picture->layer_values);
+    for (uint32_t k = 0; k < EC_MATTE_KINDS; k++) free(picture->mattes[k]);
     free(picture->room);
     *picture = (ec_picture){0};
 }
@@ -86,6 +100,10 @@ static const float *plane_of(const ec_picture *p, ec_plane plane, uint32_t *stri
         const uint32_t layer = ec_layers_find(&p->layers, plane - EC_PLANE_LAYER);
         *stride = EC_LAYER_PLANES * p->layers.count;
         return layer && p->layer_values ? p->layer_values + EC_LAYER_PLANES * (layer - 1) : NULL;
+    }
+    if (plane >= EC_PLANE_MATTE && plane <= EC_PLANE_MATTE_END) {
+        *stride = EC_MATTE_FLOATS;
+        return p->mattes[plane - EC_PLANE_MATTE];
     }
     const struct { const float *data; uint32_t stride; } planes[] = {
         [EC_PLANE_RGB] = {p->rgb, 3},       [EC_PLANE_SAMPLES] = {p->constants, 2}, [EC_PLANE_STDERR] = {p->stderr_rgb, 3},
@@ -116,6 +134,15 @@ static void add_groups(const ec_picture *picture, ec_channel_list *channels)
         }
 }
 
+static void add_matte(const ec_channel_row *row, ec_channel_list *channels, const float *data)
+{
+    for (uint32_t i = 0; i < EC_MATTE_FLOATS; i++) {
+        char *name = channels->matte_names[row->plane - EC_PLANE_MATTE][i];
+        snprintf(name, EC_MATTE_NAME, "%s%02u.%c", row->name, i / 4, "RGBA"[i % 4]);
+        add_channel(channels, row, name, data + i, EC_MATTE_FLOATS);
+    }
+}
+
 void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
 {
     channels->count = 0;
@@ -124,7 +151,8 @@ void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
         const bool is_constant = row->plane == EC_PLANE_FEATURES && row->place == EC_PLACE_ALPHA && !picture->aov;
         uint32_t stride;
         const float *data = plane_of(picture, is_constant ? EC_PLANE_SAMPLES : row->plane, &stride);
-        if (data) add_channel(channels, row, row->name, data + (is_constant ? 1 : row->place), stride);
+        if (data && ec_channel_is_matte(row)) add_matte(row, channels, data);
+        else if (data) add_channel(channels, row, row->name, data + (is_constant ? 1 : row->place), stride);
     }
     add_groups(picture, channels);
 }

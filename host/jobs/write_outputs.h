@@ -25,6 +25,7 @@ typedef struct ec_picture {
     float *constants;  /* 2 per pixel: samples, and the alpha of a film without first-hit features; owned */
     ec_layers layers;  /* that it has beside; */
     float *layer_values; /* EC_LAYER_PLANES of each, per pixel; NULL: there are none. Owned */
+    float *mattes[EC_MATTE_KINDS]; /* EC_MATTE_FLOATS of each that is asked for, per pixel; NULL of others. Owned */
     ec_pixel *room;    /* for ec_film_resolve_rows; owned */
     const float *aov;  /* the film's: 8 per pixel, or NULL */
     ec_film_clean clean; /* the film's, or NULLs */
@@ -41,13 +42,16 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
 /* A part of it, which owns nothing: to be filled by itself. */
 ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t rows);
 
+enum { EC_MATTE_NAME = 20 };
+
 /* Its channels. No error and no first hit: no such channels. */
-enum { EC_CHANNELS_MOST = EC_CHANNEL_ROWS + EC_GROUPS_MOST * EC_GROUP_ROWS };
+enum { EC_CHANNELS_MOST = EC_CHANNEL_ROWS + EC_MATTE_KINDS * EC_MATTE_FLOATS + EC_GROUPS_MOST * EC_GROUP_ROWS };
 /* Not to be copied: names may lie in it. */
 typedef struct ec_channel_list {
     ec_channel list[EC_CHANNELS_MOST];
     const ec_channel_row *rows[EC_CHANNELS_MOST];
     char names[EC_GROUPS_MOST][EC_GROUP_ROWS][EC_GROUP_NAME + 16]; /* of light groups */
+    char matte_names[EC_MATTE_KINDS][EC_MATTE_FLOATS][EC_MATTE_NAME];
     uint32_t count;
 } ec_channel_list;
 void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels); /* all, 32-bit floats */

@@ -7,7 +7,7 @@
 
 static ec_screen screen_of(const ec_render_report *report)
 {
-    return (ec_screen){.exposure = (float)report->exposure, .tonemap = report->tonemap, .background = report->background, .behind = report->behind};
+    return (ec_screen){.exposure = (float)report->exposure, .tonemap = report->tonemap, .background = report->background, .behind = report->behind, .ocio = report->ocio};
 }
 
 /* All of it at once, with its sums. */

@@ -282,6 +282,8 @@ static void blank_band(ec_row_writer *w, uint32_t rows, const float *no_features
     memset(b->constants, 0, pixels * 8);
     if (b->clamped) memset(b->clamped, 0, pixels * 8);
     if (b->layer_values) memset(b->layer_values, 0, pixels * 4 * EC_LAYER_PLANES * b->layers.count);
+    for (uint32_t k = 0; k < EC_MATTE_KINDS; k++)
+        if (b->mattes[k]) memset(b->mattes[k], 0, pixels * 4 * EC_MATTE_FLOATS);
     if (!b->heavy) return;
     memset(b->stderr_rgb, 0, pixels * 12);
     memset(b->stderr_y, 0, pixels * 4);

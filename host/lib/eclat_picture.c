@@ -1,11 +1,16 @@
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "lib/internal.h"
 #include "report/error_text.h"
 
-static const ec_picture *planes_of(const eclat_picture *p) { return p->planes.rgb ? &p->planes : &p->call.merged.picture; }
+static const ec_picture *planes_of(const eclat_picture *p)
+{
+    const ec_call *call = &p->call;
+    return p->planes.rgb ? &p->planes : call->merged.picture.rgb ? &call->merged.picture : &call->mix.picture;
+}
 
 static ec_result take_render(eclat_picture *p, ec_error *err)
 {
@@ -36,12 +41,26 @@ static void take_merged(eclat_picture *p)
     p->replicates = ec_film_replicates(&m->slices.all.film);
 }
 
+static void take_mix(eclat_picture *p)
+{
+    const ec_mix *m = &p->call.mix;
+    const uint64_t pixels = (uint64_t)m->picture.width * m->picture.height;
+    ec_mix_attributes(m, &p->attributes);
+    p->error = (ec_film_error){.mean_luminance = m->mean_luminance, .error = m->error, .error_bound = INFINITY};
+    for (uint64_t i = 0; i < pixels; i++) p->samples_per_pixel += (double)m->picture.constants[2 * i];
+    p->samples_per_pixel /= (double)pixels;
+    p->replicates = (uint32_t)m->replicates;
+    snprintf(p->why, sizeof p->why, "%s", EC_MIX_WHY);
+}
+
 ec_result ec_lib_picture_finish(eclat_picture *p, ec_error *err)
 {
-    if (p->call.merged.picture.rgb) take_merged(p);
+    const bool is_mix = p->call.mix.picture.rgb != NULL;
+    if (is_mix) take_mix(p);
+    else if (p->call.merged.picture.rgb) take_merged(p);
     else EC_TRY(take_render(p, err));
     ec_picture_channels(planes_of(p), &p->channels);
-    ec_error_why(&p->error, p->why, sizeof p->why);
+    if (!is_mix) ec_error_why(&p->error, p->why, sizeof p->why);
     p->call.listener = p->call.render.listener = NULL; /* it ends here */
     return EC_OK;
 }

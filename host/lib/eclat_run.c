@@ -50,7 +50,7 @@ static ec_result run(eclat_job *job, eclat_picture *p, const ec_listener *listen
 static bool has_picture(const ec_call *call, ec_result result)
 {
     const bool has_film = call->render.film.batch_count && call->render.stats.samples;
-    return call->wants_picture && (has_film || (result == EC_OK && call->merged.picture.rgb));
+    return call->wants_picture && (has_film || (result == EC_OK && (call->merged.picture.rgb || call->mix.picture.rgb)));
 }
 
 eclat_result eclat_job_run(eclat_job *job, eclat_picture **picture, eclat_error *err)

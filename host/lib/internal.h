@@ -23,7 +23,7 @@ struct eclat_job {
     bool says_no;
 };
 
-/* A picture is rendered or merged. */
+/* A picture is rendered, merged or mixed. */
 struct eclat_picture {
     ec_call call;             /* that made it, with what it left */
     char *line;               /* the command that makes the same; owned */
@@ -61,7 +61,7 @@ ec_listener ec_lib_listener(ec_lib_ear *ear);
 /* Runs the command "view". */
 ec_result ec_lib_view(eclat_job *job, const ec_call *call, ec_error *err);
 
-/* Takes planes, channels, attributes and error from what was rendered or merged. */
+/* Takes planes, channels, attributes and error from what was rendered, merged or mixed. */
 ec_result ec_lib_picture_finish(eclat_picture *picture, ec_error *err);
 
 #endif

@@ -16,8 +16,8 @@
 #define SCENE_SHARE 0.2f    /* of light paths, to the scene as a whole where that is asked for */
 #define WORTH_SPLITTING 0.7 /* two spheres for one, where they are so much smaller together */
 
-/* Does it bend light, or mirror most of it, within a narrow lobe? Panes bend none. */
-static bool casts(const ec_scene *scene, const ec_material *m)
+/* Panes bend none. */
+bool ec_material_casts(const ec_scene *scene, const ec_material *m)
 {
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
@@ -28,7 +28,17 @@ static bool casts(const ec_scene *scene, const ec_material *m)
 bool ec_scene_casts(const ec_scene *scene)
 {
     for (uint32_t t = 0; t < scene->triangle_count; t++)
-        if (casts(scene, &scene->materials[scene->triangle_material[t]])) return true;
+        if (ec_material_casts(scene, &scene->materials[scene->triangle_material[t]])) return true;
+    return false;
+}
+
+bool ec_scene_scatters(const ec_scene *scene)
+{
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        const ec_material *m = &scene->materials[scene->triangle_material[t]];
+        for (int k = 0; k < 3 && !m->unlit && (ec_refracts(m) || ec_bounds(m)); k++)
+            if (m->scatter[k] > 0 && m->absorption[k] > 0) return true;
+    }
     return false;
 }
 
@@ -69,7 +79,7 @@ static ec_result find_boxes(const ec_scene *s, boxes *all, ec_error *err)
     for (uint32_t i = 0; i < s->placed_count; i++) most += s->shapes[s->placed[i].shape].count;
     all->list = malloc((most + 1) * sizeof *all->list);
     if (!is || !all->list) return ec_fail(err, "out of memory for %zu triangles", most);
-    for (uint32_t m = 0; m < s->material_count; m++) is[m] = casts(s, &s->materials[m]);
+    for (uint32_t m = 0; m < s->material_count; m++) is[m] = ec_material_casts(s, &s->materials[m]);
     for (uint32_t t = 0; t < ec_scene_flat_count(s); t++)
         if (is[s->triangle_material[t]]) add_triangle(s, t, NULL, all);
     for (uint32_t i = 0; i < s->placed_count; i++) {

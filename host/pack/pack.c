@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "pack/coplanar.h"
 #include "scene/material_fields.h"
 
 static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
@@ -109,6 +110,7 @@ ec_result ec_pack_scene(const ec_scene *all, ec_pack *pack, ec_error *err)
     if (result == EC_OK) result = pack_materials(scene, pack, err);
     if (result == EC_OK) result = ec_pack_places(scene, pack, err);
     if (result == EC_OK) result = ec_pack_motion(scene, pack, err);
+    if (result == EC_OK) result = ec_pack_coplanar(scene, pack, err);
     if (result == EC_OK) result = ec_bodies_rank(scene, &pack->bodies, err);
     if (result == EC_OK) pack_bodies(scene, pack);
     if (result == EC_OK) result = ec_pack_lights(scene, pack, err);
@@ -125,6 +127,7 @@ void ec_pack_free(ec_pack *pack)
     free(pack->texels);
     free(pack->places);
     free(pack->motion);
+    free(pack->coplanar);
     free(pack->lights);
     free(pack->light_source);
     free(pack->light_shares);

@@ -38,6 +38,8 @@ typedef struct ec_pack {
     uint32_t *places;              /* of instances: ec_place_header and what it says; NULL: there are none */
     uint64_t motion_words;
     uint32_t *motion;              /* keys of what moves (EC_MOTION_* in shared/scene_buffers.h); NULL: nothing does */
+    uint64_t coplanar_words;
+    uint32_t *coplanar;            /* faces that lie on one another (kernels/lib/coplanar.h); NULL: none do */
     bool lamps_move;               /* triangles, points or spots among the lights */
     uint32_t light_count;          /* only lights of positive power */
     ec_light_data *lights;
@@ -117,8 +119,11 @@ bool ec_pack_wants_light_tree(const ec_pack *pack);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 
-/* Does anything bend light, or mirror most of it, within a narrow lobe? */
+/* Does a material, or anything, bend light, or mirror most of it, within a narrow lobe? */
+bool ec_material_casts(const ec_scene *scene, const ec_material *material);
 bool ec_scene_casts(const ec_scene *scene);
+/* Is light scattered inside any of its bodies? */
+bool ec_scene_scatters(const ec_scene *scene);
 /* Finds casters, and which lights shine on them; before there is a light tree. with_scene: a sphere about the scene is one too, if there are
  * others. */
 ec_result ec_pack_casters(ec_pack *pack, bool with_scene, ec_error *err);

@@ -68,14 +68,16 @@ static uint32_t start_rays(const ec_rare_lights *all, const ec_params *params, e
 static void add_kind(const ec_rare_lights *all, const ec_rare_light *light, uint32_t material, double share, ec_rare *rare)
 {
     ec_rare_kind *kind = ec_rare_make_room(rare, INFINITY);
-    *kind = (ec_rare_kind){.chance = CHANCE, .luminance = share / (1 - fmin(share, 0.9)), .is_relative = true, .clamped = 1, .gathered = 1, .peak = 1};
+    *kind = (ec_rare_kind){.chance = CHANCE, .luminance = share / (1 - fmin(share, 0.9)), .is_relative = true, .clamped = 1, .caustic = all->casts[material],
+                            .gathered = 1, .peak = 1};
     memset(kind->share, 255, sizeof kind->share);
     snprintf(kind->through, sizeof kind->through, "%s", all->materials[material]);
     memcpy(kind->light, light->name, sizeof kind->light);
 }
 
-/* Adds a kind for each material that sends on much of a light's rays, and that paths hardly met. */
-static void judge_light(const ec_rare_lights *all, const ec_chains *chains, const ec_rare_light *light, const ec_chain *rays, double *shares, ec_rare *rare)
+/* Adds a kind for each material that sends on much of a light's rays, and that paths hardly met: light paths do, where they are aimed at it. */
+static void judge_light(const ec_rare_lights *all, const ec_chains *chains, const ec_rare_light *light, const ec_chain *rays, bool has_light_paths,
+                        double *shares, ec_rare *rare)
 {
     memset(shares, 0, all->material_count * sizeof *shares);
     for (int k = 0; k < RAYS; k++) {
@@ -84,7 +86,7 @@ static void judge_light(const ec_rare_lights *all, const ec_chains *chains, cons
         shares[m] += all->sharp[m] * light->power / all->power / RAYS;
     }
     for (uint32_t m = 0; m < all->material_count; m++)
-        if (shares[m] >= EC_BLIND_SHARE && chains->visits[m] < EC_BLIND_VISITS) add_kind(all, light, m, shares[m], rare);
+        if (shares[m] >= EC_BLIND_SHARE && chains->visits[m] < EC_BLIND_VISITS && !(has_light_paths && all->casts[m])) add_kind(all, light, m, shares[m], rare);
 }
 
 ec_result ec_rare_blind_find(const ec_rare_lights *all, const ec_chains *chains, ec_pipeline *p, ec_rare *rare, ec_error *err)
@@ -101,7 +103,7 @@ ec_result ec_rare_blind_find(const ec_rare_lights *all, const ec_chains *chains,
     const ec_chain *own = rays;
     for (uint32_t i = 0; result == EC_OK && i < all->count; i++) {
         if (ec_rare_light_is_all_around(&all->lights[i])) continue;
-        judge_light(all, chains, &all->lights[i], own, shares, rare);
+        judge_light(all, chains, &all->lights[i], own, p->params.light_paths > 0, shares, rare);
         own += RAYS;
     }
     free(rays);

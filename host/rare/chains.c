@@ -8,6 +8,7 @@
 #include "device/adaptive.h"
 
 enum { LANES_MOST = 64 }; /* more than any work-item has */
+enum { WIDE = 1, WIDE_AT_FIRST = 2 };
 #define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
 
 /* The paths of a wave, as the host sees them between two kernels. */
@@ -19,7 +20,7 @@ typedef struct tracer {
     uint32_t *list;               /* of all paths, EC_LIST_WORDS each */
     uint32_t *at;                 /* by slot: the path's entry in the queue, or UINT32_MAX */
     int64_t *last;                /* by slot: its chain that waits to know where it ended, or -1 */
-    uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp? */
+    uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp, and the first one so? */
     uint32_t stride;              /* entries of the queue that this wave's paths can be in */
     float *queue, *hits;          /* fields of the device's, `stride` entries each */
     cl_mem pixels;
@@ -69,12 +70,13 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segmen
 {
     const float pdf = word(t, t->queue, EC_PATH_PDF, entry);
     const bool is_direct = !t->wide[slot] && (pdf < 0 || pdf > EC_CHAIN_SHARP);
-    if (!is_direct) t->wide[slot] = 1;
+    if (!is_direct) t->wide[slot] |= segment == 1 ? WIDE | WIDE_AT_FIRST : WIDE;
     if (t->found->count == t->room || !is_chain(&t->p->params, pdf)) return;
     ec_chain *c = &t->found->chains[t->last[slot] = t->found->count++];
     set_segment(t, slot, entry, segment, c);
     c->pdf = pdf > EC_CHAIN_SHARP ? pdf : INFINITY;
     c->is_direct = is_direct;
+    c->is_caustic = (t->wide[slot] & WIDE_AT_FIRST) && segment > 1 && t->lights->casts[ec_rare_material_of(t->lights, c->prim)];
 }
 
 /* Where a surface has one direction, no light is sampled. */

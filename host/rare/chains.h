@@ -19,6 +19,7 @@ typedef struct ec_chain {
     uint32_t place;                /* its pixel, in row order */
     uint32_t segment;              /* of its path: 0 is the camera's */
     bool is_direct;                /* no segment before it left in a wider direction: the pixel sees through it as by way of mirrors */
+    bool is_caustic;               /* it leaves what light paths are aimed at, and the pixel sees what it falls on, to which they can be joined */
 } ec_chain;
 
 typedef struct ec_chains {

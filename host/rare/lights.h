@@ -44,6 +44,7 @@ typedef struct ec_rare_lights {
     double power;                    /* of all lights of the scene */
     float radius;                    /* of a sphere around the scene */
     float *sharp;                    /* by material: share of light that it sends on in a narrow lobe, head-on, if its factors say so */
+    bool *casts;                     /* by material: are light paths aimed at it, where they are traced? */
     ec_rare_light *lights;           /* owned, as all here; NULL: nothing in the scene is small */
     uint32_t *triangle_material;     /* by triangle's id as stored */
     uint32_t stored_count, material_count;

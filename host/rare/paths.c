@@ -37,7 +37,7 @@ typedef struct selection {
 
 /* Sums over the chains of a kind. */
 typedef struct sums {
-    double chance, luminance, clamped, share[EC_RARE_SHARES];
+    double chance, luminance, clamped, caustic, share[EC_RARE_SHARES];
     double *through; /* by material; the last one: the camera's */
 } sums;
 
@@ -111,6 +111,7 @@ static void add_chains(const ec_rare_lights *all, const beside *near, uint32_t c
         s->chance += weight * fmin(fmax(own, lobe) / cap, 1);
         s->luminance += bright;
         if (c->segment >= EC_DIRECT_SEGMENTS) s->clamped += bright;
+        if (c->is_caustic) s->caustic += bright;
         s->share[ec_rare_tile(rare, c->place % rare->width, c->place / rare->width)] += bright;
         s->through[c->prim == EC_NO_ID ? all->material_count : ec_rare_material_of(all, c->prim)] += bright;
     }
@@ -184,16 +185,19 @@ static int kind_of(const ec_chain *c)
     return (isinf(c->pdf) ? 0 : c->pdf > 2048 ? 1 : 2) + (c->is_direct ? 3 : 0);
 }
 
+/* What light paths bring is not rare. */
+static bool is_of(const ec_chain *c, int kind, bool has_light_paths) { return kind_of(c) == kind && !(has_light_paths && c->is_caustic); }
+
 /* One of every so many, any: paths come in the order of pixels. */
-static void select_chains(const ec_chains *chains, int kind, uint32_t most, selection *of)
+static void select_chains(const ec_chains *chains, int kind, bool has_light_paths, uint32_t most, selection *of)
 {
     uint32_t found = 0, seen = 0, next = 0;
-    for (uint32_t i = 0; i < chains->count; i++) found += kind_of(&chains->chains[i]) == kind;
+    for (uint32_t i = 0; i < chains->count; i++) found += is_of(&chains->chains[i], kind, has_light_paths);
     const uint32_t stride = (found + most - 1) / most;
     uint64_t random = 1;
     of->count = 0;
     for (uint32_t i = 0; i < chains->count; i++) {
-        if (kind_of(&chains->chains[i]) != kind) continue;
+        if (!is_of(&chains->chains[i], kind, has_light_paths)) continue;
         if (seen % stride == 0) next = seen + (uint32_t)(ec_random_unit(&random) * stride);
         if (seen++ == next) of->chains[of->count++] = &chains->chains[i];
     }
@@ -226,7 +230,8 @@ static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, con
     uint32_t sum = 0;
     double most = 0;
     if (!kind) return;
-    *kind = (ec_rare_kind){.chance = s->chance, .luminance = s->luminance, .clamped = s->clamped / s->luminance, .gathered = spread};
+    *kind = (ec_rare_kind){.chance = s->chance, .luminance = s->luminance, .clamped = s->clamped / s->luminance, .caustic = s->caustic / s->luminance,
+                            .gathered = spread};
     for (int i = 0; i < EC_RARE_SHARES; i++) most = fmax(most, s->share[i]);
     for (int i = 0; i < EC_RARE_SHARES; i++) sum += kind->share[i] = (uint8_t)ceil(255 * (s->share[i] / most));
     kind->peak = 255.0 * EC_RARE_SHARES / sum;
@@ -266,7 +271,7 @@ ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, e
     for (uint32_t i = 0; i < all->count; i++) compared += all->lights[i].lamp_count ? all->lights[i].lamp_count : 1;
     const uint32_t most = COMPARED / compared > LEAST ? COMPARED / compared : LEAST;
     for (int k = 0; result == EC_OK && k < ALIKE; k++) {
-        select_chains(chains, k, most, &of);
+        select_chains(chains, k, p->params.light_paths > 0, most, &of);
         result = add_kind(all, &of, k >= 3, p, through, rare, err);
     }
     free(of.chains);

@@ -1,7 +1,7 @@
-/* The clamp's limit: so many times the picture's mean luminance, as a pilot finds it before the picture's first sample.
+/* The picture's mean luminance, as a pilot finds it before the picture's first sample; and the clamp's limit, so many times that.
  *
  * The pilot's samples are spread over the picture, always the same ones, and none of the picture's own: whoever renders a part of a job, with
- * however many devices, finds the same limit. Its mean is the median of the means of 32 groups, since one bright path in one of them must not
+ * however many devices, finds the same. Its mean is the median of the means of 32 groups, since one bright path in one of them must not
  * decide what a bright path is; and it is rounded to a quarter of a power of two, so that devices whose last bits differ agree. */
 #include <math.h>
 #include <stdlib.h>
@@ -9,14 +9,14 @@
 #include "device/adaptive.h"
 #include "render/render_state.h"
 
-enum { PILOT = 1 << 16, GROUPS = 32 };
+enum { PILOT = 1 << 16 /* samples, of the clamp's */, GROUPS = 32 };
 #define PILOT_FIRST (1u << 31) /* number of its first sample in a replicate: no picture has so many (EC_MAX_SPP) */
 
 /* Entry i of the pilot: a pixel, and which sample of it. Small pictures have several of each pixel, one after the other, so that all groups
  * have some of them. */
-static void write_entry(uint64_t i, uint64_t pixels, uint32_t *entry)
+static void write_entry(uint64_t i, uint32_t samples, uint64_t pixels, uint32_t *entry)
 {
-    entry[0] = (uint32_t)(i * pixels / PILOT);
+    entry[0] = (uint32_t)(i * pixels / samples);
     entry[1] = PILOT_FIRST + (uint32_t)i;
 }
 
@@ -27,11 +27,11 @@ static bool goes_on(void *user, uint32_t done)
 }
 
 /* Entries [first, first + count) of the pilot into the groups' sums. */
-static ec_result take(ec_render_state *r, uint32_t first, uint32_t count, uint32_t *list, double sums[GROUPS], ec_error *err)
+static ec_result take(ec_render_state *r, uint32_t samples, uint32_t first, uint32_t count, uint32_t *list, double sums[GROUPS], ec_error *err)
 {
     const uint64_t pixels = (uint64_t)r->options->width * r->options->height;
     bool complete;
-    for (uint32_t i = 0; i < count; i++) write_entry(first + i, pixels, list + EC_LIST_WORDS * i);
+    for (uint32_t i = 0; i < count; i++) write_entry(first + i, samples, pixels, list + EC_LIST_WORDS * i);
     const ec_batch_order order = {.index = r->past.next, .end = r->past.next + 1, .batches = 1, .list = list, .samples = 1, .count = count,
                                   .go_on = goes_on};
     EC_TRY(r->source->take(r->source, &order, &complete, err));
@@ -50,13 +50,13 @@ static int compare(const void *a, const void *b)
 }
 
 /* Where most groups have met no light, the mean of all has to do. */
-static double middle(double sums[GROUPS])
+static double middle(double sums[GROUPS], uint32_t samples)
 {
     double all = 0;
     qsort(sums, GROUPS, sizeof *sums, compare);
     for (int i = 0; i < GROUPS; i++) all += sums[i] / GROUPS;
     const double median = 0.5 * (sums[GROUPS / 2 - 1] + sums[GROUPS / 2]);
-    return (median > 0 ? median : all) / (PILOT / GROUPS);
+    return (median > 0 ? median : all) / (samples / GROUPS);
 }
 
 /* The nearest quarter of a power of two, in logarithms. */
@@ -74,27 +74,33 @@ static void forget_pilot(ec_render_state *r)
     for (int i = 0; i < EC_STAGE_COUNT; i++) r->invalid_before[i] -= r->source->invalid[i];
 }
 
-static ec_result take_pilot(ec_render_state *r, uint64_t room, double *mean, ec_error *err)
+static ec_result take_pilot(ec_render_state *r, uint32_t samples, uint64_t room, double *mean, ec_error *err)
 {
     double sums[GROUPS] = {0};
     uint32_t *list = malloc(room * EC_LIST_WORDS * sizeof *list);
-    ec_result result = list ? EC_OK : ec_fail(err, "out of memory for the pilot of --clamp");
-    for (uint32_t first = 0; result == EC_OK && first < PILOT; first += (uint32_t)room)
-        result = take(r, first, (uint32_t)(PILOT - first < room ? PILOT - first : room), list, sums, err);
+    ec_result result = list ? EC_OK : ec_fail(err, "out of memory for a pilot");
+    for (uint32_t first = 0; result == EC_OK && first < samples; first += (uint32_t)room)
+        result = take(r, samples, first, (uint32_t)(samples - first < room ? samples - first : room), list, sums, err);
     free(list);
-    *mean = middle(sums);
+    *mean = middle(sums, samples);
     return result;
+}
+
+ec_result ec_render_pilot_mean(ec_render_state *r, uint32_t samples, uint32_t rows, double *mean, ec_error *err)
+{
+    const uint64_t positions = ec_order_positions((uint64_t)r->options->width * rows, r->replicates);
+    EC_TRY(take_pilot(r, samples, positions < samples ? positions : samples, mean, err));
+    forget_pilot(r);
+    return EC_OK;
 }
 
 ec_result ec_render_find_limit(ec_render_state *r, uint32_t rows, const ec_log *log, ec_error *err)
 {
     const ec_render_options *o = r->options;
-    const uint64_t positions = ec_order_positions((uint64_t)o->width * rows, r->replicates);
     double mean;
     if (o->clamp > 0 && o->clamp_luminance > 0) r->limit = (float)o->clamp_luminance;
     if (o->clamp > 0 && !(r->limit > 0)) {
-        EC_TRY(take_pilot(r, positions < PILOT ? positions : PILOT, &mean, err));
-        forget_pilot(r);
+        EC_TRY(ec_render_pilot_mean(r, PILOT, rows, &mean, err));
         if (mean > 0) r->limit = (float)(o->clamp * rounded(mean));
         else ec_note(log, "--clamp: the picture's pilot is black, so that there is no mean luminance to go by and nothing is limited");
     }

@@ -29,6 +29,12 @@ static ec_result note_unneeded(const ec_scene *scene, uint64_t without, const ec
     return EC_OK;
 }
 
+static void count_from(ec_render_state *r, const ec_past *past)
+{
+    r->rays_before = past ? past->rays : 0;
+    for (int i = 0; i < EC_STAGE_COUNT; i++) r->invalid_before[i] = past ? past->invalid[i] : 0;
+}
+
 /* Film and figures of the course's past, or of none. */
 static void take_up(ec_render_state *r, const ec_past *past)
 {
@@ -37,8 +43,7 @@ static void take_up(ec_render_state *r, const ec_past *past)
     if (!past) return;
     r->past = *past;
     r->past.allotment.weight = NULL;
-    r->rays_before = past->rays;
-    memcpy(r->invalid_before, past->invalid, sizeof r->invalid_before);
+    count_from(r, past);
     r->kept_next = r->course->past_is_kept ? past->next : UINT32_MAX; /* of which there is no batch: all is new */
     r->kept_under_way = past->under_way;
 }
@@ -83,13 +88,11 @@ static uint32_t largest_batch(const ec_render_state *r)
     return is_known ? ec_schedule_batch(r->replicates, r->end ? r->end - (r->cut == 0) : 0).samples : EC_BATCH_MOST;
 }
 
-/* Several devices begin to work as they are loaded: their look is before that. */
-static ec_result open_sources(ec_render_state *r, const ec_log *log, ec_error *err)
+static ec_result open_sources(ec_render_state *r, const ec_peers *peers, const ec_log *log, ec_error *err)
 {
     if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same ways whatever the sample */
         EC_TRY(ec_rare_lights_find(&r->sources.cargo.pack, &r->lights, err));
-    EC_TRY(ec_sources_open(&r->sources, r->options->seed, r->course->peers, log, &r->source, r->stats, err));
-    return ec_sources_alone(&r->sources) ? EC_OK : ec_render_foretell(r, err);
+    return ec_sources_open(&r->sources, r->options->seed, peers, log, &r->source, r->stats, err);
 }
 
 /* Who leaves it out. */
@@ -100,24 +103,74 @@ static void tell_scattering(const ec_render_options *o, const ec_log *log)
     if (o->light_paths > 0) ec_note(log, "--light-paths: none are sent, since light paths do not scatter inside bodies, as light does in this scene");
 }
 
+/* The scene is what the course expects. */
+static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
+{
+    const ec_past *past = r->course->past;
+    const ec_cargo_head *head = &r->sources.cargo.head;
+    if (head->bodies_too_many)
+        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
+                head->bodies_too_many, EC_BODIES_MOST);
+    if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(head->effects.called.bits & EC_FEATURE_MULTISCATTER))
+        ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
+    if (head->effects.called.bits & EC_FEATURE_SCATTERING) tell_scattering(r->options, log);
+    if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
+    return past && past->allotment.weight ? ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err) : EC_OK;
+}
+
+/* What was loaded to judge by is given up. */
+static void begin_again(ec_render_state *r)
+{
+    ec_render_stats closed = {0};
+    ec_rare_lights_free(&r->lights);
+    ec_sources_close(&r->sources, &closed);
+    r->sources = (ec_sources){.count = 0};
+    r->is_foretold = false;
+    count_from(r, r->course->past);
+}
+
+/* With light paths all pixels are due as many samples. */
+static void choose_light_paths(ec_render_state *r)
+{
+    r->chosen = *r->options;
+    r->chosen.light_paths = EC_LIGHT_PATHS_FEW;
+    r->chosen.adaptive = false;
+    r->options = &r->chosen;
+}
+
+/* What is open is judged by the first device alone, which goes on with what is loaded where it renders alone and nothing changes. Several begin to
+ * work as they are loaded: their look is before that. */
+static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const ec_scene *scene, const ec_log *log, ec_error *err)
+{
+    const ec_peers *peers = r->course->peers;
+    const bool is_judged = ec_render_may_have_caustics(r->options, scene), is_alone = count == 1 && !peers;
+    const uint32_t first = is_judged ? 1 : count;
+    bool pays = false;
+    EC_TRY(ec_sources_pack(devices, first, peers != NULL && !is_judged, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
+    r->params = r->sources.cargo.head.params;
+    EC_TRY(admit(r, log, err));
+    EC_TRY(open_sources(r, is_judged ? NULL : peers, log, err));
+    if (is_judged) EC_TRY(ec_render_judge_caustics(r, &pays, log, err));
+    if (pays) choose_light_paths(r);
+    if (is_judged && (pays || !is_alone)) {
+        const ec_render_stats before = *r->stats;
+        begin_again(r);
+        EC_TRY(ec_sources_pack(devices, count, peers != NULL, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
+        r->params = r->sources.cargo.head.params;
+        EC_TRY(open_sources(r, peers, log, err));
+        r->stats->pack_seconds += before.pack_seconds;
+        r->stats->kernel_seconds += before.kernel_seconds;
+    }
+    return ec_sources_alone(&r->sources) ? EC_OK : ec_render_foretell(r, err);
+}
+
 static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene,
                         const ec_log *log, ec_error *err)
 {
     const ec_past *past = r->course->past;
-    const ec_cargo_head *head = &r->sources.cargo.head;
     take_up(r, past);
-    EC_TRY(ec_sources_pack(devices, device_count, r->course->peers != NULL, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
-    r->params = head->params;
-    const uint64_t called = head->effects.called.bits; /* the cargo is spent when it is loaded */
-    if (head->bodies_too_many)
-        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
-                head->bodies_too_many, EC_BODIES_MOST);
-    if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(called & EC_FEATURE_MULTISCATTER))
-        ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
-    if (called & EC_FEATURE_SCATTERING) tell_scattering(r->options, log);
-    if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
-    if (past && past->allotment.weight) EC_TRY(ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err));
-    EC_TRY(open_sources(r, log, err));
+    EC_TRY(load(r, devices, device_count, scene, log, err));
+    r->stats->light_paths = fmax(r->options->light_paths, 0);
     if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);
     EC_TRY(choose_film(r, log, err));
     if (past) r->limit = r->film->limit;
@@ -139,10 +192,12 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     *stats = (ec_render_stats){.strips = 1};
     EC_TRY(check_ends(options, err));
     EC_TRY(note_unneeded(scene, options->without, log, err));
-    ec_render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now()};
+    ec_render_state r = {.options = options, .course = course, .progress = progress, .user = user, .film = film, .stats = stats, .start = ec_now(),
+                         .matte_lock = PTHREAD_MUTEX_INITIALIZER};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.replicates = ec_render_replicates(options);
     r.feature_batches = options->hides_environment ? UINT32_MAX /* of alpha as of colour */ : options->denoise ? EC_FEATURE_STRIDES * r.replicates : r.replicates;
+    r.matte.lock = &r.matte_lock;
     r.goal.pixels = (double)options->width * options->height;
     r.goal.replicates = r.replicates;
     choose_end(&r);
@@ -161,6 +216,8 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
     free(r.aov);
     free(r.layers);
     free(r.layer);
+    free(r.matte.entries);
+    pthread_mutex_destroy(&r.matte_lock);
     ec_rare_lights_free(&r.lights);
     ec_sources_close(&r.sources, stats);
     return result;

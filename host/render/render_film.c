@@ -23,12 +23,12 @@ static bool wants_features(const ec_render_state *r)
     return r->past.next < r->feature_batches && r->film->aov_batches == r->past.next && !r->past.allotment.weight;
 }
 
-/* Hands over what there is; of a batch that is under way too, but not of its features, nor of a pass that
+/* Hands over what there is; of a batch that is under way too, but not of its features and layers, nor of a pass that
  * is larger than the picture. A batch that is cut short cannot be gone on from: what
  * is kept ends before it. */
 static void keep(ec_render_state *r, uint32_t under_way)
 {
-    if (wants_features(r) || r->order.count > ec_render_film_pixels(r)) under_way = 0;
+    if (wants_features(r) || r->order.count > ec_render_film_pixels(r) || r->film->layers.count) under_way = 0;
     const bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way;
     if (!r->course->keep || !is_new || !(r->film->batch_count || under_way) || r->film->unsampled || r->film->cut) return;
     ec_past now = r->past;
@@ -101,7 +101,7 @@ static uint32_t known_end(const ec_render_state *r)
 {
     const uint32_t next = r->past.next;
     uint32_t end = next < r->end ? r->end : next + 1;
-    if (r->past.allotment.weight || wants_features(r) || r->film->layers.count) return next + 1;
+    if (r->past.allotment.weight || wants_features(r) || r->film->layers.count || r->film->layers.mattes) return next + 1;
     while (r->options->adaptive && !r->past.allotted && end > next + 1 && ec_schedule_has_pilot(r->replicates, end - 1)) {
         const uint32_t pilot = (uint32_t)ec_schedule_round(r->replicates, next);
         if (ec_schedule_has_pilot(r->replicates, pilot) || pilot >= end) return pilot < end ? pilot : end;
@@ -155,6 +155,7 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     EC_TRY(make_room_for_layers(r, err));
     r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r),
                                 .with_features = wants_features(r), .aov = r->aov, .layers = r->layers,
+                                .matte = r->film->layers.mattes ? &r->matte : NULL,
                                 .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
                                 .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY,
                                 .go_on = goes_on, .user = r};
@@ -162,6 +163,7 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
         const ec_pass pass = ec_allotment_pass(a, r->film, samples_left(r));
         r->order.count = pass.count, r->order.samples = pass.samples, r->order.list = a->list, r->order.cut = 0;
     }
+    r->matte.count = 0;
     r->order.done = gone_on_from(r);
     if (r->order.done) r->order.before = r->past.batch;
     r->past.under_way = 0;
@@ -192,6 +194,12 @@ static uint64_t clear_unreached(float *mean, float *features, float *layers, uin
     return missing;
 }
 
+static ec_result add_matte(ec_render_state *r, ec_error *err)
+{
+    if (!r->film->layers.mattes) return EC_OK;
+    return ec_matte_take(&r->film->matte, &r->matte, r->order.list ? r->past.allotment.places : NULL, err);
+}
+
 /* A first batch that was given up is the picture, since there is no other. */
 static ec_result add_begun(ec_render_state *r, ec_error *err)
 {
@@ -206,6 +214,7 @@ static ec_result add_begun(ec_render_state *r, ec_error *err)
         ec_film_layer_batch(r->film, k, r->layers, reached, r->layer);
         EC_TRY(ec_film_add_begun(&r->film->layer_films[k], r->layer, reached, err));
     }
+    EC_TRY(add_matte(r, err));
     return ec_film_add_begun(r->film, r->source->mean, reached, err);
 }
 
@@ -247,6 +256,7 @@ static ec_result add_whole(ec_render_state *r, ec_error *err)
     if (r->order.with_features) EC_TRY(add_features(r, err));
     if (r->order.cut) keep(r, 0);
     EC_TRY(add_layers(r, err));
+    EC_TRY(add_matte(r, err));
     return r->source->batches > 1 ? add_block(r, err) : add_to(r, r->film, r->source->mean, err);
 }
 

@@ -13,6 +13,7 @@ typedef struct ec_render_state {
     ec_batch_source *source;
     ec_params params;          /* width, height and batch are the render's */
     const ec_render_options *options;
+    ec_render_options chosen;  /* with what was open in the caller's, where that is so */
     const ec_course *course;
     ec_progress_fn progress;
     void *user;
@@ -43,6 +44,8 @@ typedef struct ec_render_state {
     uint32_t kept_next, kept_under_way;
     float *aov;                /* first-hit features of a batch, until it is in the film */
     float *layers, *layer;     /* layers of a batch, until they are in the film; one of them as a batch */
+    ec_matte_log matte;        /* what the samples of a batch meet, until it is in the film */
+    pthread_mutex_t matte_lock;
     float limit;               /* ec_params.limit; 0: none, or not known yet */
     uint64_t cleaned_samples;  /* in the film when its clean picture was looked at last; 0: it was not */
     uint32_t feature_batches;  /* that have first-hit features */
@@ -66,7 +69,13 @@ ec_result ec_render_foretell(ec_render_state *r, ec_error *err);
 /* render_film.c: until a limit is met; what is there before stays in the film. */
 ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
 
-/* limit.c: once, before the first sample of a render that has a clamp; the source has been turned to these rows. */
+/* caustics.c: do light paths pay, where the options leave it open and the scene may call for them? On the only source, before the first sample. */
+bool ec_render_may_have_caustics(const ec_render_options *options, const ec_scene *scene);
+ec_result ec_render_judge_caustics(ec_render_state *r, bool *pays, const ec_log *log, ec_error *err);
+
+/* limit.c: the picture's mean luminance, by so many samples of its own, a multiple of 32; the source has been turned to these rows. The limit: once,
+ * before the first sample of a render that has a clamp. */
+ec_result ec_render_pilot_mean(ec_render_state *r, uint32_t samples, uint32_t rows, double *mean, ec_error *err);
 ec_result ec_render_find_limit(ec_render_state *r, uint32_t rows, const ec_log *log, ec_error *err);
 
 /* render_strips.c: all rows, or as many as there is memory for, into r->strip_rows. Small pictures do not ask. */

@@ -15,9 +15,9 @@ ec_strip_need ec_strip_needs(const ec_render_options *o)
     const uint64_t threads = (uint64_t)omp_get_max_threads(), rows = 20 + 20; /* that wait: write_rows.c; a band, and what is being resolved and compressed of it: */
     const uint64_t planes = threads * 2 * 16 * (64 + 3 + 4 * EC_LAYER_PLANES * o->layers.count), coded = threads * 3 * 16 * 25 * 4, room = threads * 20 * sizeof(ec_pixel);
     const uint64_t film = o->slice_end ? ec_film_bytes(replicates, o->slice_first, o->slice_end) : ec_film_bytes(replicates, 0, batches);
-    const uint64_t batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES, layers = o->layers.count;
+    const uint64_t batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES, layers = o->layers.count, mattes = o->layers.mattes ? EC_MATTE_BYTES : 0;
     const uint64_t pixel = film * (1 + layers) + features, fresh = batch + features + layers * EC_LAYER_BYTES, beside = layers ? layers * EC_LAYER_BYTES + batch : 0;
-    return (ec_strip_need){.host = pixel + fresh + beside, .device = fresh, .column = rows * pixel + room + planes + coded};
+    return (ec_strip_need){.host = pixel + fresh + beside + mattes, .device = fresh, .column = rows * pixel + room + planes + coded};
 }
 
 uint64_t ec_strip_whole(const ec_render_options *o)

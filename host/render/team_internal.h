@@ -14,6 +14,7 @@ typedef struct slot {
     float limit;                      /* likewise */
     const uint32_t *list;
     float *mean, *aov, *layers;       /* of a batch: EC_BATCH_FIELDS a position */
+    ec_matte_log *matte;              /* of the order */
     ec_sums sums;                     /* of a block: of positions from `from` on */
     uint32_t from, count, handed;
     uint32_t invalid[EC_STAGE_COUNT];

@@ -125,8 +125,8 @@ static bool open_unit(ec_team *t, const slot *unit)
 bool ec_team_open_unit(ec_team *t, const ec_batch_order *o)
 {
     slot unit = {.index = o->index, .batches = o->batches, .cut = o->cut, .list = o->list, .samples = o->samples, .limit = o->limit, .aov = o->aov, .layers = o->layers,
-                 .from = o->done, .count = o->count, .handed = o->done};
-    const bool may_choose = !o->batches && !o->list && !o->aov && !o->layers && !o->done && !o->cut;
+                 .matte = o->matte, .from = o->done, .count = o->count, .handed = o->done};
+    const bool may_choose = !o->batches && !o->list && !o->aov && !o->layers && !o->matte && !o->done && !o->cut;
     if (!unit.batches) unit.batches = may_choose ? unit_from(t, o->index) : 1;
     if (!open_unit(t, &unit)) return false;
     float *mean = t->slots[(t->opened - 1) % t->room].mean;

@@ -5,7 +5,7 @@
 #include "image/image.h"
 #include "report/json.h"
 
-enum { EC_REPORT_ATTRIBUTES_MAX = 80 };
+enum { EC_REPORT_ATTRIBUTES_MAX = 96 };
 typedef struct ec_report_attributes {
     ec_attribute list[EC_REPORT_ATTRIBUTES_MAX];
     uint32_t count;

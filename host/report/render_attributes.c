@@ -45,7 +45,9 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     EC_ATTRIBUTES(attributes, EC_STRING("eclat.environment", report->environment));
     for (int i = 0; i < ec_setting_count; i++) add_option(attributes, &ec_settings[i], report->options);
     ec_attributes_made(attributes, "eclat.background", "%s", ec_background_name(&report->background).text);
-    EC_ATTRIBUTES(attributes, EC_REAL("eclat.png.exposure", report->exposure), EC_STRING("eclat.png.tonemap", ec_tonemap_names[report->tonemap]));
+    EC_ATTRIBUTES(attributes, EC_REAL("eclat.png.exposure", report->exposure));
+    if (report->ocio) ec_attributes_made(attributes, "eclat.png.ocio", "%s", report->view->config);
+    else EC_ATTRIBUTES(attributes, EC_STRING("eclat.png.tonemap", ec_tonemap_names[report->tonemap]));
 }
 
 /* "sheen; in shade; texels, 4 KB" in lines. */
@@ -129,6 +131,17 @@ static void add_shares(ec_report_attributes *attributes, const ec_render_report 
     if (*text) ec_attributes_made(attributes, "eclat.devices", "%s", text);
 }
 
+/* As the specification names them. */
+static void add_mattes(ec_report_attributes *attributes, const ec_matte_names *mattes)
+{
+    for (uint32_t k = 0; mattes && k < EC_MATTE_KINDS; k++) {
+        const char (*keys)[EC_MATTE_FIELD] = mattes->keys[k];
+        if (!mattes->manifests[k]) continue;
+        EC_ATTRIBUTES(attributes, EC_STRING(keys[0], ec_matte_kind_names[k]), EC_STRING(keys[1], "MurmurHash3_32"), EC_STRING(keys[2], "uint32_to_float32"),
+                      EC_STRING(keys[3], mattes->manifests[k]));
+    }
+}
+
 void ec_render_report_attributes(const ec_render_report *report, ec_report_attributes *attributes)
 {
     attributes->count = 0;
@@ -140,6 +153,7 @@ void ec_render_report_attributes(const ec_render_report *report, ec_report_attri
     EC_ATTRIBUTES(attributes, EC_STRING("eclat.imageSha256", report->image_sha256));
     add_machine(attributes, report->device);
     add_shares(attributes, report);
+    add_mattes(attributes, report->mattes);
     if (report->stats->peers)
         ec_attributes_made(attributes, "eclat.ranks", "%u, the first of which has the devices named here",
                  report->stats->peers + 1);

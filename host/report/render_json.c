@@ -41,7 +41,7 @@ static void add_setting(cJSON *root, const ec_render_report *report)
             EC_WHOLE("height", report->options->height));
     for (int i = 0; i < ec_setting_count; i++) add_option(root, &ec_settings[i], report->options);
     EC_JSON(root, EC_REAL("exposure", report->exposure), EC_FLAG("exposure_auto", report->is_exposure_auto), EC_STRING("background", ec_background_name(&report->background).text),
-            EC_STRING("tonemap", ec_tonemap_names[report->tonemap]));
+            EC_STRING("tonemap", report->ocio ? NULL : ec_tonemap_names[report->tonemap]), EC_STRING("ocio", report->ocio ? report->view->config : NULL));
     if (report->has_shadow) ec_json_real(root, "shadow_stderr", report->shadow_error);
 }
 

@@ -10,6 +10,7 @@
 #include "film/clamp.h"
 #include "render/render.h"
 #include "report/attributes.h"
+#include "scene/matte_names.h"
 
 /* A frame of a sequence, or one of several pictures. */
 typedef struct ec_frame_facts {
@@ -40,8 +41,11 @@ typedef struct ec_render_report {
     const ec_behind *behind;        /* NULL: no blurred environment is */
     bool has_shadow;                /* alpha has that on a ground, */
     double shadow_error;            /* with this standard error; NaN: not known */
+    const ec_matte_names *mattes;   /* of the channels cryptomatte */
     bool is_png_deep;               /* 16 bits */
     ec_tonemap tonemap;
+    const ec_ocio_choice *view;     /* in its place, and … */
+    const ec_ocio *ocio;            /* … what it makes; NULL: none */
     double mean_luminance;
     uint32_t replicates;            /* that have samples; with fewer than two no error is known */
     ec_clamp_error clamp;           /* where options have one */

@@ -71,7 +71,7 @@ static void get_clamp(const ec_render_options *o, ec_setting_value *v)
 
 static void get_light_paths(const ec_render_options *o, ec_setting_value *v)
 {
-    *v = o->light_paths > 0 ? (ec_setting_value){REAL(o->light_paths)} : (ec_setting_value){NONE("0")};
+    *v = o->light_paths > 0 ? (ec_setting_value){REAL(o->light_paths)} : (ec_setting_value){NONE(o->light_paths < 0 ? "auto" : "0")};
 }
 
 static void get_without(const ec_render_options *o, ec_setting_value *v)

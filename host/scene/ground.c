@@ -65,18 +65,29 @@ static ec_material matte(void)
     return m;
 }
 
+/* What the ground lies under: the scene, or all that it is in its animation. Recentred. */
+static void box_of(const ec_scene *s, double low[3], double high[3])
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] = s->spans ? s->span_min[k] - s->center[k] : s->bounds_min[k];
+        high[k] = s->spans ? s->span_max[k] - s->center[k] : s->bounds_max[k];
+    }
+}
+
 ec_result ec_scene_add_ground(ec_scene *s, ec_error *err)
 {
     const uint32_t first = flat_vertices(s), flat = ec_scene_flat_count(s);
-    double half = 0;
+    double half = 0, low[3], high[3];
     if (!s->triangle_count) return ec_fail(err, "--ground: the scene has no surface to stand on one; leave it out");
-    for (int k = 0; k < 3; k++) half = fma(0.25 * ((double)s->bounds_max[k] - s->bounds_min[k]), (double)s->bounds_max[k] - s->bounds_min[k], half);
+    box_of(s, low, high);
+    for (int k = 0; k < 3; k++) half = fma(0.25 * (high[k] - low[k]), high[k] - low[k], half);
     half = sqrt(half);
     if (!make_room(s)) return ec_fail(err, "out of memory for a ground");
-    const float y = (float)(s->bounds_min[1] - hair * half), reach = (float)(EC_GROUND_REACH * half);
+    const float y = (float)(low[1] - hair * half), reach = (float)(EC_GROUND_REACH * half);
+    const float middle[] = {0.5f * ((float)low[0] + (float)high[0]), y, 0.5f * ((float)low[2] + (float)high[2])};
     for (uint32_t v = 0; v < VERTICES; v++) {
         const float x = v & 1 ? reach : -reach, z = v & 2 ? reach : -reach;
-        const float at[] = {0.5f * (s->bounds_min[0] + s->bounds_max[0]) + x, y, 0.5f * (s->bounds_min[2] + s->bounds_max[2]) + z}, up[] = {0, 1, 0};
+        const float at[] = {middle[0] + x, y, middle[2] + z}, up[] = {0, 1, 0};
         memcpy(s->positions + 3 * ((size_t)first + v), at, sizeof at);
         if (s->normals) memcpy(s->normals + 3 * ((size_t)first + v), up, sizeof up);
         if (s->tangents) memset(s->tangents + 4 * ((size_t)first + v), 0, 4 * sizeof(float));
@@ -93,9 +104,8 @@ ec_result ec_scene_add_ground(ec_scene *s, ec_error *err)
     s->triangle_count += TRIANGLES;
     move_parts(s, flat);
     for (int k = 0; k < 3; k += 2) {
-        const float middle = 0.5f * (s->bounds_min[k] + s->bounds_max[k]);
-        s->bounds_min[k] = middle - reach;
-        s->bounds_max[k] = middle + reach;
+        s->bounds_min[k] = middle[k] - reach;
+        s->bounds_max[k] = middle[k] + reach;
     }
     s->bounds_min[1] = y;
     return EC_OK;

@@ -50,6 +50,7 @@ void ec_scene_free(ec_scene *s)
     free(s->parts);
     for (uint32_t i = 0; s->node_names && i < s->node_count; i++) free(s->node_names[i]);
     free(s->node_names);
+    free(s->node_roots);
     free(s->materials);
     free(s->textures);
     free(s->images);

@@ -167,9 +167,10 @@ typedef struct ec_scene {
     uint32_t shape_count, placed_count;
     ec_shape *shapes;
     ec_placed *placed;            /* in the order of their ids, the first of which is shapes[0].first */
-    uint32_t part_count;          /* 0 where what moves has been sorted out: nobody knows any more */
+    uint32_t part_count;
     ec_part *parts;               /* by id, placed triangles included */
-    char **node_names;            /* node_count; each may be NULL; all owned */
+    char **node_names;            /* node_count: of it, or of its mesh; each may be NULL; all owned */
+    uint32_t *node_roots;         /* of each node the one that it hangs below in the end, or itself; owned */
     ec_motion motion;
     bool whole;                   /* no structure may cut triangles, so that all have the same bits with and without instances, and built anew or refitted */
     uint32_t material_count;
@@ -189,6 +190,8 @@ typedef struct ec_scene {
     bool solid_shadows, bodies_apart;
     double center[3];             /* what was subtracted from world coordinates */
     float bounds_min[3], bounds_max[3]; /* recentred */
+    bool spans;                   /* of a frame: the box of its whole animation is known, in the world */
+    double span_min[3], span_max[3];
     /* Shown by `eclat info`. */
     uint32_t mesh_count, node_count, instance_count;
     uint32_t dropped_degenerate, dropped_nonfinite;  /* triangles left out, and why */

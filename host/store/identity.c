@@ -50,6 +50,8 @@ void ec_identity_of(const ec_render_options *o, const ec_content *content, ec_id
         if (i != EC_CONTENT_KERNELS) add(identity, contents[i], "%s", content->digest[i]);
 }
 
+void ec_identity_add(ec_identity *identity, const char *name, const char *value) { add(identity, name, "%s", value); }
+
 const char *ec_identity_value(const ec_identity *identity, const char *name)
 {
     for (uint32_t i = 0; i < identity->count; i++)

@@ -21,6 +21,9 @@ typedef struct ec_identity {
 /* content may be NULL: then what only the device's data tell is left out. */
 void ec_identity_of(const ec_render_options *options, const ec_content *content, ec_identity *identity);
 
+/* One more; of a long value the beginning. */
+void ec_identity_add(ec_identity *identity, const char *name, const char *value);
+
 /* The value of a trait, or NULL. */
 const char *ec_identity_value(const ec_identity *identity, const char *name);
 

@@ -22,7 +22,8 @@ uint32_t ec_batch_channels(const float *batch, ec_channel channels[EC_BATCH_FIEL
     return EC_BATCH_FIELDS;
 }
 
-void ec_sum_part_name(uint32_t index, char name[24])
+void ec_sum_part_name(uint32_t layer, uint32_t index, char name[EC_PART_NAME])
 {
-    snprintf(name, 24, "sums %u", index);
+    if (layer) snprintf(name, EC_PART_NAME, "layer %u sums %u", layer, index);
+    else snprintf(name, EC_PART_NAME, "sums %u", index);
 }

@@ -2,7 +2,7 @@
  *
  * Part "picture": what viewers show; first-hit features are read from its channels A, albedo, normal and depth. Its attribute eclat.state
  * is a JSON object: state.c. Part "sums N" for each part of the film: R, G and B of each replicate, and the tail of the samples (film/sums.h); or
- * what a single batch tells. Pixels with counts of their own have "count" there. Part "allotment": "weight", by pixel number. Part
+ * what a single batch tells. Pixels with counts of their own have "count" there. Parts "layer K sums N" are the same of the K-th layer, from 1 on. Part "allotment": "weight", by pixel number. Part
  * "under way": what the batch that is not complete tells. */
 #ifndef EC_STORE_LAYOUT_H
 #define EC_STORE_LAYOUT_H
@@ -20,6 +20,7 @@ typedef struct ec_state_film {
     uint64_t invalid_count;
     ec_film_part *parts; /* without sums; malloc'ed */
     bool has_counts, has_weights;
+    ec_layers layers;
     ec_rare rare;
 } ec_state_film;
 ec_result ec_state_read(const char *text, const char *path, ec_stored *stored, ec_state_film *film, ec_error *err);
@@ -32,6 +33,7 @@ typedef struct ec_channel_name {
 uint32_t ec_sum_channels(const ec_sums *sums, const uint32_t *counts, ec_channel_name names[EC_SUM_CHANNELS], ec_channel channels[EC_SUM_CHANNELS]);
 uint32_t ec_batch_channels(const float *batch, ec_channel channels[EC_BATCH_FIELDS]);
 
-void ec_sum_part_name(uint32_t index, char name[24]);
+enum { EC_PART_NAME = 40 };
+void ec_sum_part_name(uint32_t layer, uint32_t index, char name[EC_PART_NAME]); /* layer 0: the picture */
 
 #endif

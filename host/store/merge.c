@@ -44,6 +44,8 @@ static ec_result check_same_job(const ec_merge *merge, const ec_stored *next, co
     if (merge->all.film.limit != next->film.limit)
         return ec_fail(err, "'%s' and '%s': --clamp limits a sample to a luminance of %g there and of %g here, since the devices' pilots are not the "
                             "same; render slices on devices of one kind", merge->first_path, path, (double)merge->all.film.limit, (double)next->film.limit);
+    if (!ec_layers_are_same(&merge->all.film.layers, &next->film.layers))
+        return ec_fail(err, "'%s' and '%s' have not the same layers; render both with the same --channels and --light-groups", merge->first_path, path);
     if (next->film.counts || merge->all.film.counts)
         return ec_fail(err, "'%s': pixels of an adaptive render have samples of their own number, and cannot be merged; give it alone", path);
     if (strcmp(here->device, there->device))

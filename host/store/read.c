@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "film/channels.h"
+#include "film/layer_films.h"
 #include "image/exr_header.h"
 #include "store/layout.h"
 
@@ -40,13 +41,13 @@ static ec_result read_batch(ec_exr_file *file, const char *path, const char *par
     return fill(file, part, channels, ec_batch_channels(*batch, channels), err);
 }
 
-static ec_result read_part(ec_exr_file *file, const char *path, uint32_t index, ec_film_part *part, ec_film *film, ec_error *err)
+static ec_result read_part(ec_exr_file *file, const char *path, uint32_t layer, uint32_t index, ec_film_part *part, ec_film *film, ec_error *err)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
-    char name[24];
+    char name[EC_PART_NAME];
     ec_channel channels[CHANNELS_MOST];
     ec_channel_name names[CHANNELS_MOST];
-    ec_sum_part_name(index, name);
+    ec_sum_part_name(layer, index, name);
     if (ec_film_part_is_batch(part->first, part->count)) {
         EC_TRY(read_batch(file, path, name, pixels, &part->batch, err));
     } else {
@@ -72,19 +73,27 @@ static ec_result check_counts(const char *path, const ec_film *film, ec_error *e
     return EC_OK;
 }
 
-static ec_result read_parts(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
+static ec_result read_parts(ec_exr_file *file, const char *path, const ec_state_film *state, uint32_t layer, ec_film *film, ec_error *err)
 {
     if (state->has_counts && !(film->counts = calloc((uint64_t)film->width * film->height, sizeof *film->counts))) return no_memory(path, err);
     for (uint32_t i = 0; i < state->part_count; i++) {
-        ec_result result = read_part(file, path, i, &state->parts[i], film, err);
+        ec_film_part part = {.first = state->parts[i].first, .count = state->parts[i].count};
+        ec_result result = read_part(file, path, layer, i, &part, film, err);
         if (result == EC_OK) continue;
-        ec_film_part_free(&state->parts[i]);
+        ec_film_part_free(&part);
         return result;
     }
     if (film->batch_count != state->batch_count) return no_sense(path, err);
     if (state->cut && state->cut >= ec_schedule_batch(film->replicates, ec_film_end(film) - 1).samples) return no_sense(path, err);
     if (state->cut) ec_film_set_cut(film, state->cut);
     return check_counts(path, film, err);
+}
+
+static ec_result read_layers(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
+{
+    EC_TRY(ec_film_set_layers(film, &state->layers, err));
+    for (uint32_t k = 0; k < film->layers.count; k++) EC_TRY(read_parts(file, path, state, k + 1, &film->layer_films[k], err));
+    return EC_OK;
 }
 
 static ec_result read_weights(ec_exr_file *file, const char *path, ec_stored *s, ec_error *err)
@@ -130,7 +139,8 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     state.rare.width = width;
     state.rare.height = height;
     if (result == EC_OK) result = ec_film_set_rare(&s->film, &state.rare, err);
-    if (result == EC_OK) result = read_parts(file, path, &state, &s->film, err);
+    if (result == EC_OK) result = read_parts(file, path, &state, 0, &s->film, err);
+    if (result == EC_OK) result = read_layers(file, path, &state, &s->film, err);
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);
     if (result == EC_OK) s->film.invalid_count = state.invalid_count, s->film.limit = state.limit;

@@ -61,6 +61,14 @@ static void add_past(cJSON *state, const ec_past *past)
     add_slope(state, &past->slope);
 }
 
+static void add_layers(cJSON *state, const ec_layers *layers)
+{
+    if (!layers->count) return;
+    cJSON_AddNumberToObject(state, "layerKinds", layers->kinds);
+    cJSON *groups = cJSON_AddArrayToObject(state, "lightGroups");
+    for (uint32_t g = 0; g < layers->group_count; g++) cJSON_AddItemToArray(groups, cJSON_CreateString(layers->groups[g]));
+}
+
 static void add_film(cJSON *state, const ec_film *film)
 {
     cJSON *parts = cJSON_AddArrayToObject(state, "parts");
@@ -75,6 +83,7 @@ static void add_film(cJSON *state, const ec_film *film)
     cJSON_AddNumberToObject(state, "batches", film->batch_count);
     cJSON_AddBoolToObject(state, "hasCounts", film->counts != NULL);
     add_count(state, "invalidValues", film->invalid_count);
+    add_layers(state, &film->layers);
     ec_rare_state_add(state, film->rare);
 }
 
@@ -205,6 +214,21 @@ static void read_past(reader *r, ec_past *past)
     read_slope(r, &past->slope);
 }
 
+static void read_layers(reader *r, ec_layers *layers)
+{
+    const cJSON *item, *groups = cJSON_GetObjectItemCaseSensitive(r->state, "lightGroups");
+    if (!cJSON_HasObjectItem(r->state, "layerKinds")) return;
+    layers->kinds = whole(r, "layerKinds");
+    r->is_wrong |= layers->kinds >> EC_LAYER_KINDS != 0 || !cJSON_IsArray(groups);
+    cJSON_ArrayForEach(item, groups) {
+        const char *name = text_of(r, item);
+        r->is_wrong |= !*name || strlen(name) >= EC_GROUP_NAME || layers->group_count == EC_GROUPS_MOST;
+        if (r->is_wrong) return;
+        snprintf(layers->groups[layers->group_count++], EC_GROUP_NAME, "%s", name);
+    }
+    layers->count = (uint32_t)__builtin_popcount(layers->kinds) + layers->group_count;
+}
+
 static void read_film(reader *r, ec_state_film *film)
 {
     const cJSON *item, *parts = cJSON_GetObjectItemCaseSensitive(r->state, "parts");
@@ -217,6 +241,7 @@ static void read_film(reader *r, ec_state_film *film)
     film->has_weights = flag(r, "hasWeights");
     film->invalid_count = count(r, "invalidValues");
     r->is_wrong |= !ec_rare_state_read(r->state, &film->rare);
+    read_layers(r, &film->layers);
     int most = cJSON_GetArraySize(parts);
     film->parts = calloc((size_t)most + 1, sizeof *film->parts);
     const bool fits = film->replicates >= 1 && film->replicates <= EC_REPLICATES_MOST && (film->batch_count >= 1) == (most >= 1) &&

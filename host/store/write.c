@@ -4,16 +4,16 @@
 #include "store/layout.h"
 
 typedef struct sum_part {
-    char name[24];
+    char name[EC_PART_NAME];
     ec_channel_name names[EC_SUM_CHANNELS];
     ec_channel channels[EC_SUM_CHANNELS];
 } sum_part;
 
 /* Sums hardly get smaller by compression, which would cost more time than the disk. */
-static ec_exr_part make_part(sum_part *room, uint32_t index, const ec_film *film)
+static ec_exr_part make_part(sum_part *room, uint32_t layer, uint32_t index, const ec_film *film)
 {
     uint32_t count;
-    ec_sum_part_name(index, room->name);
+    ec_sum_part_name(layer, index, room->name);
     if (film->parts[index].batch) count = ec_batch_channels(film->parts[index].batch, room->channels);
     else count = ec_sum_channels(&film->parts[index].sums, film->counts, room->names, room->channels);
     return (ec_exr_part){.name = room->name, .channels = room->channels, .channel_count = count, .is_plain = true};
@@ -22,7 +22,8 @@ static ec_exr_part make_part(sum_part *room, uint32_t index, const ec_film *film
 ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past,
                          const ec_exr_part *picture, ec_error *err)
 {
-    uint32_t sums = film->part_count, count = 1 + sums;
+    const uint32_t sums = film->part_count * (1 + film->layers.count); /* layers have their batches when the picture has them */
+    uint32_t count = 1 + sums;
     const ec_channel weight = {"weight", past->allotment.weight, 1, EC_CHANNEL_FLOAT};
     ec_channel batch[EC_BATCH_FIELDS];
     ec_exr_part *parts = calloc(sums + 3, sizeof *parts);
@@ -38,7 +39,10 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
         parts[0].attributes = attributes;
         if (picture->attribute_count) memcpy(attributes, picture->attributes, picture->attribute_count * sizeof *attributes);
         attributes[parts[0].attribute_count++] = (ec_attribute){.name = "eclat.state", .type = EC_ATTR_STRING, .string = state};
-        for (uint32_t i = 0; i < sums; i++) parts[i + 1] = make_part(&rooms[i], i, film);
+        for (uint32_t i = 0; i < sums; i++) {
+            const uint32_t layer = i / film->part_count;
+            parts[i + 1] = make_part(&rooms[i], layer, i % film->part_count, layer ? &film->layer_films[layer - 1] : film);
+        }
         if (weight.data) parts[count++] = (ec_exr_part){.name = "allotment", .channels = &weight, .channel_count = 1};
         if (past->under_way)
             parts[count++] = (ec_exr_part){.name = "under way",

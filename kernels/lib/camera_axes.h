@@ -25,14 +25,17 @@ EC_FN v3 axes_between(global const float *keys, uint segments, uint vector, mome
     quad a = gather_quad(keys, at), b = gather_quad(keys, at + 4u);
     return v3_make(fma(t.share, b.a - a.a, a.a), fma(t.share, b.b - a.b, a.b), fma(t.share, b.c - a.c, a.c));
 }
-EC_FN camera_axes camera_axes_at(global const float *keys, global const float *motion, lane_f time)
+EC_FN camera_axes camera_axes_between(global const float *keys, global const float *motion, moment t)
 {
     uint segments = ((global const uint *)motion)[EC_MOTION_SEGMENTS];
-    moment t = moment_of(motion, time);
     camera_axes v = {axes_between(keys, segments, 0, t), axes_between(keys, segments, 1, t),
                      axes_between(keys, segments, 2, t), v3_normalize(axes_between(keys, segments, 3, t)),
                      axes_between(keys, segments, 4, t), axes_between(keys, segments, 5, t)};
     return v;
+}
+EC_FN camera_axes camera_axes_at(global const float *keys, global const float *motion, lane_f time)
+{
+    return camera_axes_between(keys, motion, moment_of(motion, time));
 }
 
 #endif

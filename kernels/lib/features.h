@@ -17,15 +17,30 @@ EC_FN void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, 
     scatter_f(aov + 7 * wave, slot, alpha, bits);
 }
 
-EC_FN void store_layer(constant ec_params *params, global float *radiance, uint layer, lane_u slot, v3 v, uint bits)
+/* The number of the node that a triangle is of, and 1; 0: of none. parts: how many they are, the step that looking begins with, the first triangle
+ * of each, the node of each. */
+EC_FN lane_u part_node(global const uint *parts, lane_u prim)
 {
-    if (layer) scatter_add_3(layer_at(params, radiance, layer), params->wave, slot, v.x, v.y, v.z, bits);
+    uint count = parts[0], step = parts[1];
+    lane_u k = U(0);
+    for (; step; step >>= 1) {
+        lane_u next = k + step;
+        lane_i there = next < count;
+        lane_i after = gather_u(parts + 2, there ? next : k) <= prim;
+        k = (there & after) ? next : k;
+    }
+    return gather_u(parts + 2 + count, k);
 }
 
 /* Stores the layers that the first surface has, on the lanes of `found`. */
-EC_FN void store_surface_layers(constant ec_params *params, global float *radiance, lane_u slot, const hit_point *h, const surface *s, lane_i found)
+EC_FN void store_surface_layers(constant ec_params *params, global float *radiance, global const uint *parts, lane_u slot, lane_u prim, const hit_point *h,
+                                const surface *s, lane_i found)
 {
     uint bits = mask_bits(found);
+    if (params->layer_ids) {
+        v3 ids = v3_make(to_lane_f(part_node(parts, found ? prim : U(0))), to_lane_f(divide(h->material, EC_MATERIAL_WORDS) + 1u), F(0.0f));
+        store_layer(params, radiance, params->layer_ids, slot, ids, bits);
+    }
     v3 centre = v3_make(F(params->scene_centre[0]), F(params->scene_centre[1]), F(params->scene_centre[2]));
     store_layer(params, radiance, params->layer_of[EC_LAYER_POSITION], slot, v3_add(s->p, centre), bits);
     store_layer(params, radiance, params->layer_of[EC_LAYER_UV], slot, v3_make(h->uv.a, h->uv.b, F(0.0f)), bits);

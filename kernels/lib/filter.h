@@ -19,7 +19,7 @@ typedef struct hit_filter {
     global const float *prims, global const float *indices, global const float *uvs,               \
         global const float *colors, global const float *materials,                                 \
         global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places, \
-        global const float *motion, global const float *times
+        global const float *motion, global const float *times, global const uint *coplanar
 #define FILTER_GEOMETRY {prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places, motion}
 /* times: of paths, by slot. */
 #define HAS_TIMES (HAS(MOTION) && motion != 0)

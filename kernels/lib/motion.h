@@ -26,6 +26,13 @@ EC_FN moment moment_of(global const float *motion, lane_f time)
     return t;
 }
 
+/* The shutter closes. */
+EC_FN moment moment_of_end(global const float *motion)
+{
+    moment t = {U(((global const uint *)motion)[EC_MOTION_SEGMENTS] - 1u), F(1.0f)};
+    return t;
+}
+
 /* words: EC_MOTION_POSITIONS, … — which of the header's words says where the stream begins. */
 EC_FN v3 motion_point(global const float *motion, uint stream, lane_u thing, moment t)
 {
@@ -41,13 +48,17 @@ EC_FN lane_i motion_moves(global const float *motion, lane_u prim)
 }
 
 /* Lanes of m: the corners become those of triangle prim at the time. */
-EC_FN void motion_corners(global const float *motion, lane_f time, lane_i m, lane_u prim, v3 *p0, v3 *p1, v3 *p2)
+EC_FN void motion_corners_at(global const float *motion, moment t, lane_i m, lane_u prim, v3 *p0, v3 *p1, v3 *p2)
 {
-    moment t = moment_of(motion, time);
     quad corner = gather_quad(motion, (m ? prim : U(0)) * 4u + EC_MOTION_HEADER);
     *p0 = v3_select(m, motion_point(motion, EC_MOTION_POSITIONS, as_lane_u(corner.a), t), *p0);
     *p1 = v3_select(m, motion_point(motion, EC_MOTION_POSITIONS, as_lane_u(corner.b), t), *p1);
     *p2 = v3_select(m, motion_point(motion, EC_MOTION_POSITIONS, as_lane_u(corner.c), t), *p2);
+}
+
+EC_FN void motion_corners(global const float *motion, lane_f time, lane_i m, lane_u prim, v3 *p0, v3 *p1, v3 *p2)
+{
+    motion_corners_at(motion, moment_of(motion, time), m, prim, p0, p1, p2);
 }
 
 /* A vertex' normal or tangent, a little shorter than 1 between keys; d where it stands still. */

@@ -32,6 +32,11 @@ EC_FN void layers_add(constant ec_params *params, global float *radiance, uint s
         scatter_add_3(layer_at(params, radiance, params->layer_groups), wave, slot + group * (3u * wave), light.x, light.y, light.z, bits);
 }
 
+EC_FN void store_layer(constant ec_params *params, global float *radiance, uint layer, lane_u slot, v3 v, uint bits)
+{
+    if (layer) scatter_add_3(layer_at(params, radiance, layer), params->wave, slot, v.x, v.y, v.z, bits);
+}
+
 EC_FN void add_one(global float *to, uint wave, float r, float g, float b)
 {
     to[0] += r;

@@ -1,7 +1,7 @@
 /* The two kernels of bvh8 for structures larger than caches: a work-item has INTERLEAVE rays on their way, takes one step of each in
  * turn, and asks for what a ray's next step reads before it turns to the next ray, so that memory answers while others are served
  * (as group prefetching does in databases: Chen, Ailamaki, Gibbons, Mowry 2004). The steps of one ray are those of bvh8_closest and
- * bvh8_any, so the hits are the same. What moves, and panes, are left to trace_rays.h. */
+ * bvh8_any, so the hits are the same. What moves, panes, and faces in one plane are left to trace_rays.h. */
 #ifndef EC_LIB_TRACE_INTERLEAVED_H
 #define EC_LIB_TRACE_INTERLEAVED_H
 

@@ -3,6 +3,7 @@
  *     void ACCEL_trace(const accel *, const ray *, const hit_filter *, lane_u skip0, lane_u skip1, bool any_hit, hit *h);
  *
  * h->t comes in as the largest t of interest (negative: lane off), h->prim as EC_NO_ID. */
+#include "coplanar.h"
 #include "film.h"
 #include "pane.h"
 #include "slot_layers.h"
@@ -38,6 +39,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
         hit h = {active ? F(EC_HUGE) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
         lane_u skip = packet_load_u(paths, wave, EC_PATH_PRIM, &at);
         EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, U(EC_NO_ID), false, &h);
+        if (HAS_COPLANAR) h.prim = coplanar_first(coplanar, &filter, &r, active & (h.prim != EC_NO_ID), h.prim, skip, &h.b1, &h.b2);
         uint bits = mask_bits(active);
         packet_store_f(hits, wave, EC_HIT_PRIM, &at, as_lane_f(h.prim), bits);
         packet_store_f(hits, wave, EC_HIT_B1, &at, h.b1, bits);
@@ -81,6 +83,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                target = packet_load_u(shadows, wave, EC_SHADOW_TARGET, &at);
         EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, true, &h);
         lane_i open = active & (h.prim == EC_NO_ID);
+        if (HAS_COPLANAR) open = open & !coplanar_hides(coplanar, &filter, &r, open, target, skip);
         if (!any_lane(open)) continue;
         v3 light = packet_load_v3(shadows, wave, EC_SHADOW_LR, &at);
         if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
@@ -96,6 +99,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                 EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, false, &h);
                 walks = walks & (h.prim != EC_NO_ID);
                 if (!any_lane(walks)) break;
+                if (HAS_COPLANAR) h.prim = coplanar_first(coplanar, &filter, &r, walks, h.prim, skip, &h.b1, &h.b2);
                 light = v3_select(walks, v3_mul(light, pane_pass(&g, walks, h.prim, h.b1, h.b2, r.d, &o)), light);
                 if (!left) light = v3_select(walks, v3_zero(), light);
                 walks = walks & (v3_max_component(light) > 0.0f);

@@ -8,6 +8,7 @@
  *     void ACCEL_trace(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, bool any_hit, hit8 *h);
  *
  * stands there in place of both. */
+#include "coplanar.h"
 #include "film.h"
 #include "pane.h"
 #include "slot_layers.h"
@@ -24,6 +25,14 @@ EC_FN bool EC_CAT(ACCEL, _any)(const accel *a, const ray8 *q, const hit_filter *
     return h->prim != EC_NO_ID;
 }
 #endif
+
+EC_FN void EC_CAT(ACCEL, _settle)(global const uint *coplanar, const hit_filter *filter, const ray8 *q, uint skip, hit8 *h)
+{
+    lane_f b1 = F(h->b1), b2 = F(h->b2);
+    h->prim = coplanar_first(coplanar, filter, &q->r, U(h->prim) != EC_NO_ID, U(h->prim), U(skip), &b1, &b2).s0;
+    h->b1 = b1.s0;
+    h->b2 = b2.s0;
+}
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
 kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
@@ -45,7 +54,9 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
     }
     const accel a = ACCEL_ARGUMENTS;
     hit8 h = {EC_HUGE, EC_NO_ID, 0.0f, 0.0f};
-    EC_CAT(ACCEL, _closest)(&a, &q, &filter, as_uint(p[EC_PATH_PRIM * wave]), EC_NO_ID, &h);
+    uint skip = as_uint(p[EC_PATH_PRIM * wave]);
+    EC_CAT(ACCEL, _closest)(&a, &q, &filter, skip, EC_NO_ID, &h);
+    if (HAS_COPLANAR) EC_CAT(ACCEL, _settle)(coplanar, &filter, &q, skip, &h);
     hits[EC_HIT_PRIM * wave + i] = as_float(h.prim);
     hits[EC_HIT_B1 * wave + i] = h.b1;
     hits[EC_HIT_B2 * wave + i] = h.b2;
@@ -81,6 +92,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     hit8 h = {1.0f, EC_NO_ID, 0.0f, 0.0f};
     uint skip = as_uint(p[EC_SHADOW_PRIM * wave]), target = as_uint(p[EC_SHADOW_TARGET * wave]);
     if (EC_CAT(ACCEL, _any)(&a, &q, &filter, skip, target, &h)) return;
+    if (HAS_COPLANAR && any_lane(coplanar_hides(coplanar, &filter, &q.r, TRUE_MASK, U(target), U(skip)))) return;
     v3 light = v3_make(F(p[EC_SHADOW_LR * wave]), F(p[EC_SHADOW_LG * wave]), F(p[EC_SHADOW_LB * wave]));
     if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
         geometry g = {prims,  indices, normals,      tangents, uvs, colors, materials, {texture_table, texels, srgb},
@@ -90,6 +102,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
         for (uint left = panes_most(params, bounce);; left--) {
             EC_CAT(ACCEL, _closest)(&a, &q, &filter, skip, target, &h);
             if (h.prim == EC_NO_ID) break;
+            if (HAS_COPLANAR) EC_CAT(ACCEL, _settle)(coplanar, &filter, &q, skip, &h);
             light = v3_mul(light, pane_pass(&g, TRUE_MASK, U(h.prim), F(h.b1), F(h.b2), q.r.d, &o));
             if (!left || !any_lane(v3_max_component(light) > 0.0f)) return;
             v3 d = v3_sub(end, o);

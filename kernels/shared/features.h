@@ -57,6 +57,7 @@
 #define EC_FEATURE_GUIDING EC_FEATURE_BIT(46)
 #define EC_FEATURE_MOTION EC_FEATURE_BIT(49)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
+#define EC_FEATURE_COPLANAR EC_FEATURE_BIT(50)
 #define EC_FEATURE_PANES EC_FEATURE_BIT(52)
 #define EC_FEATURE_NESTED EC_FEATURE_BIT(53)
 
@@ -111,6 +112,7 @@
     X(GUIDING, "path-guiding")                                                                     \
     X(MOTION, "motion-blur")                                                                       \
     X(INSTANCES, "instances")                                                                      \
+    X(COPLANAR, "coplanar-faces")                                                                  \
     X(PANES, "transparent-shadows")                                                                \
     X(NESTED, "nested-bodies")
 

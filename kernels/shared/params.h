@@ -16,7 +16,7 @@ typedef enum ec_sample {
 #define EC_CASTERS_MOST 8
 
 /* What a picture can have beside radiance that is one of a kind; light groups come after these. */
-enum ec_layer_kind { EC_LAYER_DIRECT, EC_LAYER_INDIRECT, EC_LAYER_POSITION, EC_LAYER_UV, EC_LAYER_KINDS };
+enum ec_layer_kind { EC_LAYER_DIRECT, EC_LAYER_INDIRECT, EC_LAYER_POSITION, EC_LAYER_UV, EC_LAYER_MOTION, EC_LAYER_KINDS };
 #define EC_GROUPS_MOST 16
 #define EC_GROUP_NAME 64
 
@@ -77,8 +77,9 @@ typedef struct ec_params {
     ec_uint layer_count;
     ec_uint layer_of[EC_LAYER_KINDS];
     ec_uint layer_groups;         /* the first light group's; the others follow */
+    ec_uint layer_ids;            /* behind them: which node and material a sample meets (lib/features.h) */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 552);
+EC_ASSERT_SIZE(ec_params, 560);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u

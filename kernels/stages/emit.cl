@@ -1,6 +1,7 @@
 /* Light paths begin: a caster, a light, a point on it and a direction to the caster (lib/light_path.h); of a far light its direction and a
  * point of the caster's disk. Reads: params, lights. Writes: the path queue, those that carry light; what each slot's path is of, and zeroes the
  * slots' radiance. Next: intersect. Slots are counted as of camera rays, with light paths in the place of pixels. */
+#include "../lib/coplanar.h"
 #include "../lib/film.h"
 #include "../lib/light_path.h"
 #include "../lib/medium.h"
@@ -12,7 +13,8 @@ kernel void ec_emit(constant ec_params *params, uint seed, uint first_pixel, uin
                     global const float *uvs, global const float *colors, global const float *materials,
                     global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places,
                     global const float *motion, global float *times, global const float *light_table,
-                    global const float *environment_texels, global const uint *environment_table, global const uint *emission_table)
+                    global const float *environment_texels, global const uint *environment_table, global const uint *emission_table,
+                    global const uint *coplanar)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave, count = params->light_count;
     if (i >= path_count) return;
@@ -68,6 +70,11 @@ kernel void ec_emit(constant ec_params *params, uint seed, uint first_pixel, uin
             Le = v3_select(is, light_radiance(&one, &g, is, b1, b2, v3_negate(d)), Le);
             e = emission_lamp(&light, is, id, motion_per_area(one.a, one.b, one.c), q, d, fabs(cosine));
             o = surface_offset(q, v3_scale(sum, F(EC_GAMMA(9))), n, d);
+            if (HAS_COPLANAR) {
+                hit_filter filter = {g, filter_key(seed, path, sample, 0, true), false, 0};
+                ray back = ray_make(o, v3_negate(d), params->scene_max);
+                e = coplanar_hides(coplanar, &filter, &back, is, one.prim, U(EC_NO_ID)) ? F(0.0f) : e;
+            }
         }
     }
     if (HAS(PUNCTUAL_LIGHTS)) {

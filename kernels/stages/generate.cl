@@ -45,5 +45,6 @@ kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel,
     if (HAS_MEDIUM) queue_store_f(paths, wave, EC_PATH_MEDIUM, i, as_lane_f(U(params->camera_medium)));
     queue_store_v3(radiance, wave, 0, i, v3_zero());
     for (uint k = 1; HAS(LAYERS) && k <= params->layer_count; k++) queue_store_v3(radiance, wave, 3 * k, i, v3_zero());
+    if (HAS(LAYERS) && params->layer_ids) queue_store_v3(radiance, wave, 3 * params->layer_ids, i, v3_zero());
     if (params->apart) queue_store_v3(radiance, wave, 3, i, v3_zero());
 }

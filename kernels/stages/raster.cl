@@ -1,6 +1,7 @@
 /* What each sample sees, by going through its tile's triangles with a depth test. Reads: path queue, tiles. Writes: hits, as
  * intersect does. Next: shade_raster. The nearest wins, and of equals the lower triangle id: the lists' order does not matter. */
 #include "../lib/camera.h"
+#include "../lib/coplanar.h"
 #include "../lib/filter.h"
 #include "../lib/queue.h"
 #include "../lib/raster.h"
@@ -16,18 +17,18 @@ EC_FN lane_i raster_inside(global const float *f, lane_f value)
 EC_FN lane_f raster_value(global const float *f, lane_f x, lane_f y) { return fma(F(f[0]), x, fma(F(f[1]), y, F(f[2]))); }
 
 kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
-                      uint path_count, global float *hits, global const ec_raster_tri *tris, global const uint *starts,
+                      uint path_count, global const float *paths, global float *hits, global const ec_raster_tri *tris, global const uint *starts,
                       global const uint *ends, global const uint *list, global const float *prims,
                       global const float *indices, global const float *uvs, global const float *colors,
                       global const float *materials, global const float *texture_table, global const uint *texels,
                       constant float *srgb, global const float *places, global const float *motion,
-                      global const float *times)
+                      global const float *times, global const uint *coplanar)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= path_count) return;
     lane_u slot = LANE_NUMBERS + i, x, y, pixel, sample;
     lane_f sx, sy;
-    lane_i waiting = slot < path_count;
+    lane_i waiting = slot < path_count, active = waiting;
     slot = waiting ? slot : U(i);
     camera_sample(params, seed, first_pixel, pixel_list, 0, slot, &x, &y, &sx, &sy);
     lane_u tile = raster_tile(params, x, y);
@@ -74,6 +75,10 @@ kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, g
             best_b1 = in ? b1 : best_b1;
             best_b2 = in ? b2 : best_b2;
         }
+    }
+    if (HAS_COPLANAR) {
+        ray r = ray_make(queue_load_v3(paths, wave, EC_PATH_OX, i), queue_load_v3(paths, wave, EC_PATH_DX, i), params->scene_max);
+        best = coplanar_first(coplanar, &filter, &r, active & (best != EC_NO_ID), best, U(EC_NO_ID), &best_b1, &best_b2);
     }
     queue_store_f(hits, wave, EC_HIT_PRIM, i, as_lane_f(best));
     queue_store_f(hits, wave, EC_HIT_B1, i, best_b1);

@@ -7,6 +7,7 @@
 #include "../lib/film.h"
 #include "../lib/guide.h"
 #include "../lib/light_path.h"
+#include "../lib/motion_vector.h"
 #include "../lib/roulette.h"
 #include "../lib/scatter.h"
 #include "../lib/shadow.h"
@@ -69,7 +70,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const float *light_table, global const uint *light_shares,
                      global const float *environment_texels, global const uint *environment_table,
                      global const float *light_tree, global const uint *light_trails, global const float *lamp_parts,
-                     global const uint *emission_table, global const float *guide_table, global const uint *light_groups)
+                     global const uint *emission_table, global const float *guide_table, global const uint *light_groups,
+                     global const uint *parts, global const float *camera_keys)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -186,7 +188,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         store_features(aov, wave, slot, v3_select(found, s.base, v3_zero()), v3_select(found, s.ns, v3_zero()),
                        found ? depth : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
     }
-    if (HAS(LAYERS) && bounce == 0) store_surface_layers(params, radiance, slot, &h, &s, found);
+    if (HAS(LAYERS) && bounce == 0) store_surface_layers(params, radiance, parts, slot, prim, &h, &s, found);
+    if (HAS(LAYERS) && HAS(MOTION) && motion && bounce == 0 && params->layer_of[EC_LAYER_MOTION])
+        store_motion_vector(params, radiance, motion, camera_keys, slot, &h, prim, d, active, found);
     /* This vertex ends segment bounce + 1; light sampled here would arrive over segment bounce + 2. */
     if (bounce + 2 > params->max_depth || !any_lane(scatters | strewn)) return;
 

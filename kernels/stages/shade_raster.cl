@@ -16,7 +16,7 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
                             global const float *colors, global const float *materials,
                             global const float *texture_table, global const uint *texels, constant float *srgb,
                             global const float *places, global const float *light_table,
-                            global const float *environment_texels)
+                            global const float *environment_texels, global const uint *parts)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= path_count) return;
@@ -65,5 +65,5 @@ kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatil
         store_features(aov, wave, slot, v3_select(found, s.base, v3_zero()), v3_select(found, s.ns, v3_zero()),
                        found ? sqrt(v3_dot(way, way)) : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
     }
-    if (HAS(LAYERS)) store_surface_layers(params, radiance, slot, &e.h, &s, found);
+    if (HAS(LAYERS)) store_surface_layers(params, radiance, parts, slot, prim, &e.h, &s, found);
 }

@@ -74,7 +74,7 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
                        global const float *indices, global const float *normals, global const float *tangents,
                        global const float *uvs, global const float *colors, global const float *materials,
                        global const float *texture_table, global const uint *texels, constant float *srgb,
-                       global const float *places, global const float *environment_texels)
+                       global const float *places, global const float *environment_texels, global const uint *parts)
 {
     uint i = get_global_id(0) * LANES, wave = params->wave;
     if (i >= wave) return;
@@ -106,7 +106,7 @@ kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, 
     if (aov && bounce == 0)
         store_features(aov, wave, slot, v3_select(found, s->base, v3_zero()), v3_select(found, s->ns, v3_zero()),
                        found ? distance : F(0.0f), found ? F(1.0f) : F(0.0f), mask_bits(active));
-    if (HAS(LAYERS) && bounce == 0) store_surface_layers(params, radiance, slot, &e.h, s, found);
+    if (HAS(LAYERS) && bounce == 0) store_surface_layers(params, radiance, parts, slot, prim, &e.h, s, found);
 
     bsdf b = bsdf_make(s, surface_to_local(s, wo), false);
     lane_i mirrors = whitted_mirrors(s), goes_on = e.lit & (depth + 3.0f <= (float)params->max_depth);

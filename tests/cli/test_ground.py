@@ -1,10 +1,12 @@
-# tier: quick
+# tiers: quick, full
 """--ground: a floor under the scene, and one that catches shadows alone."""
 import json
 import math
 import unittest
 
-from support import QUICK, Case, eclat, quad_scene, read_exr, write_gltf
+from support import QUICK, Case, eclat, move_node, quad_scene, read_exr, write_gltf
+from test_ranks import mpirun, without_mpi
+from tiers import full
 
 N = 16
 BLACK = {"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0, 0, 0, 1]}}
@@ -74,6 +76,29 @@ class Ground(Case):
             report, seen = self.render("d.exr", "--ground=shadow", "--background", colour, "--eye", "0,-2,4", "--look-at", "0,-4,0", "--fov", "60", spp=16, scene=scene)
             self.assertEqual(set(seen["A"]) & {0.0, 1.0}, {0.0, 1.0})
             self.assertLess(sum(0 < x < 1 for x in seen["A"]), N ** 2 / 4)
+
+    def test_it_stays_while_things_move(self):
+        """In all frames under the lowest point that there is at any time: of a square that falls from y = 3 to 1 within a second, and a camera 5 over y = 1. Frames of a range of
+        their own have the same bits; the box is 2 x 2 x 2."""
+        move_node(self.document, 0, [0, 3, 0], [0, 1, 0])
+        scene = write_gltf(self.path("falling.gltf"), self.document)
+        away = ("--env", "1,1,1", "--eye", "9,6,0", "--look-at", "9,1,0", "--up", "0,0,1", "--fov", "5", "--channels", "A,depth")
+        for frames, name in (("0:2", "frame"), ("1:1", "alone")):
+            self.assert_ok(eclat("render", scene, *QUICK, "--size", f"{N}x{N}", "--spp", "8", "--ground", *away, "--fps", "2", "--frames", frames, "-q", "-o", self.path(name + "%d.exr")))
+        for frame in range(3):
+            for depth in read_exr(self.path(f"frame{frame}.exr"))[1]["depth.Z"]:
+                self.assertAlmostEqual(depth, 5 + 1e-4 * math.sqrt(3), delta=5 * (1 / math.cos(math.radians(3.6)) - 1) + 1e-5)
+        self.assertEqual(read_exr(self.path("frame1.exr"))[1], read_exr(self.path("alone1.exr"))[1])
+
+    @full
+    @unittest.skipIf(without_mpi(), "no MPI")
+    def test_processes_of_an_mpi_job(self):
+        """Have the bits of one process, shadow included."""
+        for ground in (["--ground"], ["--ground=shadow", "--background", "transparent"]):
+            job = [self.scene, *QUICK, *ground, "--size", f"{N}x{N}", "--spp", "32", "--env", "1,0.8,0.6", "--eye", "3,4,9", "--look-at", "0,0,0", "-q"]
+            self.assert_ok(eclat("render", *job, "-o", self.path("one.exr")))
+            self.assert_ok(mpirun(2, "render", *job, "-o", self.path("two.exr")))
+            self.assertEqual(read_exr(self.path("one.exr"))[1], read_exr(self.path("two.exr"))[1])
 
     def test_what_does_not_go_together(self):
         for options, code, says in [(["--ground=mud"], 2, "is not one of none, matte, shadow"),

@@ -109,13 +109,50 @@ class Light(Layers):
                 self.assertLess(noise, 0.02 * sum(alone["R"]) + 0.02 * sum(alone["G"]))
 
     def test_refused(self):
-        for options, says in [(["--light-groups", "lamp", "--clamp", "3"], "--light-groups and --clamp"), (["--channels", "direct", "--samples", "0:64", "--spp", "64"], "--channels"),
-                              (["--light-groups", "lamp", "--checkpoint", "c.exr"], "--light-groups and --checkpoint"), (["--light-groups", "all", "-o", "a.png"], "-o names none"),
+        for options, says in [(["--light-groups", "lamp", "--clamp", "3"], "--light-groups and --clamp"), (["--channels", "direct,albedo", "--samples", "0:64", "--spp", "64"], "--channels"),
+                              (["--light-groups", "lamp", "--snapshot", "c.exr"], "--light-groups and --snapshot"), (["--light-groups", "all", "-o", "a.png"], "-o names none"),
                               (["--channels", "indirect", "--integrator", "raster"], "--integrator path"), (["--channels", "direct", "--light-paths", "1"], "--light-paths")]:
             self.assertIn(says, self.assert_one_error(eclat("render", CORNELL, *options, cwd=self.folder), 2))
         for groups, says in [("sun", "no light 'sun'; there is lamp"), ("a=lamp,b=lamp", "'lamp' is in two groups"), ("a=", "empty name")]:
             self.assertIn(says, self.assert_one_error(eclat("render", CORNELL, "--light-groups", groups, "-o", "a.exr", cwd=self.folder), 1))
         self.assertEqual(os.listdir(self.folder), [])
+
+
+class Kept(Layers):
+    LAYERS = ["--channels", "direct,indirect", "--light-groups", "ceiling=ceiling-panel+cove,bulb-over-table"]
+
+    def test_a_resumed_render_has_the_bits_of_one_run(self):
+        self.assert_resumed()
+
+    @full
+    def test_an_adaptive_one_too(self):
+        self.assert_resumed("--adaptive")
+
+    def assert_resumed(self, *options):
+        job = [LAMPS, "--size", "24x16", *self.LAYERS, *options, "-q"]
+        self.assert_ok(eclat("render", *job, "--spp", "96", "-o", "whole.exr", cwd=self.folder))
+        self.assert_ok(eclat("render", *job, "--spp", "40", "--checkpoint", "kept.exr", "-o", "part.exr", cwd=self.folder))
+        self.assert_ok(eclat("render", "--resume", "kept.exr", "--spp", "96", "-q", "-o", "on.exr", cwd=self.folder))
+        whole, on = read_exr(self.path("whole.exr")), read_exr(self.path("on.exr"))
+        self.assertEqual(whole[0]["channels"], on[0]["channels"])
+        self.assertTrue(all(whole[1][name] == on[1][name] for name in whole[1]))
+
+    @full
+    def test_merged_slices_have_the_bits_of_one_run(self):
+        """Slices keep 32-bit standard errors; a mix of what is merged knows its errors. Slices with other layers are no slices of the job."""
+        job = [LAMPS, "--size", "24x16", "--spp", "96", "-q"]
+        self.assert_ok(eclat("render", *job, *self.LAYERS, "-o", "whole.exr", cwd=self.folder))
+        for name, samples in (("a", "0:40"), ("b", "40:96")):
+            self.assert_ok(eclat("render", *job, *self.LAYERS, "--samples", samples, "-o", name + ".exr", cwd=self.folder))
+        self.assert_ok(eclat("merge", "a.exr", "b.exr", "-q", "-o", "all.exr", cwd=self.folder))
+        whole, merged = read_exr(self.path("whole.exr"))[1], read_exr(self.path("all.exr"))[1]
+        for name in (name for name in whole if name.startswith(("direct", "indirect", "light"))):
+            near = {True: lambda a, b: math.isclose(a, b, rel_tol=1e-3, abs_tol=1e-6), False: lambda a, b: a == b}["stderr" in name]
+            self.assertTrue(all(map(near, whole[name], merged[name])), name)
+        self.assertIn("error", self.assert_ok(eclat("mix", "all.exr", "ceiling=0", "-o", "mixed.exr", cwd=self.folder)).stdout)
+        for other in (["--channels", "direct"], ["--channels", "direct,indirect", "--light-groups", "ceiling=ceiling-panel,bulb-over-table"]):
+            self.assert_ok(eclat("render", *job, *other, "--samples", "40:96", "-o", "c.exr", cwd=self.folder))
+            self.assertIn("not of the same job", self.assert_one_error(eclat("merge", "a.exr", "c.exr", "-o", "d.exr", cwd=self.folder), 1))
 
 
 def far_quad():

@@ -2,9 +2,10 @@
 """Points and lines are drawn as wide as --point-size says, with the same bits by every structure, alone and as frames."""
 import json
 import math
+import struct
 import unittest
 
-from support import QUICK, Case, eclat, move_node, quad_scene, read_exr, write_gltf
+from support import QUICK, Case, data_uri, eclat, move_node, quad_scene, read_exr, write_gltf
 
 SQUARE = 512  # pixels of the picture in which a point of one pixel is one wide
 
@@ -64,6 +65,53 @@ class Points(Case):
             self.assertEqual(a["G"], b["G"])
             shares.append(sum(a["A"]))
         self.assertAlmostEqual(shares[0] / shares[2], 1, delta=0.2)
+
+    def moved(self, how):
+        """The picture of points moved by (0.5, 0.25, 0): in the file, by a morph target, by a joint."""
+        shift = (0.5, 0.25, 0)
+
+        def change(scene):
+            points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+            primitive = scene["meshes"][0]["primitives"][0]
+            if how == "file":
+                primitive["attributes"]["POSITION"] = self.add_floats(scene, "VEC3", [[a + b for a, b in zip(p, shift)] for p in points])
+            elif how == "morph":
+                primitive["targets"] = [{"POSITION": self.add_floats(scene, "VEC3", [shift] * 4)}]
+                scene["meshes"][0]["weights"] = [1]
+            elif how == "skin":
+                scene["buffers"].append({"byteLength": 16, "uri": data_uri(bytes([0, 1, 0, 0] * 4))})
+                scene["bufferViews"].append({"buffer": 1, "byteLength": 16})
+                scene["accessors"].append({"bufferView": 2, "componentType": 5121, "count": 4, "type": "VEC4"})
+                primitive["attributes"].update(JOINTS_0=2, WEIGHTS_0=self.add_floats(scene, "VEC4", [[0.5, 0.5, 0, 0]] * 4))
+                scene["nodes"][0]["skin"] = 0
+                scene["nodes"] += [{"translation": [2 * x for x in shift]}, {}]
+                scene["scenes"][0]["nodes"] += [2, 3]
+                scene["skins"] = [{"joints": [2, 3]}]
+        return self.render(self.scene(0, change), "--size", "48x32", "--spp", "4", "--point-size", "60")[1]["A"]
+
+    @staticmethod
+    def add_floats(scene, kind, rows):
+        data = struct.pack(f"<{len(rows) * len(rows[0])}f", *(value for row in rows for value in row))
+        scene["buffers"].append({"byteLength": len(data), "uri": data_uri(data)})
+        scene["bufferViews"].append({"buffer": len(scene["buffers"]) - 1, "byteLength": len(data)})
+        scene["accessors"].append({"bufferView": len(scene["bufferViews"]) - 1, "componentType": 5126, "count": len(rows), "type": kind,
+                                   "min": [min(column) for column in zip(*rows)], "max": [max(column) for column in zip(*rows)]})
+        return len(scene["accessors"]) - 1
+
+    def test_morph_targets_and_skins_move_them(self):
+        as_written = self.moved("file")
+        self.assertGreater(sum(a != b for a, b in zip(as_written, self.moved("not at all"))), 100)
+        for how in "morph", "skin":
+            with self.subTest(how):
+                self.assertLess(sum(abs(a - b) for a, b in zip(as_written, self.moved(how))), 0.01 * sum(as_written))
+
+    def test_they_move_while_the_shutter_is_open(self):
+        """By half of what they are apart, along x: each leaves a trail with as much light as it has where it stands still."""
+        scene = self.scene(0, lambda scene: move_node(scene, 0, (0, 0, 0), (1, 0, 0)))
+        options = ["--size", "96x64", "--spp", "16", "--point-size", "30"]
+        still, trail = (self.render(scene, *options, *when)[1]["A"] for when in (["--at", "0.5"], ["--shutter", "0:1"]))
+        self.assertAlmostEqual(sum(trail) / sum(still), 1, delta=0.05)
+        self.assertGreater(sum(a > 0 for a in trail), 3 * sum(a > 0 for a in still))
 
 
 if __name__ == "__main__":

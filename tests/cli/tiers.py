@@ -1,5 +1,5 @@
-"""Tiers of tests: the first line of a test file names its own, '# tier: quick'. With '# tiers: quick, full' it has parts of both, and @full says
-which classes or tests are not quick; a C file asks test_tier() of support/test.h.
+"""Tiers of tests: the first line of a test file names its own, '# tier: quick'. With '# tiers: quick, full' it has parts of both, and @full
+and @long say which classes or tests are not quick; a C file asks test_tier() of support/test.h.
 usage: python3 -m tiers TIER MODULE   Runs the tests of MODULE that are of TIER."""
 import re
 import sys
@@ -12,6 +12,11 @@ KINDS = {"tier: quick": ["quick"], "tier: full": ["full"], "tier: long": ["long"
 
 def full(marked):
     marked.tier = "full"
+    return marked
+
+
+def long(marked):
+    marked.tier = "long"
     return marked
 
 

@@ -112,7 +112,7 @@ class Arrays(Case):
     def test_no_bound_has_a_reason(self):
         """A lamp that samples hardly meet: the scene's own README."""
         path = os.path.join(os.path.dirname(os.path.dirname(CORNELL)), "pinlamp", "pinlamp.gltf")
-        picture = eclat.load(path).render(spp=32, size=(16, 12))
+        picture = eclat.load(path).render(spp=32, size=(16, 12), light_paths=0)
         self.assertIsNone(picture.bound)
         self.assertTrue(picture.why)
         self.assertEqual(picture.caption, f"error at least {100 * picture.error:.3g} %, no bound: {picture.why}, 32 samples a pixel")
@@ -161,6 +161,21 @@ class Files(Case):
         self.error_of(eclat.merge, [self.folder / "a.exr"])
         with self.assertWarnsRegex(eclat.Warning, "missing"):
             self.assertEqual(eclat.merge([self.folder / "a.exr"], partial=True).samples, 8)
+
+    def test_layers_are_weighed_anew(self):
+        """Without indirect light there is the direct one; with gains of 1 the picture; a mix can be mixed, and its errors are upper bounds."""
+        picture = eclat.load(CORNELL).render(**SMALL, channels="default,direct,indirect")
+        direct = eclat.mix(picture, {"indirect": 0})
+        np.testing.assert_array_equal(direct.radiance, picture.layer("direct"))
+        self.assertEqual((direct.bound, direct.samples), (None, 16))
+        self.assertIn("upper bounds", direct.why)
+        direct.save(self.folder / "direct.exr")
+        red = eclat.mix(self.folder / "direct.exr", {"direct": (2, 0, 0.5)})
+        np.testing.assert_array_equal(red.radiance, direct.radiance * np.array([2, 0, 0.5], np.float32))
+        same = eclat.mix(picture, {"direct": 1.0})
+        self.assertEqual(same.attributes["eclat.imageSha256"], picture.attributes["eclat.imageSha256"])
+        np.testing.assert_allclose(same.error, picture.error, rtol=1e-3)
+        self.error_of(eclat.mix, picture, {"direct": -1}, kind="usage")
 
 
 class Compare(Case):

@@ -158,7 +158,7 @@ void eclat_job_listen(eclat_job *job, const eclat_listener *listener); /* copied
 void eclat_job_stop(eclat_job *job);
 
 /* Runs and waits; a job may run again. picture NULL: what the job makes goes to the files of the option "output", or to those that it names by
- * itself. Otherwise jobs that make one picture, "render" and "merge", give it, and write files only where "output" names them. *picture is NULL
+ * itself. Otherwise jobs that make one picture, "render", "merge" and "mix", give it, and write files only where "output" names them. *picture is NULL
  * on failure, but where the device failed halfway: then it is the picture so far. It is NULL on success too where there is none: of a sequence
  * of frames, or of a picture that does not fit into memory. */
 typedef struct eclat_picture eclat_picture;

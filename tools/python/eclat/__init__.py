@@ -14,6 +14,7 @@ from importlib import metadata
 from ._compare import Comparison, compare
 from ._error import Error, Warning
 from ._job import Progress
+from ._mix import mix
 from ._picture import Clean, Intervals, Picture
 from ._scene import Device, Scene, cost, devices, info, load, merge, render_all, render_scenarios
 
@@ -21,4 +22,4 @@ for _public in (Clean, Comparison, Device, Error, Intervals, Picture, Progress, 
     _public.__module__ = "eclat"  # as messages and help name them
 __version__ = metadata.version("eclat")
 __all__ = ["Clean", "Comparison", "Device", "Error", "Intervals", "Picture", "Progress", "Scene", "Warning",
-           "compare", "cost", "devices", "info", "load", "merge", "render_all", "render_scenarios"]
+           "compare", "cost", "devices", "info", "load", "merge", "mix", "render_all", "render_scenarios"]

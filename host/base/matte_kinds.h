@@ -1,0 +1,9 @@
+/* What Cryptomatte tells apart, and by how many names in a pixel. */
+#ifndef EC_BASE_MATTE_KINDS_H
+#define EC_BASE_MATTE_KINDS_H
+
+enum ec_matte_kind { EC_MATTE_OBJECT, EC_MATTE_MATERIAL, EC_MATTE_ASSET, EC_MATTE_KINDS };
+
+enum { EC_MATTE_RANKS = 6 };
+
+#endif

@@ -1,0 +1,26 @@
+/* Which surfaces the samples of a batch meet, until the batch is in the film. Devices write it, each in a thread of its own. */
+#ifndef EC_FILM_MATTE_LOG_H
+#define EC_FILM_MATTE_LOG_H
+
+#include <pthread.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Of a position of the batch: so many samples have met a node, and of it a material. Both are numbers plus 1; 0: none. */
+typedef struct ec_matte_entry {
+    uint32_t position, node, material, samples;
+} ec_matte_entry;
+
+typedef struct ec_matte_log {
+    ec_matte_entry *entries; /* owned */
+    uint64_t count, room;
+    pthread_mutex_t *lock;   /* NULL: one thread alone writes */
+} ec_matte_log;
+
+/* False where there is no memory. */
+bool ec_matte_log_add(ec_matte_log *log, const ec_matte_entry *entries, uint64_t count);
+
+/* The samples of one position, `count` of them: floats that are whole numbers; what met nothing is left out. */
+bool ec_matte_log_samples(ec_matte_log *log, uint32_t position, const float *nodes, const float *materials, uint32_t count);
+
+#endif

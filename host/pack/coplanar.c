@@ -1,0 +1,219 @@
+/* Found among pairs whose boxes touch; written as a list of rivals for each triangle that has some. */
+#include "pack/coplanar.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/freed.h"
+#include "pack/near_pairs.h"
+
+#define APART 0x1p-19       /* over the largest coordinate: 16 to 32 ulps of it, within which rounding tells nothing */
+#define WIDE 0x1p-17        /* likewise: what overlaps less only touches */
+enum { PAIRS_MOST = 64, PAIRS_FREE = 100000 }; /* a triangle, and in all */
+
+typedef struct rival {
+    uint32_t of, prim;
+    bool alike; /* they face one way */
+    int rank;
+} rival;
+
+typedef struct finder {
+    const ec_prim *prims;
+    const ec_material *materials;
+    const ec_motion *motion; /* NULL: nothing moves */
+    double apart, wide;
+    uint64_t looks, looks_most; /* at pairs in one plane */
+    size_t count, room;
+    rival *rivals;
+    bool failed;
+} finder;
+
+typedef double corners[3][3];
+
+static void subtract(const double a[3], const double b[3], double r[3])
+{
+    for (int k = 0; k < 3; k++) r[k] = a[k] - b[k];
+}
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static void cross(const double a[3], const double b[3], double r[3])
+{
+    for (int k = 0; k < 3; k++) r[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static void corners_of(const ec_prim *p, corners c)
+{
+    for (int k = 0; k < 3; k++) c[0][k] = p->v0[k], c[1][k] = p->v1[k], c[2][k] = p->v2[k];
+}
+
+/* Twice the area times the unit normal. */
+static void normal_of(corners c, double n[3])
+{
+    double a[3], b[3];
+    subtract(c[1], c[0], a);
+    subtract(c[2], c[0], b);
+    cross(a, b, n);
+}
+
+/* Do all corners of b lie in the plane through a? */
+static bool lies_in(corners a, corners b, double apart)
+{
+    double n[3];
+    normal_of(a, n);
+    const double most = apart * apart * dot(n, n);
+    for (int i = 2; i >= 0; i--) {
+        double d[3];
+        subtract(b[i], a[0], d);
+        double off = dot(n, d);
+        if (!(off * off <= most)) return false;
+    }
+    return true;
+}
+
+/* The plane of the larger one says more, but where they only overlap the other way round may be the exact one. */
+static bool in_one_plane(corners a, corners b, double apart) { return lies_in(a, b, apart) || lies_in(b, a, apart); }
+
+static void extent(corners c, const double axis[3], double *least, double *most)
+{
+    *least = *most = dot(c[0], axis);
+    for (int i = 1; i < 3; i++) {
+        double x = dot(c[i], axis);
+        *least = fmin(*least, x);
+        *most = fmax(*most, x);
+    }
+}
+
+/* By more than `wide` whichever way one looks along the plane (separating axes). */
+static bool overlap(corners a, corners b, double wide)
+{
+    double n[3], m[3];
+    normal_of(a, n);
+    normal_of(b, m);
+    const double *up = dot(n, n) > dot(m, m) ? n : m;
+    for (int e = 0; e < 6; e++) {
+        double(*c)[3] = e < 3 ? a : b, edge[3], axis[3], a0, a1, b0, b1;
+        subtract(c[(e + 1) % 3], c[e % 3], edge);
+        cross(edge, up, axis);
+        extent(a, axis, &a0, &a1);
+        extent(b, axis, &b0, &b1);
+        if (!(fmin(a1, b1) - fmax(a0, b0) > wide * sqrt(dot(axis, axis)))) return false;
+    }
+    return true;
+}
+
+/* Of a triangle that moves where it is at a key, of another as it is. */
+static void corners_at(const finder *f, uint32_t prim, uint32_t key, const uint32_t *indices, corners c)
+{
+    const size_t keys = f->motion->segments + 1;
+    if (prim >= f->motion->triangle_count) corners_of(&f->prims[prim], c);
+    else
+        for (int i = 0; i < 9; i++) c[i / 3][i % 3] = f->motion->positions[3 * (indices[3 * (size_t)prim + i / 3] * keys + key) + i % 3];
+}
+
+/* What has a coverage was laid on what has none; what lets light pass is seen through. */
+static int rank_of(const finder *f, uint32_t prim)
+{
+    const ec_prim *p = &f->prims[prim];
+    const ec_material *m = &f->materials[p->material];
+    return (p->flags & EC_PRIM_PANE) || ec_refracts(m) || ec_bounds(m) ? 2 : p->flags & EC_PRIM_ALPHA ? 0 : 1;
+}
+
+/* Where both face one way a triangle knows those alone that come before it. */
+static void add(finder *f, uint32_t of, uint32_t prim, bool alike)
+{
+    const int own = rank_of(f, of), rank = rank_of(f, prim);
+    if (f->failed || (alike && (rank > own || (rank == own && prim > of)))) return;
+    if (f->count == f->room) {
+        size_t room = f->room ? 2 * f->room : 64;
+        rival *more = realloc(f->rivals, room * sizeof *more);
+        f->failed = !more;
+        if (!more) return;
+        f->rivals = more, f->room = room;
+    }
+    f->rivals[f->count++] = (rival){of, prim, alike, rank};
+}
+
+/* By several threads at once; what comes of it is sorted. Of equal ones rays meet the first anyway. */
+static bool look(void *user, uint32_t a, uint32_t b)
+{
+    finder *f = user;
+    corners ca, cb;
+    double n[3], m[3];
+    uint64_t looks;
+    corners_of(&f->prims[a], ca);
+    corners_of(&f->prims[b], cb);
+    if (!in_one_plane(ca, cb, f->apart)) return true;
+#pragma omp atomic capture
+    looks = ++f->looks;
+    if (looks > f->looks_most) return false;
+    bool equal = !memcmp(ca, cb, sizeof ca) && rank_of(f, a) == rank_of(f, b);
+    if (equal || !overlap(ca, cb, f->wide)) return true;
+    normal_of(ca, n);
+    normal_of(cb, m);
+    const bool alike = dot(n, m) > 0;
+#pragma omp critical(coplanar)
+    {
+        add(f, a, b, alike);
+        add(f, b, a, alike);
+    }
+    return true;
+}
+
+static bool stay_together(const finder *f, const rival *r, const uint32_t *indices)
+{
+    if (!f->motion || (r->of >= f->motion->triangle_count && r->prim >= f->motion->triangle_count)) return true;
+    for (uint32_t key = 0; key <= f->motion->segments; key++) {
+        corners a, b;
+        corners_at(f, r->of, key, indices, a);
+        corners_at(f, r->prim, key, indices, b);
+        if (!in_one_plane(a, b, f->apart)) return false;
+    }
+    return true;
+}
+
+static int by_rank(const void *a, const void *b)
+{
+    const rival *x = a, *y = b;
+    if (x->of != y->of) return x->of < y->of ? -1 : 1;
+    if (x->alike != y->alike) return x->alike - y->alike;
+    if (x->rank != y->rank) return x->rank - y->rank;
+    return x->prim < y->prim ? -1 : x->prim > y->prim;
+}
+
+/* As kernels/lib/coplanar.h has it. */
+static ec_result write_lists(const finder *f, ec_pack *pack, ec_error *err)
+{
+    const uint64_t words = pack->prim_count + 3 * (uint64_t)f->count;
+    if (words > UINT32_MAX) return ec_fail(err, "%zu pairs of faces in one plane are more than can be numbered", f->count);
+    pack->coplanar = calloc(words, sizeof *pack->coplanar);
+    if (!pack->coplanar) return ec_fail(err, "out of memory for %zu pairs of faces in one plane", f->count);
+    uint32_t at = pack->prim_count;
+    for (size_t i = 0; i < f->count; i++) {
+        const rival *r = &f->rivals[i];
+        if (!pack->coplanar[r->of]) pack->coplanar[r->of] = at, at += 2;
+        pack->coplanar[pack->coplanar[r->of] + r->alike]++;
+        pack->coplanar[at++] = r->prim;
+    }
+    pack->coplanar_words = at;
+    return EC_OK;
+}
+
+ec_result ec_pack_coplanar(const ec_scene *scene, ec_pack *pack, ec_error *err)
+{
+    if (scene->placed_count) return EC_OK;
+    finder f = {.prims = pack->prims, .materials = scene->materials, .motion = scene->motion.segments ? &scene->motion : NULL, .apart = APART * (double)pack->scene_max,
+                .wide = WIDE * (double)pack->scene_max, .looks_most = (uint64_t)pack->prim_count * PAIRS_MOST + PAIRS_FREE};
+    ec_result result = ec_near_pairs(pack->prims, pack->prim_count, (float)f.apart, look, &f, err);
+    if (f.failed) result = ec_fail(err, "out of memory for %zu pairs of faces in one plane", f.count);
+    if (result == EC_OK && f.looks <= f.looks_most) { /* else too many lie on one another, and are left to rounding */
+        size_t kept = 0;
+        for (size_t i = 0; i < f.count; i++)
+            if (stay_together(&f, &f.rivals[i], scene->indices)) f.rivals[kept++] = f.rivals[i];
+        f.count = kept;
+        if (f.count) qsort(f.rivals, f.count, sizeof *f.rivals, by_rank);
+        if (f.count) result = write_lists(&f, pack, err);
+        if (pack->coplanar)
+            ec_effects_call(&pack->effects, EC_FEATURE_COPLANAR, "triangle %u lies on triangle %u in one plane", f.rivals[0].of, f.rivals[0].prim);
+    }
+    free(f.rivals);
+    return result;
+}

@@ -1,0 +1,44 @@
+/* --light-paths auto: is so much of the picture's noise that of caustics that light paths pay?
+ *
+ * The first look at the picture's paths (rare/paths.h) foretells how often they meet light by way of what bends or mirrors it, and what that
+ * brings: the variance of a sample, over the square of the mean luminance that a pilot finds. Both are the same whoever renders a part of a
+ * job, with however many devices, and no clock has a say. */
+#include <math.h>
+
+#include "pack/pack.h"
+#include "render/render_state.h"
+
+#define PAYS 4.0             /* variance of a sample over the square of the mean: 25 % of noise at 64 samples a pixel */
+#define PILOT 8192u          /* samples */
+
+bool ec_render_may_have_caustics(const ec_render_options *o, const ec_scene *scene)
+{
+    const bool follow = !(o->fog[0] > 0) && !ec_scene_scatters(scene); /* light paths do not scatter on their way */
+    return o->light_paths == EC_LIGHT_PATHS_AUTO && follow && ec_scene_casts(scene);
+}
+
+static void note(const ec_rare_kind *most, double variance, const ec_log *log)
+{
+    char way[EC_RARE_WAY];
+    ec_rare_way(most->through, most->light, way, sizeof way);
+    ec_note(log, "caustics: paths %s are so rare that their noise would be %.0f %% at 64 samples a pixel; light paths are traced too, one for %.0f from the "
+                 "camera (--light-paths 0: none)", way, 12.5 * sqrt(variance), 1 / EC_LIGHT_PATHS_FEW);
+}
+
+ec_result ec_render_judge_caustics(ec_render_state *r, bool *pays, const ec_log *log, ec_error *err)
+{
+    const ec_render_options *o = r->options;
+    const uint32_t fits = o->width < PILOT ? PILOT / o->width : 1, rows = fits < o->height ? fits : o->height;
+    const ec_rare_kind *most;
+    double mean;
+    *pays = false;
+    EC_TRY(ec_render_foretell(r, err));
+    if (!(ec_rare_caustics(&r->rare, 1, &most) > 0)) return EC_OK;
+    EC_TRY(r->source->turn_to(r->source, 0, rows, err));
+    EC_TRY(ec_render_pilot_mean(r, PILOT, rows, &mean, err));
+    if (!(mean > 0)) return EC_OK;
+    const double variance = ec_rare_caustics(&r->rare, mean, &most);
+    *pays = variance >= PAYS;
+    if (*pays) note(most, variance, log);
+    return EC_OK;
+}
