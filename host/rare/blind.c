@@ -103,7 +103,7 @@ ec_result ec_rare_blind_find(const ec_rare_lights *all, const ec_chains *chains,
     const ec_chain *own = rays;
     for (uint32_t i = 0; result == EC_OK && i < all->count; i++) {
         if (ec_rare_light_is_all_around(&all->lights[i])) continue;
-        judge_light(all, chains, &all->lights[i], own, p->params.light_paths > 0, shares, rare);
+        judge_light(all, chains, &all->lights[i], own, (p->effects.called.bits & EC_FEATURE_LIGHT_PATHS) != 0, shares, rare);
         own += RAYS;
     }
     free(rays);

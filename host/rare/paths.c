@@ -271,7 +271,7 @@ ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, e
     for (uint32_t i = 0; i < all->count; i++) compared += all->lights[i].lamp_count ? all->lights[i].lamp_count : 1;
     const uint32_t most = COMPARED / compared > LEAST ? COMPARED / compared : LEAST;
     for (int k = 0; result == EC_OK && k < ALIKE; k++) {
-        select_chains(chains, k, p->params.light_paths > 0, most, &of);
+        select_chains(chains, k, (p->effects.called.bits & EC_FEATURE_LIGHT_PATHS) != 0, most, &of);
         result = add_kind(all, &of, k >= 3, p, through, rare, err);
     }
     free(of.chains);
