@@ -32,6 +32,16 @@ bool ec_scene_casts(const ec_scene *scene)
     return false;
 }
 
+bool ec_scene_scatters(const ec_scene *scene)
+{
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        const ec_material *m = &scene->materials[scene->triangle_material[t]];
+        for (int k = 0; k < 3 && !m->unlit && (ec_refracts(m) || ec_bounds(m)); k++)
+            if (m->scatter[k] > 0 && m->absorption[k] > 0) return true;
+    }
+    return false;
+}
+
 typedef struct box {
     float low[3], high[3];
 } box;

@@ -18,6 +18,7 @@ LAYERS = {
     "clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.2},
     "transmission": {"transmissionFactor": 1},
     "volume": {"thicknessFactor": 1, "attenuationDistance": 1, "attenuationColor": [0.8, 0.9, 0.7]},
+    "volume_scatter": {"multiscatterColorFactor": [1, 0.6, 0.9], "scatterAnisotropy": 0.8},
     "iridescence": {"iridescenceFactor": 1, "iridescenceThicknessMaximum": 400},
     "dispersion": {"dispersion": 1},
     "sheen": {"sheenColorFactor": [1, 1, 1], "sheenRoughnessFactor": 0.3},
@@ -94,7 +95,7 @@ class OddMaterials(HardCase):
         for layer, key, values in [(None, "roughnessFactor", [2, -1, 1e30]), (None, "metallicFactor", [-1, 3e38]), ("ior", "ior", [0.5, -1, 1e30]),
                                    ("transmission", "transmissionFactor", [5, -1]), ("clearcoat", "clearcoatFactor", [7, -5]),
                                    ("sheen", "sheenRoughnessFactor", [7, -5]), ("anisotropy", "anisotropyStrength", [7, -5]),
-                                   ("iridescence", "iridescenceIor", [0.5, 1e38]), ("dispersion", "dispersion", [-5, 1e38]),
+                                   ("iridescence", "iridescenceIor", [0.5, 1e38]), ("dispersion", "dispersion", [-5, 1e38]), ("volume_scatter", "scatterAnisotropy", [-1, 1e38]),
                                    ("diffuse_transmission", "diffuseTransmissionFactor", [7, -5]), ("specular", "specularFactor", [7, -5])]:
             for value in values:
                 with self.subTest(key=key, value=value):
