@@ -145,13 +145,12 @@ static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const 
     const ec_peers *peers = r->course->peers;
     const bool is_judged = ec_render_may_have_caustics(r->options, scene), is_alone = count == 1 && !peers;
     const uint32_t first = is_judged ? 1 : count;
-    bool pays = false, scatters;
+    bool pays = false;
     EC_TRY(ec_sources_pack(devices, first, peers != NULL && !is_judged, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
     r->params = r->sources.cargo.head.params;
     EC_TRY(admit(r, log, err));
-    scatters = r->sources.cargo.head.effects.called.bits & EC_FEATURE_SCATTERING; /* no light path does, and the cargo is spent when it is loaded */
     EC_TRY(open_sources(r, is_judged ? NULL : peers, log, err));
-    if (is_judged && !scatters) EC_TRY(ec_render_judge_caustics(r, &pays, log, err));
+    if (is_judged) EC_TRY(ec_render_judge_caustics(r, &pays, log, err));
     if (pays) choose_light_paths(r);
     if (is_judged && (pays || !is_alone)) {
         const ec_render_stats before = *r->stats;
