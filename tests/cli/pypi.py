@@ -1,0 +1,26 @@
+"""Packages of PyPI's that tests read files with, fetched once into the build folder."""
+import fcntl
+import os
+import subprocess
+import sys
+import unittest
+
+from support import ECLAT
+
+
+def fetch(name, package, *options):
+    """The folder that it is in. options: pip's. Skips where it cannot be had."""
+    folder = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", name)
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "lock"), "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        there = os.path.join(folder, "there")
+        if not os.path.exists(there):
+            done = subprocess.run([sys.executable, "-m", "pip", "install", "-q", *options, "--target", folder, package], capture_output=True, encoding="utf-8",
+                                  errors="replace", stdin=subprocess.DEVNULL, timeout=600, check=False)
+            if done.returncode:
+                lines = (done.stdout + done.stderr).strip().splitlines()
+                raise unittest.SkipTest(f"no {package}: pip: " + (lines[-1] if lines else f"exit code {done.returncode}"))
+            with open(there, "w", encoding="utf-8"):
+                pass
+        return folder
