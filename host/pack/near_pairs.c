@@ -1,9 +1,9 @@
-/* Triangles in the order of a Morton curve of their middles, in blocks of eight under a tree of eight children a node; then each block against
- * the tree. Blocks of one mesh are small and lie side by side, so few meet. */
+/* Triangles in the order of a Morton curve of their middles, under a tree of eight children a node; then the triangles of each lowest node against the tree.
+ * Those of one mesh are small and lie side by side, so few meet. */
 #include "pack/near_pairs.h"
 
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/freed.h"
 
@@ -13,13 +13,16 @@ typedef struct box {
     float lo[3], hi[3];
 } box;
 
+/* Boxes of eight children, as columns; where there are fewer the rest touch nothing. */
+typedef struct node {
+    float lo[3][WIDTH], hi[3][WIDTH];
+} node;
+
 typedef struct search {
     const ec_prim *prims;
     const uint32_t *order;
     uint32_t count, level_count;
-    uint32_t level_size[LEVELS];
-    const box *level[LEVELS]; /* 0: blocks of triangles */
-    float margin;
+    const node *level[LEVELS]; /* 0: of triangles; the last one has one node */
     ec_pair_visit visit;
     void *user;
 } search;
@@ -43,13 +46,6 @@ static void grow(box *b, const box *by)
         b->lo[k] = lesser(b->lo[k], by->lo[k]);
         b->hi[k] = greater(b->hi[k], by->hi[k]);
     }
-}
-
-static bool touch(const box *a, const box *b)
-{
-    bool apart = false;
-    for (int k = 0; k < 3; k++) apart |= (a->lo[k] > b->hi[k]) | (b->lo[k] > a->hi[k]);
-    return !apart;
 }
 
 /* Every third bit of 30 from bit 0 on. */
@@ -104,96 +100,84 @@ static ec_result order_of(const ec_prim *prims, uint32_t count, uint32_t *order,
 
 static uint32_t parts(uint32_t count) { return count / WIDTH + (count % WIDTH != 0); }
 
-/* boxes: room for all levels. */
-static void make_levels(search *s, box *boxes)
+static box child_at(const node *n, uint32_t k)
 {
-    uint32_t below = s->count;
-    for (s->level_count = 0; s->level_count == 0 || below > 1; s->level_count++) {
-        uint32_t size = parts(below);
-        for (uint32_t i = 0; i < size; i++)
-            for (uint32_t k = WIDTH * i; k < below && k < WIDTH * (i + 1); k++) {
-                box one = s->level_count ? s->level[s->level_count - 1][k] : box_of(s->prims + s->order[k], s->margin);
-                if (k == WIDTH * i) boxes[i] = one;
-                else grow(&boxes[i], &one);
-            }
-        s->level[s->level_count] = boxes;
-        s->level_size[s->level_count] = below = size;
-        boxes += size;
-    }
-}
-
-/* A block's triangles, their boxes as columns; where there are fewer than eight the rest touch nothing. */
-typedef struct block {
-    uint32_t ids[WIDTH], count;
-    float lo[3][WIDTH], hi[3][WIDTH];
-} block;
-
-static block block_at(const search *s, uint32_t place)
-{
-    const uint32_t first = WIDTH * place;
-    block b = {.count = s->count - first < WIDTH ? s->count - first : WIDTH};
-    for (uint32_t k = 0; k < b.count; k++) {
-        b.ids[k] = s->order[first + k];
-        box one = box_of(s->prims + b.ids[k], s->margin);
-        for (int axis = 0; axis < 3; axis++) b.lo[axis][k] = one.lo[axis], b.hi[axis][k] = one.hi[axis];
-    }
+    box b;
+    for (int axis = 0; axis < 3; axis++) b.lo[axis] = n->lo[axis][k], b.hi[axis] = n->hi[axis][k];
     return b;
 }
 
-/* Which of b's boxes does a's i-th one touch? */
-static uint32_t touched(const block *a, uint32_t i, const block *b)
+static box box_about(const node *n)
+{
+    box all = child_at(n, 0);
+    for (uint32_t k = 1; k < WIDTH; k++) {
+        const box one = child_at(n, k);
+        grow(&all, &one);
+    }
+    return all;
+}
+
+/* nodes: room for all levels, of which there are at least two. */
+static void make_levels(search *s, float margin, node *nodes)
+{
+    static const box none = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    uint32_t below = s->count;
+    for (s->level_count = 0; s->level_count < 2 || below > 1; s->level_count++) {
+        const node *children = s->level_count ? s->level[s->level_count - 1] : NULL;
+        const uint32_t size = parts(below);
+        for (uint32_t k = 0; k < WIDTH * size; k++) {
+            const box one = k >= below ? none : children ? box_about(&children[k]) : box_of(s->prims + s->order[k], margin);
+            for (int axis = 0; axis < 3; axis++) nodes[k / WIDTH].lo[axis][k % WIDTH] = one.lo[axis], nodes[k / WIDTH].hi[axis][k % WIDTH] = one.hi[axis];
+        }
+        s->level[s->level_count] = nodes;
+        below = size;
+        nodes += size;
+    }
+}
+
+/* Which children touch a box? */
+static uint32_t touched(const node *n, const box *b)
 {
     uint32_t near[WIDTH], bits = 0;
     for (int k = 0; k < WIDTH; k++)
-        near[k] = (uint32_t)((a->lo[0][i] <= b->hi[0][k]) & (b->lo[0][k] <= a->hi[0][i]) & (a->lo[1][i] <= b->hi[1][k]) & (b->lo[1][k] <= a->hi[1][i]) &
-                             (a->lo[2][i] <= b->hi[2][k]) & (b->lo[2][k] <= a->hi[2][i]));
-    for (uint32_t k = 0; k < b->count; k++) bits |= near[k] << k;
+        near[k] = (uint32_t)((n->lo[0][k] <= b->hi[0]) & (b->lo[0] <= n->hi[0][k]) & (n->lo[1][k] <= b->hi[1]) & (b->lo[1] <= n->hi[1][k]) &
+                             (n->lo[2][k] <= b->hi[2]) & (b->lo[2] <= n->hi[2][k]));
+    for (int k = 0; k < WIDTH; k++) bits |= near[k] << k;
     return bits;
 }
 
-/* Which of a block's boxes touch another box? */
-static uint32_t touching(const block *a, const box *b)
+/* The triangles of two lowest nodes; about: the other one's box. */
+static bool compare(const search *s, uint32_t own, uint32_t other, const box *about)
 {
-    uint32_t bits = 0;
-    for (uint32_t k = 0; k < a->count; k++) {
-        uint32_t near = 1;
-        for (int axis = 0; axis < 3; axis++) near &= (uint32_t)((a->lo[axis][k] <= b->hi[axis]) & (b->lo[axis] <= a->hi[axis][k]));
-        bits |= near << k;
-    }
-    return bits;
-}
-
-static bool compare(const search *s, const block *a, uint32_t place, bool same)
-{
-    uint32_t mine = touching(a, &s->level[0][place]);
-    if (!mine) return true;
-    const block b = block_at(s, place);
-    for (; mine; mine &= mine - 1) {
-        const uint32_t i = (uint32_t)__builtin_ctz(mine);
-        for (uint32_t bits = touched(a, i, &b) & (same ? ~0u << (i + 1) : ~0u); bits; bits &= bits - 1) {
-            uint32_t p = a->ids[i], q = b.ids[__builtin_ctz(bits)];
+    for (uint32_t mine = touched(&s->level[0][own], about); mine; mine &= mine - 1) {
+        const uint32_t i = (uint32_t)__builtin_ctz(mine), p = s->order[WIDTH * own + i];
+        const box one = child_at(&s->level[0][own], i);
+        for (uint32_t bits = touched(&s->level[0][other], &one) & (own == other ? ~0u << (i + 1) : ~0u); bits; bits &= bits - 1) {
+            const uint32_t q = s->order[WIDTH * other + (uint32_t)__builtin_ctz(bits)];
             if (!s->visit(s->user, p < q ? p : q, p < q ? q : p)) return false;
         }
     }
     return true;
 }
 
-/* A block against all from itself on. */
-static bool search_block(const search *s, uint32_t place)
+/* A lowest node against all from itself on. */
+static bool search_node(const search *s, uint32_t own)
 {
     uint32_t stack[LEVELS * WIDTH], levels[LEVELS * WIDTH], depth = 1;
-    const block own = block_at(s, place);
+    const box mine = child_at(&s->level[1][own / WIDTH], own % WIDTH);
     stack[0] = 0, levels[0] = s->level_count - 1;
     while (depth) {
-        uint32_t level = levels[--depth], node = stack[depth];
-        if (!touch(&s->level[level][node], &s->level[0][place])) continue;
-        if (level == 0) {
-            if (!compare(s, &own, node, node == place)) return false;
-            continue;
-        }
-        for (uint32_t k = WIDTH * node; k < WIDTH * (node + 1) && k < s->level_size[level - 1]; k++) {
-            if (((uint64_t)k + 1) << 3 * (level - 1) <= place) continue; /* all of it before the block */
-            stack[depth] = k, levels[depth++] = level - 1;
+        const uint32_t level = levels[--depth], at = stack[depth];
+        const node *n = &s->level[level][at];
+        for (uint32_t bits = touched(n, &mine); bits; bits &= bits - 1) {
+            const uint32_t k = (uint32_t)__builtin_ctz(bits), child = WIDTH * at + k;
+            if (((uint64_t)child + 1) << 3 * (level - 1) <= own) continue; /* all of it before */
+            if (level > 1) {
+                stack[depth] = child, levels[depth++] = level - 1;
+                continue;
+            }
+            const box about = child_at(n, k);
+            if (!compare(s, own, child, &about)) return false;
         }
     }
     return true;
@@ -203,18 +187,19 @@ ec_result ec_near_pairs(const ec_prim *prims, uint32_t count, float margin, ec_p
 {
     if (count < 2) return EC_OK;
     EC_FREED uint32_t *order = malloc((size_t)count * sizeof *order);
-    EC_FREED box *boxes = malloc(((size_t)count / (WIDTH - 1) + 2 * LEVELS) * sizeof *boxes);
-    if (!order || !boxes) return ec_fail(err, "out of memory to look for faces in one plane among %u triangles", count);
+    EC_FREED node *nodes = malloc(((size_t)count / (WIDTH - 1) + 2 * LEVELS) * sizeof *nodes);
+    if (!order || !nodes) return ec_fail(err, "out of memory to look for faces in one plane among %u triangles", count);
     EC_TRY(order_of(prims, count, order, err));
-    search s = {.prims = prims, .order = order, .count = count, .margin = margin, .visit = visit, .user = user};
-    make_levels(&s, boxes);
+    search s = {.prims = prims, .order = order, .count = count, .visit = visit, .user = user};
+    make_levels(&s, margin, nodes);
+    const uint32_t lowest = parts(count);
     bool ended = false;
 #pragma omp parallel for schedule(dynamic, 256) if (count > FEW)
-    for (uint32_t place = 0; place < s.level_size[0]; place++) {
+    for (uint32_t own = 0; own < lowest; own++) {
         bool over;
 #pragma omp atomic read
         over = ended;
-        if (over || search_block(&s, place)) continue;
+        if (over || search_node(&s, own)) continue;
 #pragma omp atomic write
         ended = true;
     }

@@ -11,7 +11,7 @@
 /* Is given each pair of triangles a < b whose boxes touch, once, in no order, by several threads at once; false ends the search. */
 typedef bool (*ec_pair_visit)(void *user, uint32_t a, uint32_t b);
 
-/* Boxes are widened by `margin` on all sides. Takes 20 bytes a triangle meanwhile. */
+/* Boxes are widened by `margin` on all sides. Takes 32 bytes a triangle meanwhile. */
 ec_result ec_near_pairs(const ec_prim *prims, uint32_t count, float margin, ec_pair_visit visit, void *user, ec_error *err);
 
 #endif
