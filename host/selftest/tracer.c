@@ -101,7 +101,7 @@ void ec_tracer_given(const ec_tracer *r, uint32_t i, float o[3], float d[3])
     }
 }
 
-enum { BUFFERS_AT = 10, ARGUMENTS = 26 }; /* of traverse_NAME's kernel: the structure's buffers; what follows them is not read here */
+enum { BUFFERS_AT = 10, ARGUMENTS = 27 }; /* of traverse_NAME's kernel: the structure's buffers; what follows them is not read here */
 
 ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *err)
 {

@@ -55,4 +55,4 @@ class OtherWay(Case):
     def assert_info(self, words):
         """An effect like any other, where it is asked for."""
         self.assertRegex(self.assert_ok(eclat("info", scene("ring"), *self.WAY)).stdout, words)
-        self.assertNotRegex(self.assert_ok(eclat("info", scene("ring"))).stdout, r"\n *" + words.split(" ")[0] + " ")
+        self.assertNotRegex(self.assert_ok(eclat("info", scene("ring"))).stdout, r"\n *" + words.split(" ")[0] + "  ")

@@ -88,7 +88,7 @@ static uint32_t zero = 0, bounce = 1;
 static float nothing[256];
 
 #define NO_ATTRIBUTES IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 16), IN(nothing, 64), IN(nothing, 16), \
-    IN(nothing, 16), IN(nothing, 256), {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}
+    IN(nothing, 16), IN(nothing, 256), {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}, {NULL, 0, KERNEL_IN}
 #define ALL_PIXELS {NULL, 0, KERNEL_IN}
 #define WAVE IN(&params, 1), SCALAR(zero), SCALAR(zero), ALL_PIXELS, SCALAR(bounce), SCALAR(zero), IN(&counters, 1), SCALAR(sorts)
 #define BUFFER(k) {a->buffers[k].data, a->buffers[k].data ? a->buffers[k].bytes : 0, KERNEL_IN}
