@@ -1,4 +1,4 @@
-# tiers: quick, full
+# tiers: quick, full, long
 """--clamp: what it takes away is counted, pixel by pixel; the bits are the same however a job is shared out; without it nothing changes."""
 import json
 import math
@@ -7,7 +7,7 @@ import unittest
 
 from support import CORNELL, QUICK, RING, Case, eclat, read_alike, read_exr
 from test_ranks import mpirun, without_mpi
-from tiers import full
+from tiers import full, long
 
 JOB = [CORNELL, "--size", "20x18", *QUICK]
 CUT = ["clamped.Y", "clamped.stderr"]
@@ -83,7 +83,7 @@ class Clamp(Case):
         self.assertEqual(report["quality"], "a rough preview")
         self.assertLess(report["clamp"]["bias"], math.sqrt(0.5) * report["clamp"]["bias_most"])
 
-    @full
+    @long
     def test_standard_error(self):
         """Over independent renders of one limit (another seed may round to another one) the spread of what is cut off, and of its share of the
         light, is what they state of it. A variance of 20 has a relative error of 32 %; one of 10 000 is under 0.2 or over 2.5 times what is

@@ -1,4 +1,4 @@
-# tiers: quick, full
+# tiers: quick, full, long
 """eclat cost: the budget, the table, the JSON, what Ctrl-C leaves."""
 import json
 import math
@@ -12,7 +12,7 @@ import unittest
 import denoiser
 from polling import GUARD
 from support import CORNELL, ECLAT, ENVIRONMENT, SOURCE, Case, eclat, quad_scene, write_gltf
-from tiers import full
+from tiers import full, long
 
 SMALL = ("--size", "32x32")
 PATH = "path"
@@ -196,7 +196,7 @@ class Study(Case):
         self.assertIn("is 16x16 pixels and the study 32x32", run.stderr)
         self.assertEqual(run.returncode, 1)
 
-    @full
+    @long
     def test_seed_changes_the_figures(self):
         first, second = (rung_of(study_that_measures(PATH, 3, CORNELL, *SMALL, "--seed", seed)[1], PATH)
                          for seed in ("1", "2"))
@@ -220,7 +220,7 @@ class Study(Case):
         self.assertLess(states, {"interrupted", "measured", "budget too small"})
         self.assertTrue(os.path.exists(self.path("cut.html")))
 
-    @full
+    @long
     def test_scattering(self):
         """Where there is rough metal. White of roughness 1, seen head-on in a white sky, returns 1 - ln 2 by scattering once (Heitz 2014), and
         next to all by scattering again: the floor is what once loses."""

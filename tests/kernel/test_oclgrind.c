@@ -57,10 +57,10 @@ static const struct {
     {"full", "--data-races", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
     {"full", "--data-races --uninitialized", "cornell-box/cornell-box.gltf --accel none --lanes 1 --size 4x4 --spp 2 --integrator whitted"},
     {"full", "--data-races --uninitialized", "cornell-box/cornell-box.gltf --lanes 1 --size 4x4 --spp 2 --integrator raster"},
-    {"full", "--data-races", "cornell-box/cornell-box.gltf --accel bvh2 --lanes 4 --size 8x8 --spp 36 --max-depth 1 --adaptive"},
-    {"full", "--data-races", "lamps/lamps.gltf --env 0.1,0.2,0.3 --accel grid --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
+    {"long", "--data-races", "cornell-box/cornell-box.gltf --accel bvh2 --lanes 4 --size 8x8 --spp 36 --max-depth 1 --adaptive"},
+    {"long", "--data-races", "lamps/lamps.gltf --env 0.1,0.2,0.3 --accel grid --lanes 1 --size 4x4 --spp 2 --max-depth 3"},
     {"long", "--data-races", "lamps/lamps.gltf --accel bvh2 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
-    {"full", "--data-races", "glass/glass.gltf --accel kdtree --lanes 4 --size 4x4 --spp 2 --max-depth 3"},
+    {"long", "--data-races", "glass/glass.gltf --accel kdtree --lanes 4 --size 4x4 --spp 2 --max-depth 3"},
     {"long", "--data-races", "glass/glass.gltf --integrator whitted --accel bvh8 --lanes 4 --size 4x4 --spp 1 --max-depth 3"},
 };
 
