@@ -129,6 +129,8 @@ static void set_material(ec_material &out, const json &in, const std::string &wh
         out.anisotropy_rotation = float(std::remainder(anisotropy->value("anisotropyRotation", 0.0), 6.283185307179586));
     if (const json *older = find_path(in, EC_KHR "volume_scatter/multiscatterColor")) /* of drafts before 2026 */
         for (size_t i = 0; i < 3; i++) out.scatter[i] = (*older)[i].get<float>();
+    if (find_path(in, EC_KHR "volume_scatter/multiscatterColorTexture"))
+        ec_warn(log, "%s: %s has a multiscatterColorTexture, which is left out: bodies scatter alike all over", gltf->path, where.c_str());
     const json *volume = find_extension(in, "KHR_materials_volume");
     for (float &absorption : out.absorption) absorption = 0; /* the file has a colour there */
     bool passes = find_extension(in, "KHR_materials_transmission") || find_extension(in, "KHR_materials_diffuse_transmission");

@@ -163,6 +163,14 @@ class VolumeScatter(Case):
             self.assertIn(word, run.stderr)
             self.assertNotIn("light-paths  ", run.stderr)
 
+    def test_a_texture_of_the_colour_is_left_out(self):
+        """No silence about it; eclat info loads as render does."""
+        jade = body(ALBEDO, [9, 4, 2], ior=1.4)
+        jade["extensions"]["KHR_materials_volume_scatter"]["multiscatterColorTexture"] = {"index": 0}
+        path = self.scene_of(jade).add(block(1, 0, -1)).write(self.path("a.gltf"))
+        run = self.assert_ok(eclat("info", path))
+        self.assertRegex(run.stderr, r"materials\[\d+\] has a multiscatterColorTexture, which is left out: bodies scatter alike all over")
+
 
 if __name__ == "__main__":
     unittest.main()
