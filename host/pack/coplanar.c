@@ -197,9 +197,20 @@ static ec_result write_lists(const finder *f, ec_pack *pack, ec_error *err)
     return EC_OK;
 }
 
+/* Of one opaque material that looks alike all over it is no matter which of two faces is met. */
+static bool is_plain(const ec_scene *s)
+{
+    const ec_material *m = s->triangle_count ? &s->materials[s->triangle_material[0]] : NULL;
+    bool plain = m && !s->normals && !s->tangents && !s->colors && m->alpha_mode == EC_ALPHA_OPAQUE && !(m->transmission > 0) && !(m->diffuse_transmission > 0);
+    for (int k = 0; k < EC_SLOT_COUNT && plain; k++) plain = m->textures[k].texture < 0;
+    for (int k = 0; k < 3 && plain; k++) plain = !(m->emission[k] > 0);
+    for (uint32_t t = 1; t < s->triangle_count && plain; t++) plain = s->triangle_material[t] == s->triangle_material[0];
+    return plain;
+}
+
 ec_result ec_pack_coplanar(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
-    if (scene->placed_count) return EC_OK;
+    if (scene->placed_count || is_plain(scene)) return EC_OK;
     finder f = {.prims = pack->prims, .materials = scene->materials, .motion = scene->motion.segments ? &scene->motion : NULL, .apart = APART * (double)pack->scene_max,
                 .wide = WIDE * (double)pack->scene_max, .looks_most = (uint64_t)pack->prim_count * PAIRS_MOST + PAIRS_FREE};
     ec_result result = ec_near_pairs(pack->prims, pack->prim_count, (float)f.apart, look, &f, err);

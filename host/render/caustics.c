@@ -3,6 +3,7 @@
  * The first look at the picture's paths (rare/paths.h) foretells how often they meet light by way of what bends or mirrors it, and what that
  * brings: the variance of a sample, over the square of the mean luminance that a pilot finds. Both are the same whoever renders a part of a
  * job, with however many devices, and no clock has a say. */
+#include <float.h>
 #include <math.h>
 
 #include "pack/pack.h"
@@ -15,6 +16,14 @@ bool ec_render_may_have_caustics(const ec_render_options *o, const ec_scene *sce
 {
     const bool follow = !(o->fog[0] > 0) && !ec_scene_scatters(scene); /* light paths do not scatter on their way */
     return o->light_paths == EC_LIGHT_PATHS_AUTO && follow && ec_scene_casts(scene);
+}
+
+/* What rare paths alone bring; the least number where that is nothing. */
+static double least_mean(const ec_rare *rare)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < rare->count; i++) sum += rare->kinds[i].is_relative ? 0 : rare->kinds[i].luminance;
+    return fmax(sum, DBL_MIN);
 }
 
 static void note(const ec_rare_kind *most, double variance, const ec_log *log)
@@ -33,7 +42,7 @@ ec_result ec_render_judge_caustics(ec_render_state *r, bool *pays, const ec_log 
     double mean;
     *pays = false;
     EC_TRY(ec_render_foretell(r, err));
-    if (!(ec_rare_caustics(&r->rare, 1, &most) > 0)) return EC_OK;
+    if (ec_rare_caustics(&r->rare, least_mean(&r->rare), &most) < PAYS) return EC_OK;
     EC_TRY(r->source->turn_to(r->source, 0, rows, err));
     EC_TRY(ec_render_pilot_mean(r, PILOT, rows, &mean, err));
     if (!(mean > 0)) return EC_OK;
