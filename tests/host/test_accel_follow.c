@@ -89,7 +89,8 @@ static void test_what_is_measured_decides(void)
     raise(s, 0.4f);
     ec_followed_tell(&f, 1e6); /* days of rays: any gain pays */
     CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_REBUILT);
-    CHECK(expense > 1 && f.report.expense == 1 && f.report.refit_seconds > 0 && f.report.refit_expense > expense);
+    CHECK(expense > 1 && f.report.expense == 1);
+    CHECK(f.report.refit_expense > expense || f.report.refit_expense == 0); /* none is tried where the one before took longer than to build */
     check_root(&f, s);
     ec_followed_tell(&f, 1e6);
     CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_KEPT);
