@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "base/vec3.h"
 #include "pack/near_pairs.h"
 
 #define APART 0x1p-19       /* over the largest coordinate: 16 to 32 ulps of it, within which rounding tells nothing */
@@ -34,11 +35,6 @@ static void subtract(const double a[3], const double b[3], double r[3])
 {
     for (int k = 0; k < 3; k++) r[k] = a[k] - b[k];
 }
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-static void cross(const double a[3], const double b[3], double r[3])
-{
-    for (int k = 0; k < 3; k++) r[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
 
 static void corners_of(const ec_prim *p, corners c)
 {
@@ -51,7 +47,7 @@ static void normal_of(corners c, double n[3])
     double a[3], b[3];
     subtract(c[1], c[0], a);
     subtract(c[2], c[0], b);
-    cross(a, b, n);
+    ec_cross(a, b, n);
 }
 
 /* Do all corners of b lie in the plane through a? */
@@ -59,11 +55,11 @@ static bool lies_in(corners a, corners b, double apart)
 {
     double n[3];
     normal_of(a, n);
-    const double most = apart * apart * dot(n, n);
+    const double most = apart * apart * ec_dot(n, n);
     for (int i = 2; i >= 0; i--) {
         double d[3];
         subtract(b[i], a[0], d);
-        double off = dot(n, d);
+        double off = ec_dot(n, d);
         if (!(off * off <= most)) return false;
     }
     return true;
@@ -74,9 +70,9 @@ static bool in_one_plane(corners a, corners b, double apart) { return lies_in(a,
 
 static void extent(corners c, const double axis[3], double *least, double *most)
 {
-    *least = *most = dot(c[0], axis);
+    *least = *most = ec_dot(c[0], axis);
     for (int i = 1; i < 3; i++) {
-        double x = dot(c[i], axis);
+        double x = ec_dot(c[i], axis);
         *least = fmin(*least, x);
         *most = fmax(*most, x);
     }
@@ -88,19 +84,19 @@ static bool overlap(corners a, corners b, double wide)
     double n[3], m[3];
     normal_of(a, n);
     normal_of(b, m);
-    const double *up = dot(n, n) > dot(m, m) ? n : m;
+    const double *up = ec_dot(n, n) > ec_dot(m, m) ? n : m;
     for (int e = 0; e < 6; e++) {
         double(*c)[3] = e < 3 ? a : b, edge[3], axis[3], a0, a1, b0, b1;
         subtract(c[(e + 1) % 3], c[e % 3], edge);
-        cross(edge, up, axis);
+        ec_cross(edge, up, axis);
         extent(a, axis, &a0, &a1);
         extent(b, axis, &b0, &b1);
-        if (!(fmin(a1, b1) - fmax(a0, b0) > wide * sqrt(dot(axis, axis)))) return false;
+        if (!(fmin(a1, b1) - fmax(a0, b0) > wide * sqrt(ec_dot(axis, axis)))) return false;
     }
     return true;
 }
 
-/* Of a triangle that moves where it is at a key, of another as it is. */
+/* A triangle that moves is taken where it is at a key, another as it is. */
 static void corners_at(const finder *f, uint32_t prim, uint32_t key, const uint32_t *indices, corners c)
 {
     const size_t keys = f->motion->segments + 1;
@@ -149,7 +145,7 @@ static bool look(void *user, uint32_t a, uint32_t b)
     if (equal || !overlap(ca, cb, f->wide)) return true;
     normal_of(ca, n);
     normal_of(cb, m);
-    const bool alike = dot(n, m) > 0;
+    const bool alike = ec_dot(n, m) > 0;
 #pragma omp critical(coplanar)
     {
         add(f, a, b, alike);
@@ -197,7 +193,7 @@ static ec_result write_lists(const finder *f, ec_pack *pack, ec_error *err)
     return EC_OK;
 }
 
-/* Of one opaque material that looks alike all over it is no matter which of two faces is met. */
+/* One opaque material looks alike all over: it is no matter which of two of its faces is met. */
 static bool is_plain(const ec_scene *s)
 {
     const ec_material *m = s->triangle_count ? &s->materials[s->triangle_material[0]] : NULL;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "base/morton.h"
 
 #define MORTON_BITS 20 /* an axis */
 
@@ -25,14 +26,11 @@ static double middle(const ec_light_data *l, int axis)
     return triangle ? ((double)l->a[axis] + l->b[axis] + l->c[axis]) / 3 : (double)l->a[axis];
 }
 
-/* Bits of the three axes by turns, the highest first. */
-static uint64_t morton(const ec_light_data *l, const double low[3], double size)
+static uint64_t code_of(const ec_light_data *l, const double low[3], double size)
 {
-    uint64_t code = 0, at[3];
-    for (int k = 0; k < 3; k++) at[k] = size > 0 ? (uint64_t)((middle(l, k) - low[k]) / size * ((1 << MORTON_BITS) - 1)) : 0;
-    for (int bit = MORTON_BITS - 1; bit >= 0; bit--)
-        for (int k = 0; k < 3; k++) code = code << 1 | (at[k] >> bit & 1);
-    return code;
+    uint32_t at[3];
+    for (int k = 0; k < 3; k++) at[k] = size > 0 ? (uint32_t)((middle(l, k) - low[k]) / size * ((1 << MORTON_BITS) - 1)) : 0;
+    return ec_morton(at);
 }
 
 static int compare(const void *x, const void *y)
@@ -53,7 +51,7 @@ static void find_keys(const ec_light_data *lights, uint32_t count, place *places
         uint64_t lamps = UINT64_C(2) << (3 * MORTON_BITS);
         bool far = ec_light_is_far(&lights[i]);
         places[i].light = i;
-        places[i].key = far ? lights[i].kind == EC_KIND_DIRECTIONAL : lamps | morton(&lights[i], low, size);
+        places[i].key = far ? lights[i].kind == EC_KIND_DIRECTIONAL : lamps | code_of(&lights[i], low, size);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/freed.h"
+#include "base/morton.h"
 
 enum { WIDTH = 8, LEVELS = 12 /* 8^11 triangles */, FEW = 4096 /* not worth several threads */ };
 
@@ -48,23 +49,14 @@ static void grow(box *b, const box *by)
     }
 }
 
-/* Every third bit of 30 from bit 0 on. */
-static uint32_t spread(uint32_t x)
-{
-    x = (x | x << 16) & 0x030000ffu;
-    x = (x | x << 8) & 0x0300f00fu;
-    x = (x | x << 4) & 0x030c30c3u;
-    return (x | x << 2) & 0x09249249u;
-}
-
 static uint32_t code_of(const box *b, const box *all)
 {
-    uint32_t code = 0;
+    uint32_t at[3];
     for (int k = 0; k < 3; k++) {
         double extent = (double)all->hi[k] - all->lo[k], middle = 0.5 * ((double)b->lo[k] + b->hi[k]) - all->lo[k];
-        code |= spread(extent > 0 ? (uint32_t)(middle / extent * 1023) : 0) << k;
+        at[k] = extent > 0 ? (uint32_t)(middle / extent * 1023) : 0;
     }
-    return code;
+    return (uint32_t)ec_morton(at);
 }
 
 /* Sorted by the low 32 bits of what is above the number: radix, least digit first, so that equals stay in order. */

@@ -44,38 +44,37 @@ ec_result ec_selftest_slabs(ec_selftest *t, ec_error *err)
     return slab(t, "index 1 + 1e-6, passes", ec_material_glass(1 + 1e-6, 0, 0), true, 1, err);
 }
 
-/* Whatever clear glass does with white light from everywhere, each path brings 1. Without roulette there is no noise: what is missing
- * is lost, or in there for a thousand segments. */
-ec_result ec_selftest_nested_glass(ec_selftest *t, ec_error *err)
+/* What is in m is seen in white light from everywhere, by paths without roulette: no noise, and what is missing is lost, or in there for so
+ * many segments. */
+static ec_result white_row(ec_selftest *t, ec_model *m, uint32_t max_depth, ec_error *err)
 {
-    ec_model *m = ec_model_new();
     ec_scene *scene;
-    ec_material outer = ec_material_glass(1.5, 0, 0), inner = ec_material_glass(2.4, 0, 0);
-    ec_model_sphere(m, ec_model_material(m, &outer), (double[3]){0}, 1, 3, false);
-    ec_model_sphere(m, ec_model_material(m, &inner), (double[3]){0}, 0.6, 3, false);
     ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.3);
     EC_TRY(ec_model_scene(m, &scene, err));
     shine_from_everywhere(scene);
     ec_render_options o = ec_shot_options(t, 16, 64);
     o.survival = 1;
-    o.max_depth = 1000;
+    o.max_depth = max_depth;
     return ec_shot_only_row(t, "", scene, &o, 1, err);
 }
 
-/* Nor does milk that absorbs nothing: hundreds of events, and total reflection from inside. */
+/* Whatever clear glass does with that light, each path brings 1. */
+ec_result ec_selftest_nested_glass(ec_selftest *t, ec_error *err)
+{
+    ec_model *m = ec_model_new();
+    ec_material outer = ec_material_glass(1.5, 0, 0), inner = ec_material_glass(2.4, 0, 0);
+    ec_model_sphere(m, ec_model_material(m, &outer), (double[3]){0}, 1, 3, false);
+    ec_model_sphere(m, ec_model_material(m, &inner), (double[3]){0}, 0.6, 3, false);
+    return white_row(t, m, 1000, err);
+}
+
+/* Nor does milk lose any that absorbs nothing: hundreds of events, and total reflection from inside. */
 ec_result ec_selftest_milk(ec_selftest *t, ec_error *err)
 {
     ec_model *m = ec_model_new();
-    ec_scene *scene;
     ec_material milk = ec_material_glass(1.33, 0, 20);
     for (int k = 0; k < 3; k++) milk.scatter[k] = 1;
     milk.scatter_anisotropy = 0.7f;
     ec_model_sphere(m, ec_model_material(m, &milk), (double[3]){0}, 1, 3, false);
-    ec_model_camera(m, EC_CAMERA_PERSPECTIVE, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.3);
-    EC_TRY(ec_model_scene(m, &scene, err));
-    shine_from_everywhere(scene);
-    ec_render_options o = ec_shot_options(t, 16, 64);
-    o.survival = 1;
-    o.max_depth = 10000;
-    return ec_shot_only_row(t, "", scene, &o, 1, err);
+    return white_row(t, m, 10000, err);
 }

@@ -14,7 +14,7 @@ typedef struct quad {
     bool back; /* faces down */
 } quad;
 
-/* Of a material that shines, so that it matters which is met. */
+/* The material shines where it matters which face is met. */
 static ec_pack pack_of(const quad *quads, int count, double emission)
 {
     gltf_writer *w = gltf_new();
