@@ -25,31 +25,13 @@ bool ec_material_casts(const ec_scene *scene, const ec_material *m)
     return (ec_refracts(m) && m->transmission > 0.1f) || m->metallic > 0.5f;
 }
 
-static bool is_used(const ec_scene *scene, uint32_t material)
-{
-    for (uint32_t t = 0; t < scene->triangle_count; t++)
-        if (scene->triangle_material[t] == material) return true;
-    return false;
-}
-
 bool ec_scene_casts(const ec_scene *scene)
 {
-    for (uint32_t m = 0; m < scene->material_count; m++)
-        if (ec_material_casts(scene, &scene->materials[m]) && is_used(scene, m)) return true;
-    return false;
-}
-
-static bool scatters(const ec_material *m)
-{
-    bool does = false;
-    for (int k = 0; k < 3; k++) does |= m->scatter[k] > 0 && m->absorption[k] > 0;
-    return does && !m->unlit && (ec_refracts(m) || ec_bounds(m));
-}
-
-bool ec_scene_scatters(const ec_scene *scene)
-{
-    for (uint32_t m = 0; m < scene->material_count; m++)
-        if (scatters(&scene->materials[m]) && is_used(scene, m)) return true;
+    for (uint32_t m = 0; m < scene->material_count; m++) {
+        if (!ec_material_casts(scene, &scene->materials[m])) continue;
+        for (uint32_t t = 0; t < scene->triangle_count; t++)
+            if (scene->triangle_material[t] == m) return true;
+    }
     return false;
 }
 

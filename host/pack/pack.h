@@ -122,8 +122,6 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 /* Does a material, or anything, bend light, or mirror most of it, within a narrow lobe? */
 bool ec_material_casts(const ec_scene *scene, const ec_material *material);
 bool ec_scene_casts(const ec_scene *scene);
-/* Is light scattered inside any of its bodies? */
-bool ec_scene_scatters(const ec_scene *scene);
 /* Finds casters, and which lights shine on them; before there is a light tree. with_scene: a sphere about the scene is one too, if there are
  * others. */
 ec_result ec_pack_casters(ec_pack *pack, bool with_scene, ec_error *err);

@@ -14,8 +14,7 @@
 
 bool ec_render_may_have_caustics(const ec_render_options *o, const ec_scene *scene)
 {
-    const bool follow = !(o->fog[0] > 0) && !ec_scene_scatters(scene); /* light paths do not scatter on their way */
-    return o->light_paths == EC_LIGHT_PATHS_AUTO && follow && ec_scene_casts(scene);
+    return o->light_paths == EC_LIGHT_PATHS_AUTO && ec_scene_casts(scene);
 }
 
 /* What rare paths alone bring; the least number where that is nothing. */

@@ -138,8 +138,8 @@ static void choose_light_paths(ec_render_state *r)
     r->options = &r->chosen;
 }
 
-/* What is open is judged by the first device alone, which goes on with what is loaded where it renders alone and nothing changes. Several begin to
- * work as they are loaded: their look is before that. */
+/* The first device alone judges whether light paths pay, where that is open, and goes on with what is loaded where it renders alone and nothing
+ * changes. Several begin to work as they are loaded: their look is before that. */
 static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const ec_scene *scene, const ec_log *log, ec_error *err)
 {
     const ec_peers *peers = r->course->peers;
@@ -149,8 +149,9 @@ static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const 
     EC_TRY(ec_sources_pack(devices, first, peers != NULL && !is_judged, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
     r->params = r->sources.cargo.head.params;
     EC_TRY(admit(r, log, err));
+    const bool follow = !(r->sources.cargo.head.effects.called.bits & EC_FEATURE_SCATTERING); /* light paths do not scatter on their way */
     EC_TRY(open_sources(r, is_judged ? NULL : peers, log, err));
-    if (is_judged) EC_TRY(ec_render_judge_caustics(r, &pays, log, err));
+    if (is_judged && follow) EC_TRY(ec_render_judge_caustics(r, &pays, log, err));
     if (pays) choose_light_paths(r);
     if (is_judged && (pays || !is_alone)) {
         const ec_render_stats before = *r->stats;
