@@ -26,8 +26,8 @@ void ec_matte_free(ec_matte *matte); /* zero-initialised ones are fine */
 /* What a batch has met. places: pixels of its positions; NULL: positions are pixels. */
 ec_result ec_matte_take(ec_matte *matte, const ec_matte_log *log, const uint32_t *places, ec_error *err);
 
-/* Of a pixel that has so many samples, EC_MATTE_RANKS times a hash and its coverage, the largest first, and of equal ones the lowest hash; 0 where there
- * is nothing. */
+/* Writes EC_MATTE_RANKS times a hash and its coverage, for a pixel that has so many samples: the largest coverage first, of equal ones the lowest hash; 0
+ * where there is nothing. */
 void ec_matte_pixel(const ec_matte *matte, const ec_layers *layers, enum ec_matte_kind kind, uint64_t pixel, double samples, float *out);
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Of a position of the batch: so many samples have met a node, and of it a material. Both are numbers plus 1; 0: none. */
+/* So many samples of a position of the batch have met a node, and a material of it. Both are numbers plus 1; 0: none. */
 typedef struct ec_matte_entry {
     uint32_t position, node, material, samples;
 } ec_matte_entry;

@@ -33,7 +33,7 @@ static void put(ec_identity *identity, const char *name, const char *value, bool
 
 static void add(ec_identity *identity, const char *name, const char *value) { put(identity, name, value, false); }
 
-/* What is in a file, as an environment, counts by its bytes, not by its name. */
+/* A file that an option names counts by its bytes, not by its name. */
 static ec_result add_file(ec_identity *identity, const char *option, const char *environment, ec_error *err)
 {
     char text[96];

@@ -139,7 +139,6 @@ static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row,
     ec_render_job *job = user;
     const char *outputs[EC_OUTPUTS_MAX];
     if (first_row == 0) {
-        ec_render_job_note_choice(job, stats);
         ec_render_report report = ec_render_job_report(job, outputs);
         report.stats = stats;
         report.replicates = ec_film_replicates(film);

@@ -69,7 +69,6 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
     ec_error undenoised = {0};
     const ec_result denoised = ec_render_job_denoise(job, &undenoised);
     if (denoised != EC_OK) job->denoised = (ec_denoised){.why_not = "it failed"};
-    ec_render_job_note_choice(job, &job->stats);
     ec_render_report report = ec_render_job_report(job, outputs);
     double write_start = ec_now();
     EC_TRY(job->rows ? finish_rows(job, &report, err) : ec_render_job_write(job, &job->request->outputs, &report, err));

@@ -40,7 +40,7 @@ typedef struct ec_render_job {
     ec_ocio *ocio;               /* with --ocio. Owned */
     double shadow_error;         /* with a ground that catches shadows: of its alpha (shadow.h); NaN: not known */
     ec_render_stats stats;
-    ec_render_options rendered;  /* the request's, with what was left open: ec_render_job_note_choice */
+    ec_render_options rendered;  /* as reports have them: ec_render_job_report sets it */
     double load_seconds;         /* until devices and scene were there */
     char camera_text[256];
     ec_viewpoint viewpoint;
@@ -94,10 +94,8 @@ ec_result ec_render_job_tell(const ec_render_job *job, const ec_render_report *r
 
 /* All of a prepared job: runs and delivers it. Where the device fails, the picture so far is written, and the job fails all the same. */
 ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err);
-/* What was left open and the render has chosen, for reports. */
-void ec_render_job_note_choice(ec_render_job *job, const ec_render_stats *stats);
 /* A report of the job so far; outputs: room for the paths. Texts are the job's. */
-ec_render_report ec_render_job_report(const ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
+ec_render_report ec_render_job_report(ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX]);
 
 void ec_render_job_free(ec_render_job *job); /* half-built ones are fine */
 

@@ -227,7 +227,7 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
 }
 
-/* Of a picture for the screen. */
+/* Views are of pictures for the screen. */
 static ec_result settle_ocio(const ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err)
 {
     const ec_option *curve = ec_options_find(options, count, "tonemap");

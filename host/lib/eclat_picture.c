@@ -23,7 +23,6 @@ static ec_result take_render(eclat_picture *p, ec_error *err)
     p->samples_per_pixel = (double)job->stats.samples / ((double)film->width * film->height);
     p->replicates = ec_film_replicates(film);
     ec_hash_rgb(p->planes.rgb, (uint64_t)p->planes.width * p->planes.height, job->image_sha256);
-    ec_render_job_note_choice(job, &job->stats);
     ec_render_report report = ec_render_job_report(job, names);
     report.heavy_pixels = p->planes.heavy_count;
     report.clamp = ec_film_clamp_error(film);

@@ -1,11 +1,9 @@
 /* Batches until a limit is met. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "device/adaptive.h"
-#include "film/layer_films.h"
 #include "render/render_state.h"
 #include "render/team.h"
 
@@ -17,42 +15,7 @@ static double patience(const ec_render_state *r)
     return r->course->keep ? fmin(r->course->every, seconds) : seconds;
 }
 
-/* Features come with the first batches, and not with those of an allotment. */
-static bool wants_features(const ec_render_state *r)
-{
-    return r->past.next < r->feature_batches && r->film->aov_batches == r->past.next && !r->past.allotment.weight;
-}
-
-/* Hands over what there is; of a batch that is under way too, but not of its features and layers, nor of a pass that
- * is larger than the picture. A batch that is cut short cannot be gone on from: what
- * is kept ends before it. */
-static void keep(ec_render_state *r, uint32_t under_way)
-{
-    if (wants_features(r) || r->order.count > ec_render_film_pixels(r) || r->film->layers.count) under_way = 0;
-    const bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way;
-    if (!r->course->keep || !is_new || !(r->film->batch_count || under_way) || r->film->unsampled || r->film->cut) return;
-    ec_past now = r->past;
-    now.slope = r->goal.slope;
-    now.seconds = ec_now() - r->render_start;
-    if (under_way) {
-        now.under_way = under_way;
-        now.batch = r->source->mean;
-        now.rays = r->rays_before + r->source->rays;
-        for (int i = 0; i < EC_STAGE_COUNT; i++) now.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
-    }
-    if (r->course->keep(r->course->user, r->film, &now)) r->kept_next = now.next, r->kept_under_way = under_way;
-    r->kept_at = ec_now();
-}
-
 ec_mark ec_render_mark(const ec_render_state *r) { return (ec_mark){ec_render_samples_done(r), ec_now() - r->render_start}; }
-
-/* Samples of each position of the order. */
-static uint64_t order_samples(const ec_render_state *r)
-{
-    const uint32_t batches = r->source->batches > 1 ? r->source->batches : 1;
-    if (r->order.list) return r->order.samples;
-    return ec_schedule_samples(r->replicates, r->order.index + batches) - ec_schedule_samples(r->replicates, r->order.index) - r->order.cut;
-}
 
 /* Of a pixel that goes into the film as the first batch is given up; of one whose error is looked at, until that is known. */
 #define BEGUN_SECONDS 30e-9
@@ -79,7 +42,7 @@ static ec_result foretell(ec_render_state *r, ec_error *err)
 static bool goes_on(void *user, uint32_t done)
 {
     ec_render_state *r = user;
-    r->under_way = done * order_samples(r);
+    r->under_way = done * ec_render_order_samples(r);
     if (done > r->order.done && r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
     r->look_failed = foretell(r, &r->look_error) != EC_OK;
     if (r->look_failed) return false;
@@ -87,7 +50,7 @@ static bool goes_on(void *user, uint32_t done)
     bool is_due = r->course->keep && r->source->batches == 1 && ec_now() - r->kept_at >= r->course->every;
     r->look_failed = is_due && r->source->look(r->source, &r->order, &r->look_error) != EC_OK;
     if (r->look_failed) return false;
-    if (is_due) keep(r, done);
+    if (is_due) ec_render_keep(r, done);
     double now = ec_now(), share = (double)r->under_way / ec_render_film_pixels(r);
     bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start + closing_seconds(r, done) > r->options->time_limit;
     bool go_on = now - r->last_report < 0.1 || ec_render_tell(r, r->samples_before_it + share);
@@ -101,7 +64,7 @@ static uint32_t known_end(const ec_render_state *r)
 {
     const uint32_t next = r->past.next;
     uint32_t end = next < r->end ? r->end : next + 1;
-    if (r->past.allotment.weight || wants_features(r) || r->film->layers.count || r->film->layers.mattes) return next + 1;
+    if (r->past.allotment.weight || ec_render_wants_features(r) || r->film->layers.count || r->film->layers.mattes) return next + 1;
     while (r->options->adaptive && !r->past.allotted && end > next + 1 && ec_schedule_has_pilot(r->replicates, end - 1)) {
         const uint32_t pilot = (uint32_t)ec_schedule_round(r->replicates, next);
         if (ec_schedule_has_pilot(r->replicates, pilot) || pilot >= end) return pilot < end ? pilot : end;
@@ -112,7 +75,7 @@ static uint32_t known_end(const ec_render_state *r)
 
 static ec_result make_room_for_features(ec_render_state *r, ec_error *err)
 {
-    const bool wants_room = wants_features(r) && !ec_sources_alone(&r->sources);
+    const bool wants_room = ec_render_wants_features(r) && !ec_sources_alone(&r->sources);
     if (!wants_room) free(r->aov), r->aov = NULL;
     else if (!r->aov) r->aov = malloc((uint64_t)r->film->width * r->film->height * EC_AOV_FIELDS * sizeof *r->aov);
     return r->aov || !wants_room ? EC_OK : ec_fail(err, "out of memory for the first-hit features");
@@ -154,7 +117,7 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     EC_TRY(make_room_for_features(r, err));
     EC_TRY(make_room_for_layers(r, err));
     r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r),
-                                .with_features = wants_features(r), .aov = r->aov, .layers = r->layers,
+                                .with_features = ec_render_wants_features(r), .aov = r->aov, .layers = r->layers,
                                 .matte = r->film->layers.mattes ? &r->matte : NULL,
                                 .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
                                 .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY,
@@ -174,101 +137,6 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     if (!r->look_failed) return result;
     if (err) *err = r->look_error; /* a device tells of a failure once */
     return EC_FAILED;
-}
-
-static float *batch_features(const ec_render_state *r) { return r->aov ? r->aov : r->source->features; }
-
-/* Of the pixels that the batch may have reached; the others hold nothing. */
-static uint64_t clear_unreached(float *mean, float *features, float *layers, uint32_t layer_count, uint64_t pixels, uint8_t *unsampled)
-{
-    uint64_t missing = 0;
-#pragma omp parallel for reduction(+ : missing) if (pixels > EC_FILM_MANY)
-    for (uint64_t i = 0; i < pixels; i++) {
-        unsampled[i] = mean[EC_BATCH_FIELDS * i] == EC_NOT_REACHED;
-        if (!unsampled[i]) continue;
-        missing++;
-        memset(mean + EC_BATCH_FIELDS * i, 0, EC_BATCH_FIELDS * sizeof *mean);
-        memset(features + EC_AOV_FIELDS * i, 0, EC_AOV_FIELDS * sizeof *features);
-        if (layers) memset(layers + 3 * layer_count * i, 0, EC_LAYER_BYTES * layer_count);
-    }
-    return missing;
-}
-
-static ec_result add_matte(ec_render_state *r, ec_error *err)
-{
-    if (!r->film->layers.mattes) return EC_OK;
-    return ec_matte_take(&r->film->matte, &r->matte, r->order.list ? r->past.allotment.places : NULL, err);
-}
-
-/* A first batch that was given up is the picture, since there is no other. */
-static ec_result add_begun(ec_render_state *r, ec_error *err)
-{
-    const uint64_t pixels = (uint64_t)r->film->width * r->film->height, reached = r->source->reached;
-    uint8_t *unsampled = r->film->unsampled = malloc(pixels);
-    if (!unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
-    memset(unsampled + reached, 1, pixels - reached);
-    const uint64_t missing = clear_unreached(r->source->mean, batch_features(r), r->layers, r->film->layers.count, reached, unsampled);
-    r->under_way = (reached - missing) * order_samples(r);
-    EC_TRY(ec_film_add_features(r->film, batch_features(r), reached, err));
-    for (uint32_t k = 0; k < r->film->layers.count; k++) {
-        ec_film_layer_batch(r->film, k, r->layers, reached, r->layer);
-        EC_TRY(ec_film_add_begun(&r->film->layer_films[k], r->layer, reached, err));
-    }
-    EC_TRY(add_matte(r, err));
-    return ec_film_add_begun(r->film, r->source->mean, reached, err);
-}
-
-/* The last ones make room for the batch, before that goes into the film. */
-static ec_result add_features(ec_render_state *r, ec_error *err)
-{
-    EC_TRY(ec_film_add_features(r->film, batch_features(r), r->order.count, err));
-    return r->source->end_features && r->past.next + 1 == r->feature_batches ? r->source->end_features(r->source, err) : EC_OK;
-}
-
-static ec_result add_block(ec_render_state *r, ec_error *err)
-{
-    ec_film_part part = {.first = r->past.next, .count = r->source->batches, .sums = r->source->sums};
-    EC_TRY(ec_film_insert(r->film, &part, err));
-    r->source->sums = (ec_sums){0};
-    return EC_OK;
-}
-
-/* The picture's, or a layer's. */
-static ec_result add_to(const ec_render_state *r, ec_film *film, const float *mean, ec_error *err)
-{
-    if (r->order.list) return ec_film_add_some(film, mean, r->past.allotment.places, r->order.count, r->order.samples, err);
-    if (r->order.cut) return ec_film_add_cut(film, r->past.next, r->order.cut, mean, err);
-    return ec_film_add(film, r->past.next, mean, err);
-}
-
-static ec_result add_layers(ec_render_state *r, ec_error *err)
-{
-    for (uint32_t k = 0; k < r->film->layers.count; k++) {
-        ec_film_layer_batch(r->film, k, r->layers, r->order.count, r->layer);
-        EC_TRY(add_to(r, &r->film->layer_films[k], r->layer, err));
-    }
-    return EC_OK;
-}
-
-/* Or the block. */
-static ec_result add_whole(ec_render_state *r, ec_error *err)
-{
-    if (r->order.with_features) EC_TRY(add_features(r, err));
-    if (r->order.cut) keep(r, 0);
-    EC_TRY(add_layers(r, err));
-    EC_TRY(add_matte(r, err));
-    return r->source->batches > 1 ? add_block(r, err) : add_to(r, r->film, r->source->mean, err);
-}
-
-static ec_result add_batch(ec_render_state *r, bool complete, ec_error *err)
-{
-    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
-    EC_TRY(complete ? add_whole(r, err) : add_begun(r, err));
-    r->past.samples += r->under_way;
-    r->past.rays = r->rays_before + r->source->rays;
-    r->past.next += r->source->batches;
-    r->is_looked_at = false;
-    return EC_OK;
 }
 
 /* Once for each state of the film. */
@@ -362,15 +230,15 @@ static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err
     bool complete;
     const double start = ec_now();
     EC_TRY(run_batch(r, &complete, err));
-    if (!complete) keep(r, r->source->batches == 1 ? (uint32_t)(r->under_way / order_samples(r)) : 0);
+    if (!complete) ec_render_keep(r, r->source->batches == 1 ? (uint32_t)(r->under_way / ec_render_order_samples(r)) : 0);
     if (!complete && (r->past.next > 0 || r->course->end || r->strip_rows)) return EC_OK; /* part of a batch is of no use to a picture */
     if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
-    EC_TRY(add_batch(r, complete, err));
+    EC_TRY(ec_render_add_batch(r, complete, err));
     if (!complete) return EC_OK;
     EC_TRY(judge(r, log, err));
     if (r->stopped_by) return EC_OK;
     const double now = ec_now(), not_asked = r->source->batches > 1 ? now - start : 0.0; /* the next one may take as long, and keeps nothing */
-    if (now + not_asked - r->kept_at >= r->course->every) keep(r, 0);
+    if (now + not_asked - r->kept_at >= r->course->every) ec_render_keep(r, 0);
     return EC_OK;
 }
 
@@ -399,6 +267,6 @@ ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err)
     if (r->past.samples) result = take_up_goal(r, err);
     while (result == EC_OK && !r->stopped_by) result = take_batch(r, log, err);
     if (r->film->batch_count) look_at_error(r);
-    keep(r, 0);
+    ec_render_keep(r, 0);
     return result;
 }

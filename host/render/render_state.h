@@ -66,6 +66,14 @@ ec_mark ec_render_mark(const ec_render_state *r);
  * has it after that, which need not wait for it. */
 ec_result ec_render_foretell(ec_render_state *r, ec_error *err);
 
+/* render_add.c: the batch that the order is of, complete or given up, goes into the film. */
+ec_result ec_render_add_batch(ec_render_state *r, bool complete, ec_error *err);
+/* Hands over what there is; of a batch that is under way too, but not of its features and layers, nor of a pass that is larger than the picture. What is
+ * kept ends before a batch that is cut short, which cannot be gone on from. */
+void ec_render_keep(ec_render_state *r, uint32_t under_way);
+bool ec_render_wants_features(const ec_render_state *r); /* they come with the first batches, and not with those of an allotment */
+uint64_t ec_render_order_samples(const ec_render_state *r); /* of each position of the order */
+
 /* render_film.c: until a limit is met; what is there before stays in the film. */
 ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
 

@@ -7,7 +7,7 @@
 
 enum { EC_MATTE_FIELDS = 4, EC_MATTE_FIELD = 32 };
 
-/* Of the kinds that are asked for; NULL of others. All owned. */
+/* Kinds that are asked for have names; others are NULL. All owned. */
 typedef struct ec_matte_names {
     uint32_t *hashes[EC_MATTE_KINDS];  /* by number plus 1 of a node, of a material; 0 is what is of no node */
     char *manifests[EC_MATTE_KINDS];   /* which name has which hash, JSON */

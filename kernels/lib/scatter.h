@@ -40,7 +40,7 @@ EC_FN lane_f scatter_distance(lane_f density, lane_f u)
     return density > 0.0f ? -log_unit(1.0f - u, u) / density : F(EC_HUGE);
 }
 
-/* Of `length` metres from o along d those in the fog, which fills the ball about the scene; *from: where they begin. */
+/* How many of `length` metres from o along d are in the fog, which fills the ball about the scene; *from: where they begin. */
 EC_FN lane_f fog_span(constant ec_params *params, v3 o, v3 d, lane_f length, lane_f *from)
 {
     const float radius = params->scene_radius;
