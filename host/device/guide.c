@@ -19,6 +19,7 @@
 #define SQUARE_DEPTH 11
 #define SQUARE_SHARE 0.01  /* of its box' flux, and … */
 #define SQUARE_PHOTONS 8   /* … photons in a square that is quartered */
+#define CONCENTRATED 16.0 /* mean density of light, over that of light from all around: less needs no guide */
 #define GUIDED_SHARE 0.5f  /* of directions */
 
 #define LAST_UNIT 0x1.fffffep-1f
@@ -203,15 +204,19 @@ static void spread(const table *t, double *sums, const photon *one, float factor
     }
 }
 
-static void settle_square(table *t, const double *sums, size_t at)
+/* Sets the shares of a square and of those in it. Returns the mean of the density that they have where light comes from, over the square's own
+ * mean: 1 where it comes evenly. */
+static double settle_square(table *t, const double *sums, size_t at)
 {
-    double sum = 0;
+    double sum = 0, mean = 0;
     for (size_t share = at; share < at + EC_GUIDE_SQUARE_WORDS; share += 2) sum += sums[share];
     for (size_t share = at; share < at + EC_GUIDE_SQUARE_WORDS; share += 2) {
         const uint32_t quarter = get_word(&t->words[share + 1]);
-        if (sum > 0) t->words[share] = (float)(sums[share] / sum);
-        if (quarter) settle_square(t, sums, quarter);
+        const double own = sum > 0 ? sums[share] / sum : 0.25;
+        if (sum > 0) t->words[share] = (float)own;
+        mean += 4 * own * own * (quarter ? settle_square(t, sums, quarter) : 1);
     }
+    return mean;
 }
 
 static void settle_box(table *t, const double *sums, size_t box)
@@ -220,7 +225,7 @@ static void settle_box(table *t, const double *sums, size_t box)
     if ((link & 3) != EC_GUIDE_LEAF) {
         settle_box(t, sums, at * EC_GUIDE_BOX_WORDS);
         settle_box(t, sums, (at + 1) * EC_GUIDE_BOX_WORDS);
-    } else if (at) settle_square(t, sums, at);
+    } else if (at && settle_square(t, sums, at) < CONCENTRATED) t->words[box] = 0;
 }
 
 static ec_result fill_shares(table *t, const ec_photon *list, size_t count, ec_error *err)

@@ -7,9 +7,7 @@
 #include "device/pipeline.h"
 #include "shared/guide.h"
 
-#define PATHS_PER_PIXEL 16
-#define PATHS_LEAST (1u << 16)
-#define PATHS_MOST (1u << 19)
+#define PATHS (1u << 19)        /* whatever the picture's size */
 #define PHOTONS_MOST (1u << 20) /* 32 MiB */
 #define SEED 0x9e3779b9u        /* of all pictures: slices and frames of one job are guided alike */
 
@@ -48,23 +46,17 @@ static ec_result trace(ec_pipeline *p, uint32_t first, uint32_t count, ec_photon
     return EC_OK;
 }
 
-static uint32_t path_count(const ec_params *params)
-{
-    const uint64_t paths = (uint64_t)PATHS_PER_PIXEL * params->width * params->height;
-    return paths < PATHS_LEAST ? PATHS_LEAST : paths > PATHS_MOST ? PATHS_MOST : (uint32_t)paths;
-}
-
 static ec_result collect(ec_pipeline *p, photons *all, ec_error *err)
 {
     const uint64_t bytes = (uint64_t)p->wave * EC_PHOTON_VERTICES * sizeof(ec_photon);
-    const uint32_t paths = path_count(&p->params), batch = p->params.batch;
+    const uint32_t batch = p->params.batch;
     EC_FREED ec_photon *met = malloc(bytes);
     if (!met) return ec_fail(err, "out of memory for the photons of --guiding");
     EC_TRY(ec_buffer_create(p->cl, "photons", bytes, NULL, &p->buffers[EC_ARG_PHOTONS], err));
     p->params.batch = 1;
     EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err));
-    for (uint32_t first = 0, count; first < paths; first += count) {
-        count = p->wave < paths - first ? p->wave : paths - first;
+    for (uint32_t first = 0, count; first < PATHS; first += count) {
+        count = p->wave < PATHS - first ? p->wave : PATHS - first;
         EC_TRY(trace(p, first, count, met, all, err));
     }
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_PHOTONS]);

@@ -258,6 +258,7 @@ static void find_rendered(const ec_render_job *job, ec_render_options *o)
     *o = job->request->options;
     if (o->light_paths != EC_LIGHT_PATHS_AUTO) return;
     o->light_paths = job->stats.light_paths;
+    o->guiding = job->stats.is_guided;
     o->adaptive &= !(o->light_paths > 0);
 }
 

@@ -129,11 +129,12 @@ static void begin_again(ec_render_state *r)
     count_from(r, r->course->past);
 }
 
-/* With light paths all pixels are due as many samples. */
+/* With light paths all pixels are due as many samples. What they cannot be joined to, caustics in mirrors and glass, is what guiding finds. */
 static void choose_light_paths(ec_render_state *r)
 {
     r->chosen = *r->options;
     r->chosen.light_paths = EC_LIGHT_PATHS_FEW;
+    r->chosen.guiding = true;
     r->chosen.adaptive = false;
     r->options = &r->chosen;
 }
@@ -172,6 +173,7 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     take_up(r, past);
     EC_TRY(load(r, devices, device_count, scene, log, err));
     r->stats->light_paths = fmax(r->options->light_paths, 0);
+    r->stats->is_guided = r->options->guiding;
     if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);
     EC_TRY(choose_film(r, log, err));
     if (past) r->limit = r->film->limit;

@@ -48,8 +48,8 @@ class LightPaths(OtherWay):
         run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
         chosen = json.loads(run.stdout)
         self.assertRegex(run.stderr, r'note: caustics: paths through "ring" to "lamp" .*--light-paths 0')
-        self.assertEqual(chosen["light_paths"], 0.0625)
-        self.assertEqual(chosen["image_sha256"], self.render(*job, "--light-paths", "0.0625")["image_sha256"])
+        self.assertEqual((chosen["light_paths"], chosen["guiding"]), (0.0625, True))
+        self.assertEqual(chosen["image_sha256"], self.render(*job, "--light-paths", "0.0625", "--guiding")["image_sha256"])
         for other in (["--light-paths", "0"], ["--clamp", "10"], ["--adaptive"], ["--sample", "bsdf"]):
             with self.subTest(other=other):
                 self.assertIsNone(self.render(*job, *other)["light_paths"])
