@@ -28,6 +28,11 @@ def luminance(planes, layer):
     return array("d", (0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in zip(*(planes[layer + c] for c in "RGB"))))
 
 
+def percent(square):
+    root = 100 * math.sqrt(max(square, 0))
+    return f"{root:.3g} %" if root < 1000 else f"{root:.0f} %"
+
+
 def run(*words):
     done = eclat(*words, env=denoiser.environment(), timeout=3600)
     if done.returncode:
@@ -104,8 +109,8 @@ class Cell:
         return math.sqrt(self.real[2] / min(self.real[:2]))
 
     def row(self, is_first):
-        noisy, *both = (f"{100 * math.sqrt(max(sum_, 0) / self.seeds):.3g} %" for sum_ in self.real)
-        told = [f"{real}, {100 * math.sqrt(sum_ / self.seeds):.3g} % | {self.held(i)}" for i, real, sum_ in zip((1, 2), both, self.stated[1:])]
+        noisy, *both = (percent(sum_ / self.seeds) for sum_ in self.real)
+        told = [f"{real}, {percent(sum_ / self.seeds)} | {self.held(i)}" for i, real, sum_ in zip((1, 2), both, self.stated[1:])]
         return f"| {NAMES.get(self.scene, self.scene) if is_first else ''} | {self.spp} | {noisy} | {' | '.join(told)} |"
 
     def __str__(self):
