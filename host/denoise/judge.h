@@ -45,8 +45,6 @@ static inline void ec_judged_join(ec_judged_sum *into, const ec_judged_sum *next
     into->least += next->least;
 }
 
-/* The variance of a sum over pixels of which few may hold most: what is known without bias, and one standard error of it, which vanishes among many. */
-static inline double ec_judged_variance(double variance, double plains) { return fmax(variance, 0) + sqrt(plains); }
 ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy);
 
 #endif

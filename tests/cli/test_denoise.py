@@ -3,9 +3,11 @@
 import json
 import math
 import os
+import random
 import unittest
 
 import denoiser
+from denoise_seeds import Truth
 from support import CORNELL, QUICK, SOURCE, Case, eclat, read_exr
 from test_frames import FramesCase
 from tiers import full
@@ -192,6 +194,21 @@ class Denoise(Case):
             self.assert_ok(eclat("render", *JOB, "--denoise", "--spp", spp, "--checkpoint", checkpoint, "-q", "-o", self.path("p.exr"), env=self.oidn))
             self.assert_ok(eclat("render", "--resume", checkpoint, "--spp", "96", "-q", "-o", self.path("b.exr"), env=self.oidn))
             self.assertEqual(read_exr(self.path("b.exr"))[1], whole, spp)
+
+
+class Truths(unittest.TestCase):
+    def test_without_bias(self):
+        """Sets of six pictures of ten pixels around 1, with a noise of 0.5, and one with a pixel off by 0.3: squares of 0.25 and of 0.009, though the mean
+        of five strays by 0.05."""
+        sets, sums, off, dice = 400, [0, 0], [1.3] + [1.0] * 9, random.Random(1)
+        for _ in range(sets):
+            noisy = [[1 + 0.5 * dice.gauss(0, 1) for _ in range(10)] for _ in range(6)]
+            truth = Truth(noisy)
+            for own in noisy:
+                mean = (sum(map(sum, noisy)) - sum(own)) / 50
+                sums = [s + square * mean**2 / sets / 6 for s, square in zip(sums, truth.errors(own, (own, off)))]
+        self.assertAlmostEqual(sums[0], 0.25, delta=0.012)
+        self.assertAlmostEqual(sums[1], 0.009, delta=0.005)
 
 
 @full

@@ -160,6 +160,20 @@ static void check_exact(void)
     ec_film_destroy(&film);
 }
 
+/* Among many pixels an interval is that of a normal distribution; where four decide, one standard error of the variance is added, its half. */
+static void check_reach(void)
+{
+    const ec_film_error noisy = {.mean_luminance = 1, .bound_if_met = 0};
+    const double pixels = 1000, z = 1.959964;
+    const ec_judged_sum many = {.square = 1000, .variance = 1000, .plain = 1000, .plains = 1000};
+    const ec_judged_sum few = {.square = 1000, .variance = 1000, .plain = 1000, .plains = 4 * 250.0 * 250.0};
+    const ec_stated_error of_many = ec_judged_state(&many, pixels, &noisy), of_few = ec_judged_state(&few, pixels, &noisy);
+    CHECK_NEAR(of_many.error, 1, 1e-9);
+    CHECK_NEAR(pow(of_many.high95, 2) - 1, z * sqrt(1000) / pixels, 0.003 * z * sqrt(1000) / pixels);
+    CHECK_NEAR(1 - pow(of_many.low95, 2), z * sqrt(1000) / pixels, 0.003 * z * sqrt(1000) / pixels);
+    CHECK_NEAR(pow(of_few.high95, 2) - 1, z * sqrt(1500) / pixels, 0.003 * z * sqrt(1500) / pixels);
+}
+
 /* Weights go from tile to tile without a step, and each tile's own is in its middle. */
 static void check_seams(void)
 {
@@ -199,6 +213,30 @@ static void check_weights(void)
     ec_blend_free(&blend);
 }
 
+/* The weight of a picture whose denoised error nothing is known of: `count` pixels of noise 1 that the two pictures are so far apart in, squared. */
+static double weigh(uint32_t count, double apart)
+{
+    static ec_judged row[EC_BLEND_TILE];
+    ec_blend blend;
+    ec_error err;
+    CHECK_OK(ec_blend_create(&blend, EC_BLEND_TILE, 1, &err), err);
+    for (uint32_t x = 0; x < EC_BLEND_TILE; x++) row[x] = x < count ? (ec_judged){.noisy = 1, .apart = apart, .clean_variance = 1e9} : (ec_judged){0};
+    ec_blend_add_row(&blend, 0, row, EC_BLEND_TILE);
+    ec_blend_choose(&blend);
+    const double weight = blend.tiles[0].weight;
+    ec_blend_free(&blend);
+    return weight;
+}
+
+/* What is over 2 may be chance in one pixel, and is none in many. */
+static void check_whole(void)
+{
+    CHECK_NEAR(weigh(1, 1), 1, 1e-3);
+    CHECK_NEAR(weigh(1, 3), 1 - 1 / sqrt(7), 1e-3);
+    CHECK_NEAR(weigh(16, 3), 0, 1e-3);
+    CHECK_NEAR(weigh(1, 8), 0, 1e-3);
+}
+
 /* Estimates of both pictures stray by 0.2 in a tile's weight, which is one half everywhere: of its square four fifths must not be followed. */
 static void check_alike(void)
 {
@@ -229,7 +267,9 @@ int main(void)
     check_idle();
     check_exact();
     check_seams();
+    check_reach();
     check_weights();
+    check_whole();
     check_alike();
     check_stated("normal", draw_normal, 0.5, 8, 1, films, least, most);
     check_stated("wide filter", draw_normal, 1.5, 8, 2, films, least, most);

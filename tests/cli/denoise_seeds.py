@@ -1,0 +1,153 @@
+"""usage: python3 denoise_seeds.py [--seeds N] [--keep FOLDER] [--clamp LIMIT] [SCENE ...]
+How far denoised pictures of many seeds are from the truth, and how often the stated intervals hold it. Prints rows of docs/denoise.md's table.
+
+What was rendered is kept in FOLDER, as slices: after a change of host/denoise they are merged and judged anew, and no path is traced. The truth of a
+seed's picture is the mean of all other seeds' pictures, whose own variance is taken off: each square error is without bias."""
+import argparse
+import json
+import math
+import os
+import sys
+import tempfile
+from array import array
+
+import denoiser
+from support import SOURCE, eclat, read_exr
+
+SCENES = ["cornell-box/cornell-box", "showcase/showcase", "ring/ring", "veach-plates/veach-plates", "lamps/lamps", "glass/glass", "drink/drink",
+          "brushed-metal/brushed-metal", "furnace/spheres", "stadium/stadium"]
+NAMES = {"cornell-box": "Cornell box", "ring": "ring, a caustic", "veach-plates": "Veach's plates", "brushed-metal": "brushed metal"}
+# Slices that samples are rendered in, and those that come to the picture of each budget: to its bits.
+SLICES = ((0, 16), (0, 64), (64, 256))
+BUDGETS = {16: SLICES[:1], 64: SLICES[1:2], 256: SLICES[1:]}
+LAYERS = ("", "denoised.", "best.")
+SEEDS = 100
+
+
+def luminance(planes, layer):
+    return array("d", (0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in zip(*(planes[layer + c] for c in "RGB"))))
+
+
+def percent(square):
+    root = 100 * math.sqrt(max(square, 0))
+    return f"{root:.3g} %" if root < 1000 else f"{root:.0f} %"
+
+
+def run(*words):
+    done = eclat(*words, env=denoiser.environment(), timeout=3600)
+    if done.returncode:
+        raise RuntimeError(f"eclat {' '.join(words)}: {done.stderr}")
+    return done.stdout
+
+
+class Seeds:
+    """Pictures of a scene, kept in a folder."""
+
+    def __init__(self, folder, scene, options=()):
+        self.path = os.path.join(SOURCE, "scenes", scene + ".gltf")
+        self.options = ["--size", "96x72", "--spp", "256", *options]
+        self.stem = os.path.join(folder, "-".join([os.path.basename(scene), *(word.strip("-") for word in options)]))
+        self.folder = folder
+
+    def slice(self, seed, first, end):
+        path = f"{self.stem}-{seed}-{first}-{end}.exr"
+        if not os.path.exists(path):  # --denoise: first hits of 64 samples
+            run("render", self.path, *self.options, "--seed", str(seed), "--samples", f"{first}:{end}", "--denoise=atrous", "-q", "-o", path)
+        return path
+
+    def picture(self, seed, spp):
+        """The report, and the luminance of each layer."""
+        picture = os.path.join(self.folder, f"picture-{os.getpid()}.exr")
+        report = json.loads(run("merge", *(self.slice(seed, *part) for part in BUDGETS[spp]), "--partial", "--denoise=oidn", "--json", "-o", picture))
+        planes = read_exr(picture)[1]
+        os.remove(picture)
+        return report, [luminance(planes, layer) for layer in LAYERS]
+
+
+class Truth:
+    """Of pictures alike: to each the mean of all others, and the variance of that."""
+
+    def __init__(self, pictures):
+        self.count = len(pictures)
+        self.sums = array("d", map(sum, zip(*pictures)))
+        self.squares = array("d", (sum(y * y for y in pixel) for pixel in zip(*pictures)))
+
+    def errors(self, own, layers):
+        """Of a seed's layers, relative to the mean luminance, squared; own: its picture among the others."""
+        others = self.count - 1
+        truth = array("d", ((s - y) / others for s, y in zip(self.sums, own)))
+        variance = sum((q - y * y) / others - t * t for q, y, t in zip(self.squares, own, truth)) / (others - 1)
+        mean = sum(truth) / len(truth)
+        return [(sum((a - b) ** 2 for a, b in zip(layer, truth)) - variance) / len(truth) / mean**2 for layer in layers]
+
+
+class Cell:
+    """What the seeds of a scene come to at a budget: real errors of each layer; of the denoised and the best one what is stated, and how often it held."""
+
+    def __init__(self, scene, spp):
+        self.scene, self.spp, self.seeds = os.path.basename(scene), spp, 0
+        self.real, self.stated, self.low, self.high = [0.0] * 3, [0.0] * 3, [0] * 3, [0] * 3
+        self.open = 0
+
+    def add(self, report, squares):
+        self.seeds += 1
+        self.open += report["denoised"]["high95"] is None
+        for i, layer in enumerate(LAYERS):
+            self.real[i] += squares[i]
+            if not layer:
+                continue
+            one, real = report[layer[:-1]], math.sqrt(max(squares[i], 0))
+            self.stated[i] += one["error"] ** 2
+            self.low[i] += real < one["low95"]
+            self.high[i] += one["high95"] is not None and real > one["high95"]
+
+    def held(self, layer):
+        return self.seeds - self.low[layer] - self.high[layer]
+
+    def worse(self):
+        """Error of the best picture over that of the better of both."""
+        return math.sqrt(self.real[2] / min(self.real[:2]))
+
+    def row(self, is_first):
+        noisy, *both = (percent(sum_ / self.seeds) for sum_ in self.real)
+        told = [f"{real}, {percent(sum_ / self.seeds)} | {self.held(i)}" for i, real, sum_ in zip((1, 2), both, self.stated[1:])]
+        return f"| {NAMES.get(self.scene, self.scene) if is_first else ''} | {self.spp} | {noisy} | {' | '.join(told)} |"
+
+    def __str__(self):
+        return (f"{self.scene} {self.spp}: denoised under its interval {self.low[1]}, over it {self.high[1]}; best {self.low[2]}, {self.high[2]}; "
+                f"{self.open} without an upper end; best is {self.worse():.3f} of the better; {self.seeds} seeds")
+
+
+def measure(folder, scene, seeds, options=(), budgets=tuple(BUDGETS)):
+    """A cell for each budget."""
+    source = Seeds(folder, scene, options)
+    most = max(budgets)
+    pictures = {spp: [source.picture(seed, spp) for seed in range(1, seeds + 1)] for spp in budgets}
+    long = [layers[0] for _, layers in pictures[most]]
+    truth, cells = Truth(long), []
+    for spp in budgets:
+        cells.append(Cell(scene, spp))
+        for (report, layers), own in zip(pictures[spp], long):
+            cells[-1].add(report, truth.errors(own, layers))
+    return cells
+
+
+def show(cells):
+    for cell in cells:
+        print(cell.row(cell is cells[0]), cell, sep="\n    ", file=sys.stderr, flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("--seeds", type=int, default=SEEDS)
+    parser.add_argument("--keep")
+    parser.add_argument("--clamp")
+    parser.add_argument("scenes", nargs="*", default=SCENES)
+    args = parser.parse_args()
+    with tempfile.TemporaryDirectory() as passing:
+        for scene in args.scenes:
+            show(measure(args.keep or passing, scene, args.seeds, ["--clamp", args.clamp] if args.clamp else []))
+
+
+if __name__ == "__main__":
+    main()
