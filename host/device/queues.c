@@ -52,6 +52,11 @@ static uint32_t path_fields_of(uint64_t features)
     return features & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS : features & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
 }
 
+static uint32_t shadow_fields_of(uint64_t features)
+{
+    return (features & EC_FEATURE_MATCHED) && (features & EC_FEATURES_MEDIUM) ? EC_SHADOW_MEDIUM_FIELDS : EC_SHADOW_FIELDS;
+}
+
 static ec_result create_wave(ec_pipeline *p, ec_error *err)
 {
     p->room = p->wave;
@@ -60,7 +65,7 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
     const uint64_t path_fields = path_fields_of(p->effects.built);
     for (int i = 0; i < 2; i++) EC_TRY(create(p, "path queue", field * path_fields + slack, &p->path_queues[i], err));
     EC_TRY(create(p, "hits", field * EC_HIT_FIELDS + slack, &p->buffers[EC_ARG_HITS], err));
-    EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));
+    EC_TRY(create(p, "shadow queue", field * shadow_fields_of(p->effects.built) + slack, &p->buffers[EC_ARG_SHADOWS], err));
     EC_TRY(create(p, "radiance", field * radiance_fields(p) + slack, &p->buffers[EC_ARG_RADIANCE], err));
     EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
     if (p->effects.called.bits & EC_FEATURE_MOTION)

@@ -91,6 +91,8 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                           uvs,    colors,  materials,    {texture_table, texels, srgb},
                           places, motion,  filter.g.time};
             v3 o = r.o, end = v3_add(o, r.d);
+            lane_u medium = medium_air(MEDIA_NESTED(params));
+            if (HAS_SHADOW_MEDIUM) medium = open ? packet_load_u(shadows, wave, EC_SHADOW_MEDIUM, &at) : medium;
             lane_i walks = open & panes;
             filter.panes = 0;
             for (uint left = panes_most(params, bounce); any_lane(walks); left--) {
@@ -100,12 +102,14 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                 walks = walks & (h.prim != EC_NO_ID);
                 if (!any_lane(walks)) break;
                 if (HAS_COPLANAR) h.prim = coplanar_first(coplanar, &filter, &r, walks, h.prim, skip, &h.b1, &h.b2);
-                light = v3_select(walks, v3_mul(light, pane_pass(&g, walks, h.prim, h.b1, h.b2, r.d, &o)), light);
+                light = v3_select(walks, v3_mul(light, pane_pass(params, &g, walks, h.prim, h.b1, h.b2, r.d, &o, &medium)), light);
                 if (!left) light = v3_select(walks, v3_zero(), light);
                 walks = walks & (v3_max_component(light) > 0.0f);
                 r = ray_make(o, v3_sub(end, o), params->scene_max);
                 skip = walks ? h.prim : skip;
             }
+            if (HAS_SHADOW_MEDIUM)
+                light = v3_mul(light, pane_behind(params, &g, medium, packet_load_f(shadows, wave, EC_SHADOW_FAR, &at) != 0.0f, o, end));
         }
         radiance_add(radiance_of(params, radiance, bounce + 2), wave, slot, light, open, invalid + EC_STAGE_CONNECT);
         if (HAS(LAYERS)) layers_add(params, radiance, bounce + 2, slot, slot_group(word), light, open);

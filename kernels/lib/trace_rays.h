@@ -94,16 +94,17 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     if (EC_CAT(ACCEL, _any)(&a, &q, &filter, skip, target, &h)) return;
     if (HAS_COPLANAR && any_lane(coplanar_hides(coplanar, &filter, &q.r, TRUE_MASK, U(target), U(skip)))) return;
     v3 light = v3_make(F(p[EC_SHADOW_LR * wave]), F(p[EC_SHADOW_LG * wave]), F(p[EC_SHADOW_LB * wave]));
-    if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
+    if (HAS(PANES) && (HAS_SHADOW_MEDIUM || any_lane(panes))) { /* nothing but panes in the way: through one after the other */
         geometry g = {prims,  indices, normals,      tangents, uvs, colors, materials, {texture_table, texels, srgb},
                       places, motion,  filter.g.time};
         v3 o = q.r.o, end = v3_add(o, q.r.d);
+        lane_u medium = HAS_SHADOW_MEDIUM ? U(as_uint(p[EC_SHADOW_MEDIUM * wave])) : U(0);
         filter.panes = 0;
-        for (uint left = panes_most(params, bounce);; left--) {
+        for (uint left = panes_most(params, bounce); any_lane(panes); left--) {
             EC_CAT(ACCEL, _closest)(&a, &q, &filter, skip, target, &h);
             if (h.prim == EC_NO_ID) break;
             if (HAS_COPLANAR) EC_CAT(ACCEL, _settle)(coplanar, &filter, &q, skip, &h);
-            light = v3_mul(light, pane_pass(&g, TRUE_MASK, U(h.prim), F(h.b1), F(h.b2), q.r.d, &o));
+            light = v3_mul(light, pane_pass(params, &g, TRUE_MASK, U(h.prim), F(h.b1), F(h.b2), q.r.d, &o, &medium));
             if (!left || !any_lane(v3_max_component(light) > 0.0f)) return;
             v3 d = v3_sub(end, o);
             q = ray8_make(o.x.s0, o.y.s0, o.z.s0, d.x.s0, d.y.s0, d.z.s0, params->scene_max);
@@ -111,6 +112,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
             h.t = 1.0f;
             h.prim = EC_NO_ID;
         }
+        if (HAS_SHADOW_MEDIUM) light = v3_mul(light, pane_behind(params, &g, medium, F(p[EC_SHADOW_FAR * wave]) != 0.0f, o, end));
     }
     light_add_one(params, radiance, bounce + 2, word, light.x.s0, light.y.s0, light.z.s0);
 }
