@@ -41,8 +41,8 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
 
 uint64_t ec_universal_features(const ec_render_effects *effects)
 {
-    const uint64_t ways = EC_FEATURE_SOBOL | EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS | EC_FEATURE_MATCHED; /* not more effects */
-    return (effects->called.bits | (EC_FEATURE_ALL & ~ways)) & ~not_built(effects->without);
+    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS)); /* other ways, not more effects */
+    return all & ~not_built(effects->without);
 }
 
 /* Lights without extent are met no other way, whatever --sample is. */

@@ -122,7 +122,9 @@ ec_result ec_pipeline_create_queues(ec_pipeline *p, uint32_t wave, ec_error *err
 
 uint32_t ec_pipeline_narrow_wave(const ec_pipeline *p, uint64_t features)
 {
-    const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, fits = (uint64_t)p->room * path_fields_of(p->effects.built) / path_fields_of(features);
+    const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, built = p->effects.built;
+    const uint64_t paths = (uint64_t)p->room * path_fields_of(built) / path_fields_of(features);
+    const uint64_t shadows = (uint64_t)p->room * shadow_fields_of(built) / shadow_fields_of(features), fits = paths < shadows ? paths : shadows;
     const uint64_t wave = (fits < EC_NARROW_WAVE ? fits : EC_NARROW_WAVE) / unit * unit;
     return wave < p->params.batch ? 0 : (uint32_t)wave;
 }

@@ -246,16 +246,13 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         }
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf, share);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
-        lane_u between = medium;
-        if (HAS_MEDIUM) {
-            between = medium_towards(&h, &s, medium, wi_local.z, nested);
-            arriving = shadow_arrives(params, &g, &l, between, nested, above, arriving);
-        }
+        lane_u between = HAS_MEDIUM ? medium_towards(&h, &s, medium, wi_local.z, nested) : medium;
+        shadow_way way = shadow_way_make(params, &g, &l, between, nested, above);
         lane_u group = U(0);
         if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
         lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted);
         shadow_push(params, shadows, counters->shadows[step], i, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
-                    left_behind(&s, l.wi, lifted, prim), l.target, between, l.is_far, m, invalid + EC_STAGE_SHADE);
+                    left_behind(&s, l.wi, lifted, prim), l.target, &way, m, invalid + EC_STAGE_SHADE);
     }
 
     sample_pair_u(random, pair + EC_PAIR_BSDF, &r1, &r2);

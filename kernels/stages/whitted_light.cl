@@ -41,8 +41,8 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
     if (HAS_MEDIUM) {
         medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
         medium = medium_towards(&h, &s, medium, wi_local.z, nested);
-        arriving = shadow_arrives(params, &g, &l, medium, nested, s.p, arriving);
     }
+    shadow_way way = shadow_way_make(params, &g, &l, medium, nested, s.p);
     v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
-    shadow_push(params, shadows, counters->shadows[step], i, from, shadow_end(s.p, &l), arriving, slot, prim, l.target, medium, l.is_far, lit, invalid + EC_STAGE_SHADE);
+    shadow_push(params, shadows, counters->shadows[step], i, from, shadow_end(s.p, &l), arriving, slot, prim, l.target, &way, lit, invalid + EC_STAGE_SHADE);
 }
