@@ -5,6 +5,11 @@
 
 #include "device/pipeline.h"
 
+static uint64_t not_built(uint64_t without)
+{
+    return without & EC_FEATURE_PANES ? EC_FEATURE_PANES | EC_FEATURE_MATCHED : 0;
+}
+
 void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects)
 {
     ec_effects *called = &effects->called;
@@ -28,7 +33,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     for (int i = 0; options->fog[0] > 0 && i < 3; i++) ec_effects_call(called, of_fog[i], "--fog %g,%g,%g", options->fog[0], options->fog[1], options->fog[2]);
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
     effects->built = options->all_effects ? ec_universal_features(effects) : called->bits | options->more_effects;
-    effects->built &= ~(effects->without & EC_FEATURE_PANES); /* paths through panes count on shadow rays to pass them too */
+    effects->built &= ~not_built(effects->without); /* paths through panes count on shadow rays to pass them too */
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
         if (ec_stage_is_of(&ec_stages[id], options->integrator, called->bits)) effects->launched |= 1u << id;
     if (!ec_pipeline_joins(options, pack)) effects->launched &= ~(1u << EC_CONNECT | 1u << EC_WHITTED_LIGHT);
@@ -37,7 +42,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
 uint64_t ec_universal_features(const ec_render_effects *effects)
 {
     const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS)); /* other ways, not more effects */
-    return all & ~(effects->without & EC_FEATURE_PANES);
+    return all & ~not_built(effects->without);
 }
 
 /* Lights without extent are met no other way, whatever --sample is. */

@@ -52,6 +52,11 @@ static uint32_t path_fields_of(uint64_t features)
     return features & EC_FEATURE_PANES ? EC_PATH_PANE_FIELDS : features & EC_FEATURES_MEDIUM ? EC_PATH_MEDIUM_FIELDS : EC_PATH_FIELDS;
 }
 
+static uint32_t shadow_fields_of(uint64_t features)
+{
+    return (features & EC_FEATURE_MATCHED) && (features & EC_FEATURES_MEDIUM) ? EC_SHADOW_MEDIUM_FIELDS : EC_SHADOW_FIELDS;
+}
+
 static ec_result create_wave(ec_pipeline *p, ec_error *err)
 {
     p->room = p->wave;
@@ -60,7 +65,7 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
     const uint64_t path_fields = path_fields_of(p->effects.built);
     for (int i = 0; i < 2; i++) EC_TRY(create(p, "path queue", field * path_fields + slack, &p->path_queues[i], err));
     EC_TRY(create(p, "hits", field * EC_HIT_FIELDS + slack, &p->buffers[EC_ARG_HITS], err));
-    EC_TRY(create(p, "shadow queue", field * EC_SHADOW_FIELDS + slack, &p->buffers[EC_ARG_SHADOWS], err));
+    EC_TRY(create(p, "shadow queue", field * shadow_fields_of(p->effects.built) + slack, &p->buffers[EC_ARG_SHADOWS], err));
     EC_TRY(create(p, "radiance", field * radiance_fields(p) + slack, &p->buffers[EC_ARG_RADIANCE], err));
     EC_TRY(create(p, "first-hit features", field * EC_AOV_FIELDS + slack, &p->buffers[EC_ARG_AOV], err));
     if (p->effects.called.bits & EC_FEATURE_MOTION)
@@ -117,7 +122,9 @@ ec_result ec_pipeline_create_queues(ec_pipeline *p, uint32_t wave, ec_error *err
 
 uint32_t ec_pipeline_narrow_wave(const ec_pipeline *p, uint64_t features)
 {
-    const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, fits = (uint64_t)p->room * path_fields_of(p->effects.built) / path_fields_of(features);
+    const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, built = p->effects.built;
+    const uint64_t paths = (uint64_t)p->room * path_fields_of(built) / path_fields_of(features);
+    const uint64_t shadows = (uint64_t)p->room * shadow_fields_of(built) / shadow_fields_of(features), fits = paths < shadows ? paths : shadows;
     const uint64_t wave = (fits < EC_NARROW_WAVE ? fits : EC_NARROW_WAVE) / unit * unit;
     return wave < p->params.batch ? 0 : (uint32_t)wave;
 }

@@ -74,14 +74,14 @@ static const ec_arg slot_layers[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_P
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
 #define SHADING_FEATURES                                                                           \
     (EC_FEATURE_ALL & ~(EC_FEATURE_CULLING | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | \
-                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_SCATTERING | EC_FEATURE_FOG | EC_FEATURES_FROM_LIGHTS | \
-                        EC_FEATURE_COPLANAR | CAMERA_FEATURES))
+                        EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | EC_FEATURE_MATCHED | EC_FEATURE_MOTION | EC_FEATURE_SCATTERING | EC_FEATURE_FOG | \
+                        EC_FEATURES_FROM_LIGHTS | EC_FEATURE_COPLANAR | CAMERA_FEATURES))
 #define PATH_FEATURES                                                                              \
     (SHADING_FEATURES | EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_MULTISCATTER | EC_FEATURE_LAMP_PARTS | EC_FEATURE_PANES | \
-     EC_FEATURE_MOTION | EC_FEATURES_FROM_LIGHTS)
+     EC_FEATURE_MATCHED | EC_FEATURE_MOTION | EC_FEATURES_FROM_LIGHTS)
 #define LIGHT_PATH_FEATURES (PATH_FEATURES | CAMERA_FEATURES)
 /* Shadow rays look at surfaces where there are panes, else at no more than alpha: see ec_stage_features. */
-#define SHADOW_FEATURES ((SHADING_FEATURES & ~EC_FEATURE_AREA_LIGHTS) | EC_FEATURE_PANES)
+#define SHADOW_FEATURES ((SHADING_FEATURES & ~EC_FEATURE_AREA_LIGHTS) | EC_FEATURE_PANES | EC_FEATURE_MATCHED | EC_FEATURE_FOG)
 
 const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_GENERATE] = {"generate", "generate camera rays", EC_OF_ALL, EC_LANES_OF_PIPELINE, 0,
@@ -105,7 +105,7 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_SHADE_RASTER] = {"shade_raster", "shade without visibility", EC_OF(RASTER), EC_LANES_OF_PIPELINE, 0,
                          SHADING_FEATURES, ARGS(shade_raster)},
     [EC_WHITTED] = {"whitted", "grow ray trees", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES, ARGS(whitted)},
-    [EC_WHITTED_LIGHT] = {"whitted_light", "shade one light", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES,
+    [EC_WHITTED_LIGHT] = {"whitted_light", "shade one light", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES | EC_FEATURE_MATCHED,
                           ARGS(whitted_light)},
     [EC_ACCUMULATE] = {"accumulate", "accumulate", EC_OF_ALL, 1, 0, 0, ARGS(accumulate)},
     [EC_STORE_FEATURES] = {"features", "accumulate first-hit features", EC_OF_ALL, 1, 0, 0, ARGS(store_features)},

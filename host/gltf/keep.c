@@ -1,5 +1,5 @@
-/* Which meshes are kept once. Not those that emit, since lights are sampled in the world, nor those that light
- * passes: which body lies in which is found out there too. Not where a matrix is singular or nearly so: its
+/* Which meshes are kept once. Not those that emit, since lights are sampled in the world, nor those that bound bodies or let
+ * light straight through: which body lies in which is found out there too. Not where a matrix is singular or nearly so: its
  * inverse, by which rays reach the mesh, would be noise. */
 #include "gltf/keep.h"
 
@@ -13,12 +13,12 @@
 
 const ec_placement ec_at_home = {.linear = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
 
-static bool emits_or_transmits(const ec_gltf *g, int32_t mesh, const ec_scene *scene)
+static bool emits_or_bounds(const ec_gltf *g, int32_t mesh, const ec_scene *scene)
 {
     for (uint32_t k = 0; k < g->meshes[mesh].primitive_count; k++) {
         const ec_gltf_primitive *p = &g->meshes[mesh].primitives[k];
         const ec_material *m = &scene->materials[p->scene_material];
-        if (p->drawn && (ec_emits(m) || m->transmission > 0)) return true;
+        if (p->drawn && (ec_emits(m) || ec_bounds(m) || m->transmission > 0)) return true;
     }
     return false;
 }
@@ -76,7 +76,7 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
     }
     for (uint32_t mesh = 0; mesh < g->mesh_count; mesh++) {
         index[mesh] = -1;
-        if (uses[mesh] < 2 || emits_or_transmits(g, (int32_t)mesh, scene)) continue;
+        if (uses[mesh] < 2 || emits_or_bounds(g, (int32_t)mesh, scene)) continue;
         ec_kept_mesh *m = &k->meshes[k->mesh_count];
         *m = (ec_kept_mesh){.mesh = (int32_t)mesh};
         span_mesh(g, m);

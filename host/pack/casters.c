@@ -16,13 +16,13 @@
 #define SCENE_SHARE 0.2f    /* of light paths, to the scene as a whole where that is asked for */
 #define WORTH_SPLITTING 0.7 /* two spheres for one, where they are so much smaller together */
 
-/* Panes bend none. */
+/* Panes bend none, nor do bodies of index 1. */
 bool ec_material_casts(const ec_scene *scene, const ec_material *m)
 {
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
     if (m->unlit || m->roughness * least > SHARP_ROUGHNESS) return false;
-    return (ec_refracts(m) && m->transmission > 0.1f) || m->metallic > 0.5f;
+    return (ec_refracts(m) && m->ior != 1.0f && m->transmission > 0.1f) || m->metallic > 0.5f;
 }
 
 bool ec_scene_casts(const ec_scene *scene)

@@ -28,9 +28,15 @@ static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refr
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / ior) < EC_SMOOTH_ALPHA);
 }
 
+bool ec_pack_is_matched(const ec_scene *plain, const ec_material *m)
+{
+    return !plain->solid_shadows && !m->unlit && ec_refracts(m) && m->ior == 1.0f;
+}
+
 bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m)
 {
-    return !plain->solid_shadows && !ec_refracts(m) && m->transmission > 0.0f && may_be_smooth(plain, m, false);
+    const bool thin = !plain->solid_shadows && !ec_refracts(m) && m->transmission > 0.0f && may_be_smooth(plain, m, false);
+    return thin || ec_pack_is_matched(plain, m);
 }
 
 bool ec_pack_is_body(const ec_material *m)
@@ -144,7 +150,9 @@ static void scan_material(scan *s)
     }
     scan_rows(s);
     if (ec_emits(m)) call(s, EC_FEATURE_AREA_LIGHTS, "emits");
-    if (ec_pack_is_pane(s->scene, m)) call(s, EC_FEATURE_PANES, "lets light straight through a thin wall");
+    const bool matched = ec_pack_is_matched(s->scene, m);
+    if (ec_pack_is_pane(s->scene, m)) call(s, EC_FEATURE_PANES, "lets light straight through %s", matched ? "walls of a body" : "a thin wall");
+    if (matched) call(s, EC_FEATURE_MATCHED, "is a body of index 1");
     scan_coat(s);
     scan_specular(s);
 }

@@ -89,7 +89,7 @@ static ec_result pack_materials(const ec_scene *scene, ec_pack *pack, ec_error *
         d->flags = (m->double_sided ? EC_MATERIAL_DOUBLE_SIDED : 0) | (ec_emits(m) && !m->unlit ? EC_MATERIAL_EMISSIVE : 0) |
                    (m->unlit ? EC_MATERIAL_UNLIT : 0) | (m->alpha_mode == EC_ALPHA_MASK ? EC_MATERIAL_MASK : 0) |
                    (m->alpha_mode == EC_ALPHA_BLEND ? EC_MATERIAL_BLEND : 0) | (ec_refracts(m) ? EC_MATERIAL_REFRACTS : 0) |
-                   (ec_bounds(m) ? EC_MATERIAL_BOUNDS : 0);
+                   (ec_bounds(m) ? EC_MATERIAL_BOUNDS : 0) | (ec_pack_is_matched(scene, m) ? EC_MATERIAL_MATCHED : 0);
         for (int k = 0; k < 3; k++) d->scatter_albedo[k] = single_albedo(m->scatter[k], m->scatter_anisotropy);
         d->anisotropy_cosine = cosf(m->anisotropy_rotation);
         d->anisotropy_sine = sinf(m->anisotropy_rotation);

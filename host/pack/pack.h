@@ -90,8 +90,9 @@ typedef struct ec_scene_light {
     uint32_t triangles; /* as stored */
 } ec_scene_light;
 ec_result ec_scene_find_light(const ec_scene *scene, ec_scene_light *light, ec_error *err);
-/* For a plain scene: may light go straight on through it, somewhere: thin-walled and smooth? */
+/* For a plain scene: may light go straight on through it, somewhere: thin-walled and smooth, or a body of index 1, which bends none? */
 bool ec_pack_is_pane(const ec_scene *plain, const ec_material *m);
+bool ec_pack_is_matched(const ec_scene *plain, const ec_material *m);
 /* Is there a body behind it? */
 bool ec_pack_is_body(const ec_material *m);
 ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err); /* where texels will be */

@@ -29,7 +29,8 @@ EC_FN lane_u medium_material(const geometry *g, lane_u medium, bool nested)
     return nested ? bodies_material(g, medium) : medium;
 }
 
-/* Around all bodies? */
+/* Around all bodies. */
+EC_FN lane_u medium_air(bool nested) { return nested ? U(0) : U(EC_NO_ID); }
 EC_FN lane_i medium_is_air(lane_u medium, bool nested) { return nested ? medium == 0u : medium == EC_NO_ID; }
 
 /* What is left of each channel after `distance` metres (Beer-Lambert). */

@@ -1,11 +1,12 @@
-/* Panes: thin walls (KHR_materials_transmission without a volume) that are smooth, so that what passes goes straight on. A shadow ray
- * goes on with it, and light behind panes is looked for as if they were not there, but for what they take away. A path that has
- * passed some keeps the point where light was last looked for and the density of its direction there: what it meets is weighed
- * against light sampling from that point, and nothing is counted twice. */
+/* Panes: thin walls (KHR_materials_transmission without a volume) that are smooth, and walls of bodies with the same index of refraction on both
+ * sides, so that what passes goes straight on. A shadow ray goes on with it, and light behind panes is looked for as if they were not there, but
+ * for what they and the bodies between take away. A path that has passed some keeps the point where light was last looked for and the density
+ * of its direction there: what it meets is weighed against light sampling from that point, and nothing is counted twice. */
 #ifndef EC_LIB_PANE_H
 #define EC_LIB_PANE_H
 
 #include "bsdf.h"
+#include "fog.h"
 
 #define EC_PANES_MOST 1024u /* in the way of one shadow ray: 0.04 of it reflected by each would leave 1e-18 */
 
@@ -16,29 +17,90 @@ EC_FN uint panes_most(constant ec_params *params, uint bounce)
     return params->panes_count ? min(left, EC_PANES_MOST) : EC_PANES_MOST;
 }
 
-/* What goes straight on of light that comes along wo: the value of that single direction, as bsdf_sample weighs it. */
-EC_FN v3 bsdf_straight(const bsdf *b)
+/* Is a wall a pane for what passes it in its single direction? flags: of its material. */
+EC_FN lane_i pane_is(const bsdf *b, lane_u flags)
 {
-    lane_i straight = b->facets.smooth & !b->refracts & (b->wo.z > 0.0f);
+    lane_i matched = !TRUE_MASK;
+    if (HAS(MATCHED)) matched = ((flags & EC_MATERIAL_MATCHED) != 0u) & (b->eta == 1.0f);
+    return !b->refracts | matched;
+}
+
+/* What goes straight on of light that comes along wo: the value of that single direction, as bsdf_sample weighs it. */
+EC_FN v3 bsdf_straight(const bsdf *b, lane_u flags)
+{
+    lane_i straight = b->facets.smooth & pane_is(b, flags) & (b->wo.z > 0.0f);
     return v3_select(straight, bsdf_passing(b, b->wo.z), v3_zero());
 }
 
-/* A shadow ray along d (any length) has met triangle prim (lanes m): what is left of its light, 0 where nothing passes. *o becomes
- * where it goes on. */
-EC_FN v3 pane_pass(const geometry *g, lane_i m, lane_u prim, lane_f b1, lane_f b2, v3 d, v3 *o)
+/* A shadow ray's way through panes. What it was in at its start fills all of it, unless a wall of a body of index 1 is crossed. */
+typedef struct pane_walk {
+    v3 o;           /* it goes on from here */
+    v3 light;       /* what is left of it */
+    v3 undimmed;    /* likewise, but by bodies up to `from` alone */
+    v3 from;        /* the last such wall that was crossed, or the start */
+    lane_u medium;  /* from there on */
+    lane_i crossed;
+} pane_walk;
+
+/* It starts at o in a medium which leaves `left` of the light if it fills all of the way. */
+EC_FN pane_walk pane_walk_make(v3 o, v3 light, lane_u medium, v3 left)
+{
+    pane_walk w = {o, HAS_SHADOW_MEDIUM ? v3_mul(light, left) : light, light, o, medium, !TRUE_MASK};
+    return w;
+}
+
+/* Bodies: that before the wall that was met, from the last one on. */
+EC_FN void pane_cross(constant ec_params *params, const geometry *g, const hit_point *h, const surface *s, lane_i m, v3 d, pane_walk *w)
+{
+    const bool nested = MEDIA_NESTED(params);
+    lane_u medium = medium_of(h, s, m, w->medium, nested);
+    v3 way = v3_sub(s->p, w->from);
+    v3 left = medium_leaves(params, g, medium, nested, !TRUE_MASK, w->from, d, sqrt(v3_dot(way, way)));
+    w->undimmed = v3_select(m, v3_mul(w->undimmed, left), w->undimmed);
+    w->medium = m ? medium_towards(h, s, medium, F(-1.0f), nested) : w->medium;
+    w->from = v3_select(m, s->p, w->from);
+    w->crossed = w->crossed | m;
+}
+
+/* Along d (any length) it has met triangle prim (lanes m). Light that does not pass becomes 0. */
+EC_FN void pane_pass(constant ec_params *params, const geometry *g, lane_i m, lane_u prim, lane_f b1, lane_f b2, v3 d, pane_walk *w)
 {
     prim = m ? prim : U(0);
     lane_i may = m & ((as_lane_u(gather_f(g->prims, prim * EC_PRIM_WORDS + 11u)) & EC_PRIM_PANE) != 0u);
-    if (!any_lane(may)) return v3_zero();
-    v3 wo = v3_negate(v3_normalize(d));
-    hit_point h = hit_point_make(g, prim, b1, b2);
-    surface s;
-    surface_place(&h, wo, &s);
-    surface_frame(g, &h, may, wo, &s);
-    surface_material(g, &h, may, &s);
-    bsdf b = bsdf_make(&s, surface_to_local(&s, wo), false);
-    *o = v3_select(may, surface_offset(s.p, s.p_error, s.ng, d), *o);
-    return v3_select(may, bsdf_straight(&b), v3_zero());
+    v3 passes = v3_zero();
+    if (any_lane(may)) {
+        v3 wi = v3_normalize(d), wo = v3_negate(wi);
+        hit_point h = hit_point_make(g, prim, b1, b2);
+        surface s;
+        surface_place(&h, wo, &s);
+        surface_frame(g, &h, may, wo, &s);
+        if (HAS_SHADOW_MEDIUM && MEDIA_NESTED(params)) s.bodies = may ? w->medium : U(0);
+        surface_material(g, &h, may, &s);
+        bsdf b = bsdf_make(&s, surface_to_local(&s, wo), false);
+        passes = v3_select(may, bsdf_straight(&b, as_lane_u(material_quad(g, &h, EC_WORD_emission).d)), passes);
+        w->o = v3_select(may, surface_offset(s.p, s.p_error, s.ng, d), w->o);
+        if (HAS_SHADOW_MEDIUM && any_lane(may & s.refracts)) pane_cross(params, g, &h, &s, may & s.refracts, wi, w);
+    }
+    w->light = v3_select(m, v3_mul(w->light, passes), w->light);
+    if (HAS_SHADOW_MEDIUM) w->undimmed = v3_select(m, v3_mul(w->undimmed, passes), w->undimmed);
+}
+
+EC_FN void pane_block(lane_i m, pane_walk *w)
+{
+    w->light = v3_select(m, v3_zero(), w->light);
+    w->undimmed = v3_select(m, v3_zero(), w->undimmed);
+}
+
+EC_FN lane_i pane_is_lit(const pane_walk *w) { return v3_max_component(HAS_SHADOW_MEDIUM ? w->undimmed : w->light) > 0.0f; }
+
+/* What arrives at the end. */
+EC_FN v3 pane_walk_end(constant ec_params *params, const geometry *g, const pane_walk *w, lane_i is_far, v3 end)
+{
+    if (!HAS_SHADOW_MEDIUM || !any_lane(w->crossed)) return w->light;
+    v3 way = v3_sub(end, w->from);
+    lane_f length = sqrt(v3_dot(way, way));
+    v3 left = medium_leaves(params, g, w->medium, MEDIA_NESTED(params), is_far, w->from, v3_scale(way, 1.0f / length), length);
+    return v3_select(w->crossed, v3_mul(w->undimmed, left), w->light);
 }
 
 #endif

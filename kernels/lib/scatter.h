@@ -4,8 +4,7 @@
 #ifndef EC_LIB_SCATTER_H
 #define EC_LIB_SCATTER_H
 
-#include "../shared/params.h"
-#include "medium.h"
+#include "fog.h"
 
 typedef struct scattering {
     lane_i m;  /* does the path scatter on its way? */
@@ -38,24 +37,6 @@ EC_FN v3 phase_sample(lane_f g, v3 d, lane_f u1, lane_f u2)
 EC_FN lane_f scatter_distance(lane_f density, lane_f u)
 {
     return density > 0.0f ? -log_unit(1.0f - u, u) / density : F(EC_HUGE);
-}
-
-/* How many of `length` metres from o along d are in the fog, which fills the ball about the scene; *from: where they begin. */
-EC_FN lane_f fog_span(constant ec_params *params, v3 o, v3 d, lane_f length, lane_f *from)
-{
-    const float radius = params->scene_radius;
-    lane_f middle = -v3_dot(o, d);
-    v3 off = v3_fma(d, middle, o);
-    lane_f reach = sqrt(max(fma(F(radius), F(radius), -v3_dot(off, off)), F(0.0f)));
-    *from = max(middle - reach, F(0.0f));
-    return max(min(middle + reach, length) - *from, F(0.0f));
-}
-
-/* What fog leaves of light along wi over `length` metres from p, on lanes m. */
-EC_FN lane_f fog_leaves(constant ec_params *params, lane_i m, v3 p, v3 wi, lane_f length)
-{
-    lane_f from, span = fog_span(params, p, wi, length, &from);
-    return m ? exp_negative(-params->fog[0] * span) : F(1.0f);
 }
 
 /* What a path goes through on its way, per metre; where that begins, and how long it is. */

@@ -2,24 +2,31 @@
 #ifndef EC_LIB_SHADOW_H
 #define EC_LIB_SHADOW_H
 
+#include "fog.h"
 #include "light.h"
-#include "medium.h"
 #include "queue.h"
 
-/* What the body that the shadow ray starts in leaves of the light; wi_z: against ns. Infinitely far no body reaches: what path
- * tracing misses is not dimmed either. */
-EC_FN v3 shadow_transmittance(const geometry *g, const hit_point *h, const surface *s, const light_sample *l, lane_u medium,
-                              lane_f wi_z, bool nested)
+/* What a shadow ray starts in, and what that leaves of the light if it fills all of the way. */
+typedef struct shadow_way {
+    lane_u medium;
+    v3 left;
+    lane_i is_far;
+} shadow_way;
+
+/* To the light that was sampled for p. */
+EC_FN shadow_way shadow_way_make(constant ec_params *params, const geometry *g, const light_sample *l, lane_u medium, bool nested, v3 p)
 {
-    lane_u between = medium_material(g, medium_towards(h, s, medium, wi_z, nested), nested);
-    return medium_transmittance(g, l->is_far ? U(EC_NO_ID) : between, sqrt(v3_dot(l->towards, l->towards)));
+    shadow_way w = {medium, v3_splat(F(1.0f)), l->is_far};
+    if (HAS_MEDIUM) w.left = medium_leaves(params, g, medium, nested, l->is_far, p, l->wi, sqrt(v3_dot(l->towards, l->towards)));
+    return w;
 }
 
 /* Appends a ray from `from` to `end` to i's part of the queue, which counts counts; what is not finite is dropped and counted. It passes
  * through triangles prim and target. */
 EC_FN void shadow_push(constant ec_params *params, global float *shadows, volatile global uint *counts, uint i, v3 from, v3 end, v3 arriving,
-                       lane_u slot, lane_u prim, lane_u target, lane_i m, volatile global uint *invalid)
+                       lane_u slot, lane_u prim, lane_u target, const shadow_way *way, lane_i m, volatile global uint *invalid)
 {
+    if (!HAS_SHADOW_MEDIUM) arriving = v3_mul(arriving, way->left);
     m = m & (v3_max_component(arriving) != 0.0f);
     lane_i finite = v3_is_finite(arriving);
     uint bad = mask_bits(m & !finite), bits = mask_bits(m & finite), wave = params->wave;
@@ -32,6 +39,10 @@ EC_FN void shadow_push(constant ec_params *params, global float *shadows, volati
     queue_push_f(shadows, wave, EC_SHADOW_SLOT, at, as_lane_f(slot), bits);
     queue_push_f(shadows, wave, EC_SHADOW_PRIM, at, as_lane_f(prim), bits);
     queue_push_f(shadows, wave, EC_SHADOW_TARGET, at, as_lane_f(target), bits);
+    if (!HAS_SHADOW_MEDIUM) return;
+    queue_push_f(shadows, wave, EC_SHADOW_MEDIUM, at, as_lane_f(way->medium), bits);
+    queue_push_v3(shadows, wave, EC_SHADOW_TR, at, way->left, bits);
+    queue_push_f(shadows, wave, EC_SHADOW_FAR, at, way->is_far ? F(1.0f) : F(0.0f), bits);
 }
 
 /* Where a ray ends that goes to the light that was sampled for p. */

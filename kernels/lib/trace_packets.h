@@ -85,29 +85,37 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
         lane_i open = active & (h.prim == EC_NO_ID);
         if (HAS_COPLANAR) open = open & !coplanar_hides(coplanar, &filter, &r, open, target, skip);
         if (!any_lane(open)) continue;
-        v3 light = packet_load_v3(shadows, wave, EC_SHADOW_LR, &at);
+        lane_u medium = medium_air(MEDIA_NESTED(params));
+        v3 left = v3_splat(F(1.0f));
+        if (HAS_SHADOW_MEDIUM) {
+            medium = open ? packet_load_u(shadows, wave, EC_SHADOW_MEDIUM, &at) : medium;
+            left = packet_load_v3(shadows, wave, EC_SHADOW_TR, &at);
+        }
+        pane_walk w = pane_walk_make(r.o, packet_load_v3(shadows, wave, EC_SHADOW_LR, &at), medium, left);
         if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
             geometry g = {prims,  indices, normals,      tangents,
                           uvs,    colors,  materials,    {texture_table, texels, srgb},
                           places, motion,  filter.g.time};
-            v3 o = r.o, end = v3_add(o, r.d);
-            lane_i walks = open & panes;
+            v3 end = v3_add(r.o, r.d);
+            lane_i walks = open & panes, is_far = !TRUE_MASK;
             filter.panes = 0;
-            for (uint left = panes_most(params, bounce); any_lane(walks); left--) {
+            for (uint more = panes_most(params, bounce); any_lane(walks); more--) {
                 h.t = walks ? F(1.0f) : F(-1.0f);
                 h.prim = U(EC_NO_ID);
                 EC_CAT(ACCEL, _trace)(&a, &r, &filter, skip, target, false, &h);
                 walks = walks & (h.prim != EC_NO_ID);
                 if (!any_lane(walks)) break;
                 if (HAS_COPLANAR) h.prim = coplanar_first(coplanar, &filter, &r, walks, h.prim, skip, &h.b1, &h.b2);
-                light = v3_select(walks, v3_mul(light, pane_pass(&g, walks, h.prim, h.b1, h.b2, r.d, &o)), light);
-                if (!left) light = v3_select(walks, v3_zero(), light);
-                walks = walks & (v3_max_component(light) > 0.0f);
-                r = ray_make(o, v3_sub(end, o), params->scene_max);
+                pane_pass(params, &g, walks, h.prim, h.b1, h.b2, r.d, &w);
+                if (!more) pane_block(walks, &w);
+                walks = walks & pane_is_lit(&w);
+                r = ray_make(w.o, v3_sub(end, w.o), params->scene_max);
                 skip = walks ? h.prim : skip;
             }
+            if (HAS_SHADOW_MEDIUM) is_far = packet_load_f(shadows, wave, EC_SHADOW_FAR, &at) != 0.0f;
+            w.light = pane_walk_end(params, &g, &w, is_far, end);
         }
-        radiance_add(radiance_of(params, radiance, bounce + 2), wave, slot, light, open, invalid + EC_STAGE_CONNECT);
-        if (HAS(LAYERS)) layers_add(params, radiance, bounce + 2, slot, slot_group(word), light, open);
+        radiance_add(radiance_of(params, radiance, bounce + 2), wave, slot, w.light, open, invalid + EC_STAGE_CONNECT);
+        if (HAS(LAYERS)) layers_add(params, radiance, bounce + 2, slot, slot_group(word), w.light, open);
     }
 }

@@ -94,23 +94,31 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     if (EC_CAT(ACCEL, _any)(&a, &q, &filter, skip, target, &h)) return;
     if (HAS_COPLANAR && any_lane(coplanar_hides(coplanar, &filter, &q.r, TRUE_MASK, U(target), U(skip)))) return;
     v3 light = v3_make(F(p[EC_SHADOW_LR * wave]), F(p[EC_SHADOW_LG * wave]), F(p[EC_SHADOW_LB * wave]));
+    lane_u medium = U(0);
+    v3 left = v3_splat(F(1.0f));
+    if (HAS_SHADOW_MEDIUM) {
+        medium = U(as_uint(p[EC_SHADOW_MEDIUM * wave]));
+        left = v3_make(F(p[EC_SHADOW_TR * wave]), F(p[EC_SHADOW_TG * wave]), F(p[EC_SHADOW_TB * wave]));
+    }
+    pane_walk w = pane_walk_make(q.r.o, light, medium, left);
     if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
         geometry g = {prims,  indices, normals,      tangents, uvs, colors, materials, {texture_table, texels, srgb},
                       places, motion,  filter.g.time};
-        v3 o = q.r.o, end = v3_add(o, q.r.d);
+        v3 end = v3_add(q.r.o, q.r.d);
         filter.panes = 0;
-        for (uint left = panes_most(params, bounce);; left--) {
+        for (uint more = panes_most(params, bounce);; more--) {
             EC_CAT(ACCEL, _closest)(&a, &q, &filter, skip, target, &h);
             if (h.prim == EC_NO_ID) break;
             if (HAS_COPLANAR) EC_CAT(ACCEL, _settle)(coplanar, &filter, &q, skip, &h);
-            light = v3_mul(light, pane_pass(&g, TRUE_MASK, U(h.prim), F(h.b1), F(h.b2), q.r.d, &o));
-            if (!left || !any_lane(v3_max_component(light) > 0.0f)) return;
-            v3 d = v3_sub(end, o);
-            q = ray8_make(o.x.s0, o.y.s0, o.z.s0, d.x.s0, d.y.s0, d.z.s0, params->scene_max);
+            pane_pass(params, &g, TRUE_MASK, U(h.prim), F(h.b1), F(h.b2), q.r.d, &w);
+            if (!more || !any_lane(pane_is_lit(&w))) return;
+            v3 d = v3_sub(end, w.o);
+            q = ray8_make(w.o.x.s0, w.o.y.s0, w.o.z.s0, d.x.s0, d.y.s0, d.z.s0, params->scene_max);
             skip = h.prim;
             h.t = 1.0f;
             h.prim = EC_NO_ID;
         }
+        w.light = pane_walk_end(params, &g, &w, HAS_SHADOW_MEDIUM ? F(p[EC_SHADOW_FAR * wave]) != 0.0f : !TRUE_MASK, end);
     }
-    light_add_one(params, radiance, bounce + 2, word, light.x.s0, light.y.s0, light.z.s0);
+    light_add_one(params, radiance, bounce + 2, word, w.light.x.s0, w.light.y.s0, w.light.z.s0);
 }

@@ -57,6 +57,7 @@
 #define EC_FEATURE_GUIDING EC_FEATURE_BIT(46)
 #define EC_FEATURE_MOTION EC_FEATURE_BIT(49)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
+#define EC_FEATURE_MATCHED EC_FEATURE_BIT(51)
 #define EC_FEATURE_COPLANAR EC_FEATURE_BIT(50)
 #define EC_FEATURE_PANES EC_FEATURE_BIT(52)
 #define EC_FEATURE_NESTED EC_FEATURE_BIT(53)
@@ -114,6 +115,7 @@
     X(INSTANCES, "instances")                                                                      \
     X(COPLANAR, "coplanar-faces")                                                                  \
     X(PANES, "transparent-shadows")                                                                \
+    X(MATCHED, "transparent-bodies")                                                               \
     X(NESTED, "nested-bodies")
 
 #define EC_FEATURE_OR_(name, text) | EC_FEATURE_##name
@@ -144,6 +146,8 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #define HAS_PASSING (HAS(TRANSMISSION) || HAS(DIFFUSE_TRANSMISSION))
 #define HAS_BENDING ((FEATURES & EC_FEATURES_BENDING) != 0)
 #define HAS_MEDIUM ((FEATURES & EC_FEATURES_MEDIUM) != 0)
+/* Do shadow rays keep what they are in? */
+#define HAS_SHADOW_MEDIUM (HAS(MATCHED) && HAS_MEDIUM)
 #define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)
 #endif
 

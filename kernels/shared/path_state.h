@@ -46,7 +46,11 @@ enum ec_shadow_field {
     EC_SHADOW_SLOT,                        /* uint */
     EC_SHADOW_PRIM,                        /* uint: triangle the ray leaves */
     EC_SHADOW_TARGET,                      /* uint: triangle it ends on, or EC_NO_ID */
-    EC_SHADOW_FIELDS
+    EC_SHADOW_FIELDS,
+    EC_SHADOW_MEDIUM = EC_SHADOW_FIELDS,   /* with MATCHED and media only: uint, what it starts in (lib/medium.h) */
+    EC_SHADOW_TR, EC_SHADOW_TG, EC_SHADOW_TB, /* what that leaves if it fills all of the way, which then is not yet in L */
+    EC_SHADOW_FAR,                         /* 1 where it ends infinitely far away, else 0 */
+    EC_SHADOW_MEDIUM_FIELDS
 };
 
 /* Branches of Whitted's ray trees that wait: a stack for each slot. Field f of branch k of slot s stands at word

@@ -95,6 +95,7 @@ EC_ASSERT(sizeof(ec_material_data) == 4 * EC_MATERIAL_WORDS && EC_WORD_slots % 4
 #define EC_MATERIAL_REFRACTS 32u /* a body, not a thin wall */
 #define EC_MATERIAL_BOUNDS 64u   /* likewise, for what is transmitted diffusely */
 #define EC_MATERIAL_NESTED 128u  /* a body that may lie in another; if light is bent, its f0 is the specular colour alone */
+#define EC_MATERIAL_MATCHED 256u /* a body whose walls shadow rays pass where the index is the same on both sides (lib/pane.h) */
 #define EC_BODIES_MOST 32u       /* materials of such bodies */
 
 /* A texture is a view of an image's texels. */

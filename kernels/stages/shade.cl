@@ -8,6 +8,7 @@
 #include "../lib/guide.h"
 #include "../lib/light_path.h"
 #include "../lib/motion_vector.h"
+#include "../lib/pane.h"
 #include "../lib/roulette.h"
 #include "../lib/scatter.h"
 #include "../lib/shadow.h"
@@ -245,17 +246,13 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         }
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf, share);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));
-        if (HAS(ABSORPTION)) arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
-        if (HAS(FOG) && params->fog[0] > 0.0f) {
-            lane_i in_air = medium_is_air(medium_towards(&h, &s, medium, wi_local.z, nested), nested);
-            lane_f length = l.is_far ? F(EC_HUGE) : sqrt(v3_dot(l.towards, l.towards));
-            arriving = v3_scale(arriving, fog_leaves(params, in_air, above, l.wi, length));
-        }
+        lane_u between = HAS_MEDIUM ? medium_towards(&h, &s, medium, wi_local.z, nested) : medium;
+        shadow_way way = shadow_way_make(params, &g, &l, between, nested, above);
         lane_u group = U(0);
         if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
         lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted);
         shadow_push(params, shadows, counters->shadows[step], i, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
-                    left_behind(&s, l.wi, lifted, prim), l.target, m, invalid + EC_STAGE_SHADE);
+                    left_behind(&s, l.wi, lifted, prim), l.target, &way, m, invalid + EC_STAGE_SHADE);
     }
 
     sample_pair_u(random, pair + EC_PAIR_BSDF, &r1, &r2);
@@ -293,7 +290,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         beta = v3_scale(beta, 1.0f / survival);
     }
     lane_i straight = !TRUE_MASK; /* by a pane */
-    if (HAS(PANES)) straight = (next_way.pdf < 0.0f) & (next_way.wi.z < 0.0f) & !b.refracts;
+    if (HAS(PANES)) straight = (next_way.pdf < 0.0f) & (next_way.wi.z < 0.0f) & pane_is(&b, flags);
     uint bits = mask_bits(alive);
     if (!bits) return;
     uint at = queue_reserve(counters->rays[step + 1], params->part, i, popcount(bits));

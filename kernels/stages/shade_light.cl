@@ -9,6 +9,7 @@
 #include "../lib/film_point.h"
 #include "../lib/guide.h"
 #include "../lib/light_path.h"
+#include "../lib/pane.h"
 #include "../lib/roulette.h"
 #include "../lib/shadow.h"
 #include "../lib/terminator.h"
@@ -79,7 +80,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
     bsdf ba = bsdf_make(&sa, surface_to_local(&sa, a), params->multiple != 0u);
     sample_pair_u(random, pair + EC_PAIR_BSDF, &r1, &r2);
     bsdf_direction way_on = bsdf_sample(&ba, false, to_unit(r1), chooser_make(r2), u_pass);
-    lane_i single = way_on.pdf < 0.0f, below = way_on.wi.z < 0.0f, straight = single & below & !ba.refracts;
+    lane_i single = way_on.pdf < 0.0f, below = way_on.wi.z < 0.0f, straight = single & below & pane_is(&ba, flags);
 
     const bool records = HAS(GUIDING) && photons;
     if (records && vertex && vertex <= EC_PHOTON_VERTICES) {
@@ -157,14 +158,15 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
             lane_f np = (is_first ? n_over_p : fabs(ratio)) / t_over_p, pp = is_delta ? F(0.0f) : 1.0f / t_over_p;
             lane_f weight = 1.0f / fma(np, np, fma(pp, pp, F(1.0f)));
             v3 arriving = v3_scale(v3_mul(beta_c, value), turn_cosines * weight * film.weight / (area * kappa));
+            shadow_way way = {U(params->camera_medium), v3_splat(F(1.0f)), !TRUE_MASK};
             if (HAS(ABSORPTION)) {
                 lane_u near = (s.refracts & !s.front) ? h.material : U(params->camera_medium);
                 near = nested ? s.bodies : near;
-                arriving = v3_mul(arriving, medium_transmittance(&g, medium_material(&g, near, nested), sqrt(film.way2)));
+                way.left = medium_transmittance(&g, medium_material(&g, near, nested), sqrt(film.way2));
             }
             scatter_f(light_slots + EC_LIGHT_SLOT_PIXEL * wave, slot, as_lane_f(film.place), mask_bits(m));
             shadow_push(params, shadows, counters->shadows[step], i, film.o, surface_offset(s.p, s.p_error, s.ng, c), arriving, slot,
-                        U(EC_NO_ID), prim, m, invalid + EC_STAGE_SHADE);
+                        U(EC_NO_ID), prim, &way, m, invalid + EC_STAGE_SHADE);
             continue;
         }
         v3 factor = v3_scale(value, turn_cosines / way_on.pdf);

@@ -37,10 +37,12 @@ kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, 
     v3 wi_local = surface_to_local(&s, l.wi);
     v3 f = blinn_phong_eval(&b, whitted_mirrors(&s), wi_local);
     v3 arriving = v3_mul(v3_mul(beta, f), l.radiance);
-    if (HAS(ABSORPTION)) {
-        lane_u medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
-        arriving = v3_mul(arriving, shadow_transmittance(&g, &h, &s, &l, medium, wi_local.z, nested));
+    lane_u medium = medium_air(nested);
+    if (HAS_MEDIUM) {
+        medium = medium_of(&h, &s, lit, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
+        medium = medium_towards(&h, &s, medium, wi_local.z, nested);
     }
+    shadow_way way = shadow_way_make(params, &g, &l, medium, nested, s.p);
     v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
-    shadow_push(params, shadows, counters->shadows[step], i, from, shadow_end(s.p, &l), arriving, slot, prim, l.target, lit, invalid + EC_STAGE_SHADE);
+    shadow_push(params, shadows, counters->shadows[step], i, from, shadow_end(s.p, &l), arriving, slot, prim, l.target, &way, lit, invalid + EC_STAGE_SHADE);
 }

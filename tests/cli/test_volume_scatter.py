@@ -1,6 +1,6 @@
-# tier: full
+# tiers: quick, full, long
 """Light scattered inside bodies (KHR_materials_volume_scatter) against closed forms: a white body loses nothing, a half-space returns what Chandrasekhar's
-H function says, a slab what is scattered once; and the same bits whatever traces it."""
+H function says, a slab what is scattered once, of the sky's light and of a sun's that shadow rays find through its wall; and the same bits whatever traces it."""
 import json
 import math
 import os
@@ -11,6 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from hard_scene import Scene
 from support import Case, eclat, read_exr
 from test_caustic_forms import ball
+from tiers import full, long
 
 
 def gauss(n):
@@ -78,12 +79,20 @@ def block(half, top, bottom):
 
 
 ALBEDO = [0.3, 0.8, 0.97]
+MATT = {"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
+SUN = {"lights": [{"type": "directional", "intensity": math.pi}]}
+
+
+def blocks(image, name, size=64, side=8):
+    """Sums over squares of pixels."""
+    plane = image[name]
+    return [[plane[(y + j) * size + x + i] for j in range(side) for i in range(side)] for y in range(0, size, side) for x in range(0, size, side)]
 
 
 class VolumeScatter(Case):
-    def scene_of(self, material):
-        scene = Scene(material)
-        for name in material["extensions"]:
+    def scene_of(self, *materials):
+        scene = Scene(*materials)
+        for name in sorted({name for m in materials for name in m["extensions"]}):
             scene.extend(name)
         return scene
 
@@ -102,30 +111,81 @@ class VolumeScatter(Case):
             spread = math.sqrt(sum((p - mean) ** 2 for p in pixels)) / len(pixels)
             self.assertLess(abs(mean - value), 4 * spread + accuracy, f"{channel}: {mean:.5f} +- {spread:.5f}, not {value:.5f}")
 
+    @full
     def test_white_body_in_white_light(self):
         positions, normals, indices = ball(24, 0, 0.5)
         for material in body([1, 1, 1], [2, 5, 10], ior=1.5), body([1, 1, 1], [10, 5, 20], -0.5, diffuse=True):
             scene = self.scene_of(material).add(positions, 0, indices=indices, streams=[("NORMAL", 3, normals)])
             self.assert_seen(scene.write(self.path("a.gltf")), [1, 1, 1], "--size", "24x24", "--spp", "128", accuracy=2e-4)
 
+    @full
     def test_half_space(self):
         path = self.scene_of(body(ALBEDO, [1, 1, 1])).add(block(3000, 0, -60)).write(self.path("a.gltf"))
         for eye, cosine in ("0,0,9", 1), ("8.660254,0,5", 0.5):
             self.assert_seen(path, [returned(a, cosine) for a in ALBEDO], "--eye", eye, "--look-at", "0,0,0", "--up", "0,1,0", "--parallel", "1", "--size", "16x16",
                              "--spp", "1024", accuracy=1e-4)
 
+    @full
     def test_scattered_once(self):
         for g in 0, 0.7:
             path = self.scene_of(body(ALBEDO, [1, 1, 1], g)).add(block(300, 0, -1)).write(self.path("a.gltf"))
             self.assert_seen(path, [once(a, g) for a in ALBEDO], "--eye", "0,0,9", "--look-at", "0,0,0", "--up", "0,1,0", "--parallel", "1", "--max-depth", "4",
                              "--size", "16x16", "--spp", "4096", accuracy=1e-4)
 
+    def assert_sun_scattered_once(self, g, *options, spp):
+        """By a slab one mean free path thick and seen head-on: the sun's way in has a cosine of 0.8. In a segment less there is none."""
+        cosine, gain = 0.8, 1 + 1 / 0.8
+        phase = (1 - g * g) / (4 * math.pi * (1 + g * g + 2 * g * cosine) ** 1.5)
+        light = math.pi * phase * (1 - math.exp(-gain)) / gain
+        scene = self.scene_of(body(ALBEDO, [1, 1, 1], g)).extend("KHR_lights_punctual", SUN).add(block(300, 0, -1))
+        half = 0.5 * math.acos(cosine)
+        scene.node(rotation=[0, math.sin(half), 0, math.cos(half)], extensions={"KHR_lights_punctual": {"light": 0}})
+        path, look = scene.write(self.path("a.gltf")), ["--eye", "0,0,9", "--look-at", "0,0,0", "--up", "0,1,0", "--parallel", "1", "--size", "16x16"]
+        self.assert_seen(path, [a * light for a in ALBEDO], *look, "--env", "0,0,0", "--max-depth", "4", "--spp", spp, *options, accuracy=1e-5)
+        self.assertEqual(self.render(path, *look, "--env", "0,0,0", "--max-depth", "3", "--spp", "8", *options)["mean_luminance"], 0)
+
+    def test_sun_through_the_wall(self):
+        self.assert_sun_scattered_once(0.3, spp="64")
+
+    @full
+    def test_sun_through_the_wall_precisely(self):
+        for g in -0.4, 0.7:
+            self.assert_sun_scattered_once(g, spp="4096")
+
+    @long
+    def test_shadow_rays_through_walls_and_paths_agree(self):
+        """A lamp over clouds in one another and walls half clear: with shadow rays and without them."""
+        outer, inner = body([1, 0.9, 0.6], [4, 6, 10], 0.5), body([0.9, 0.3, 0.9], [3, 9, 3], roughness=0.6)
+        inner["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.5
+        lamp = {**MATT, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [1, 1, 1]}
+        scene = self.scene_of(outer, inner, MATT, lamp).add(block(0.5, 0.5, -0.5), 0).add(block(0.25, 0.3, -0.2), 1)
+        for material, half, y, turn in (2, 3, -0.8, 1), (3, 0.9, 1.5, -1):
+            a, b, c, d = (-half, y, -half), (-half, y, half), (half, y, half), (half, y, -half)
+            scene.add([x for p in (a, b, c, a, c, d)[::turn] for x in p], material)
+        path, images = scene.write(self.path("a.gltf")), []
+        for fog in [], ["--fog", "0.3,0.8,0.3"]:
+            for way in "mis", "bsdf":
+                self.render(path, "--eye", "1.1,0.9,2.4", "--look-at", "0,0,0", "--up", "0,1,0", "--fov", "40", "--size", "64x64", "--spp", "512", "--env", "0,0,0.01",
+                            "--sample", way, "--channels", "all", "--seed", str(len(images)), *fog)
+                images.append(read_exr(self.path("a.exr"))[1])
+            z = []
+            for channel in "RGB":
+                a, b, sa, sb = (blocks(image, name) for name in (channel, "stderr." + channel) for image in images[-2:])
+                z += [(sum(p) - sum(q)) / math.sqrt(sum(x * x for x in s + t)) for p, q, s, t in zip(a, b, sa, sb) if any(s + t)]
+            mean = sum(z) / len(z)
+            deviation = math.sqrt(sum((x - mean) ** 2 for x in z) / len(z))
+            print(f"z {mean:.3f} +- {deviation:.3f} of {len(z)}")
+            self.assertLess(abs(mean), 0.35)
+            self.assertTrue(0.75 < deviation < 1.3, deviation)
+
+    @full
     def test_same_bits(self):
         positions, normals, indices = ball(12, 0, 0.5)
         path = self.scene_of(body(ALBEDO, [9, 4, 2], 0.5, 1.4, 0.3)).add(positions, indices=indices, streams=[("NORMAL", 3, normals)]).write(self.path("a.gltf"))
         ways = [], ["--lanes", "1"], ["--lanes", "8"], ["--effects", "all"], ["--accel", "kdtree"], ["--wave", "4096"]
         self.assertEqual(len({self.render(path, "--size", "32x24", "--spp", "8", *way)["image_sha256"] for way in ways}), 1)
 
+    @full
     def test_white_fog_in_white_light(self):
         """Around a white ball and one of glass, which the fog is not in."""
         positions, normals, indices = ball(24, 0, 0.5)
@@ -135,6 +195,7 @@ class VolumeScatter(Case):
             scene.add(positions, k, indices=indices, streams=[("NORMAL", 3, normals)] if k == 0 else [], translation=[1.2 * k - 0.6, 0, 0])
         self.assert_seen(scene.write(self.path("a.gltf")), [1, 1, 1], "--fog", "2,1,0.5", "--size", "24x16", "--spp", "256", accuracy=2e-4)
 
+    @full
     def test_lamp_in_fog(self):
         """What fog scatters once of a lamp's light to a camera that looks past it, and what it leaves of the sky behind."""
         density, albedo, g, flux, corner, steps = 0.1, 0.8, 0.6, 10, 5, 20000

@@ -107,18 +107,25 @@ static void written_out_it_is_the_same(void)
     ec_scene_free(plain);
 }
 
-/* What emits is sampled as a light, in the world. */
-static void lamps_are_not_kept(void)
+/* What emits is sampled as a light, in the world; where bodies lie is found out there. Leaves, which bound none, are kept. */
+static void lamps_and_bodies_are_not_kept(void)
 {
-    ec_model *m = ec_model_new();
-    ec_material glow = ec_material_lambert(0.5, 2);
-    ec_model_instancing(m, EC_INSTANCING_ON);
-    ec_model_sphere(m, ec_model_material(m, &glow), (double[3]){0, 0, 0}, 1, 1, true);
-    place(m, turned, 5, 0, 0);
-    ec_model_repeat(m);
-    ec_scene *s = end(m);
-    CHECK(s && !s->placed_count && s->triangle_count == 64);
-    ec_scene_free(s);
+    const ec_material glow = ec_material_lambert(0.5, 2);
+    ec_material glass = ec_material_default(), wax = glass, leaf;
+    glass.transmission = wax.diffuse_transmission = 1;
+    leaf = wax;
+    wax.volume = true;
+    const ec_material *const of[4] = {&glow, &glass, &wax, &leaf};
+    for (int i = 0; i < 4; i++) {
+        ec_model *m = ec_model_new();
+        ec_model_instancing(m, EC_INSTANCING_ON);
+        ec_model_sphere(m, ec_model_material(m, of[i]), (double[3]){0, 0, 0}, 1, 1, true);
+        place(m, turned, 5, 0, 0);
+        ec_model_repeat(m);
+        ec_scene *s = end(m);
+        CHECK(s && s->placed_count == (i < 3 ? 0 : 2) && s->triangle_count == (i < 3 ? 64 : 32));
+        ec_scene_free(s);
+    }
 }
 
 /* Triangles without area and not-numbers, counted as often as they would have been met. */
@@ -193,7 +200,7 @@ static void groups_in_groups(void)
 int main(void)
 {
     written_out_it_is_the_same();
-    lamps_are_not_kept();
+    lamps_and_bodies_are_not_kept();
     what_is_dropped_is_counted_everywhere();
     auto_waits_until_it_pays();
     groups_in_groups();

@@ -1,5 +1,5 @@
 /* tiers: quick, full */
-/* Light behind panes: thin, smooth walls, which shadow rays pass. What points, spots, suns and lamps give a floor through any number
+/* Light behind panes: thin, smooth walls and those of bodies of index 1, which shadow rays pass. What points, spots, suns and lamps give a floor through any number
  * of them, in closed form or by integration in double, for every --sample: nothing is lost or counted twice. */
 #include "support/floor_case.h"
 
@@ -165,6 +165,41 @@ static void colours(void)
         }
 }
 
+static void add_body(gltf_writer *w, const double left[3], double low, double high, double half)
+{
+    gltf_glass g = {0.9, 0.5, 1, 1, {left[0], left[1], left[2]}, 0.5};
+    gltf_box(w, gltf_add_glass(w, &g), (double[3]){-half, low, -half}, (double[3]){half, high, half});
+}
+
+/* Bodies of index 1 before a point and a sun, rough ones too: 0.9 a wall, and what they absorb. 1: one; 2: one in another, which it displaces; 3: around the
+ * point itself. */
+static void bodies(int first, int last, int ways)
+{
+    static const double outer[3] = {0.9, 0.6, 0.3}, inner[3] = {0.2, 0.5, 0.8};
+    static const uint32_t walls[4] = {0, 2, 4, 1};
+    static const double outer_way[4] = {0, 0.6 / 0.8, 0.3 / 0.8, 1.2 / 0.8};
+    for (int kind = first; kind <= last; kind++)
+        for (int sun = 0; sun < (kind < 3 ? 2 : 1); sun++)
+            for (int way = 0; way < ways; way++) { /* paths, paths with a segment less, Whitted's */
+                gltf_writer *w = floor_scene(0.2);
+                add_body(w, outer, 0.4, kind == 3 ? 2 : 1, 30);
+                if (kind == 2) add_body(w, inner, 0.5, 0.8, 20);
+                gltf_light(w, at, down, sun ? "{\"type\":\"directional\",\"intensity\":6.28318530717958648}" : POINT);
+                ec_render_options o = case_quick(case_options(8, 8, 16));
+                o.integrator = way == 2 ? EC_INTEGRATOR_WHITTED : EC_INTEGRATOR_PATH;
+                o.max_depth = way == 2 ? 0 : walls[kind] + 2 - (way == 1);
+                o.cutoff = 0.001;
+                double want[3];
+                for (int c = 0; c < 3; c++)
+                    want[c] = way == 1 ? 0 : INTENSITY / (sun ? 1 : 4) * cosine * 0.6 / PI * pow(0.9, walls[kind]) * pow(outer[c], outer_way[kind] / 0.5) *
+                                                 (kind == 2 ? pow(inner[c], 0.3 / 0.8 / 0.5) : 1);
+                char name[48];
+                snprintf(name, sizeof name, "bodies-%d-%s-%d", kind, sun ? "sun" : "point", way);
+                expect_colour(case_load(gltf_write(w, name), NULL), name, &o, want, 1e-6);
+                free(w);
+            }
+}
+
 /* A texture's alpha in the way: of 51 and 204 in two texels, 0.68 where the light passes, at u = 0.65: 0.2 x 51 / 255 + 0.8 x 204 / 255. */
 static void textured_alpha(void)
 {
@@ -202,8 +237,12 @@ static void textured_alpha(void)
 
 int main(void)
 {
-    if (test_tier("quick")) colours();
+    if (test_tier("quick")) {
+        colours();
+        bodies(2, 2, 2);
+    }
     if (test_tier("full")) {
+        bodies(1, 3, 3);
         textured_alpha();
         punctual();
         mixed();

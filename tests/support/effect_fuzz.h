@@ -90,7 +90,7 @@ static inline uint64_t ef_close(uint64_t set)
 static inline uint64_t ef_brought(uint64_t allowed, uint64_t called)
 {
     if (!(allowed & EC_FEATURE_TRANSMISSION)) return 0;
-    return EC_FEATURE_PANES | EC_FEATURE_NESTED | (called & EC_FEATURE_NESTED ? EC_FEATURE_SMOOTH : 0);
+    return EC_FEATURE_PANES | EC_FEATURE_MATCHED | EC_FEATURE_NESTED | (called & EC_FEATURE_NESTED ? EC_FEATURE_SMOOTH : 0);
 }
 
 #define EF_HAS(feature) ef_has(d, EC_FEATURE_##feature)
@@ -370,7 +370,7 @@ static inline void ef_report(uint64_t seed, effect_run run, const ec_render_opti
 static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrator integrator, ec_scattering scattering, uint64_t wanted)
 {
     const uint64_t allowed = ef_close(integrator == EC_INTEGRATOR_PATH ? wanted : wanted & ~EC_FEATURE_MOTION); /* others refuse that */
-    const uint64_t shared = allowed | EC_FEATURE_LIGHT_TREE | (allowed & EC_FEATURE_TRANSMISSION ? EC_FEATURE_PANES | EC_FEATURE_NESTED : 0);
+    const uint64_t shared = allowed | EC_FEATURE_LIGHT_TREE | (allowed & EC_FEATURE_TRANSMISSION ? EC_FEATURE_PANES | EC_FEATURE_MATCHED | EC_FEATURE_NESTED : 0);
     int lit = 0;
     case_cl()->keeps_programs = true;
     for (uint64_t seed = first; seed < first + (uint64_t)count; seed++) {

@@ -15,12 +15,13 @@ extern "C" const bool ec_has_basisu = true;
 
 namespace {
 
-/* Decodes the largest level of the first layer and face; a message where that fails. */
+/* Decodes the largest level; a message where that fails. */
 const char *transcode(const uint8_t *bytes, size_t length, ec_image *image, uint8_t *&pixels)
 {
     static const bool is_ready = (basist::basisu_transcoder_init(), true);
     basist::ktx2_transcoder file;
     if (!is_ready || !file.init(bytes, uint32_t(length))) return "its KTX2 header is broken, or it is neither ETC1S nor UASTC";
+    if (file.get_faces() != 1 || file.get_layers() > 1) return "it is a cube or an array of pictures, and a texture is one";
     if (const char *reason = ec_image_check_size(file.get_width(), file.get_height(), length, PIXELS_PER_BYTE)) return reason;
     if (!file.start_transcoding()) return "its KTX2 data are broken or truncated";
     const uint32_t count = file.get_width() * file.get_height();
