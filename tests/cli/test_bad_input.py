@@ -214,7 +214,7 @@ class BadRequests(BadInput):
         self.refuse(self.quad(), "--camera", "7", says="7")
 
     def test_bad_environment(self):
-        for spec in ["1,2", "1,2,x", "nan,0,0", "-1,0,0", "missing.hdr", self.quad()]:
+        for spec in ["1,2", "1,2,x", "nan,0,0", "-1,0,0", "0x1,0,0", "missing.hdr", self.quad()]:
             with self.subTest(spec=spec):
                 self.refuse(self.quad(), "--env", spec)
 
