@@ -131,10 +131,8 @@ class Caches(UserCase):
 
     def test_a_driver_without_a_folder(self):
         """It says so as it starts, or as it compiles; other drivers than PoCL need none."""
-        command = ["render", self.scene, *SMALL, "-o", "a.png"]
-        runs = [self.run_as_user(*command, env={"POCL_CACHE_DIR": self.locked}),
-                self.run_as_user("-u", "POCL_CACHE_DIR", "-u", "XDG_CACHE_HOME", "HOME=/nonexistent", support.ECLAT, *command, program="/usr/bin/env")]
-        for run in runs:
+        for env in [{"POCL_CACHE_DIR": self.locked}, {"POCL_CACHE_DIR": "", "XDG_CACHE_HOME": "", "HOME": "/nonexistent"}]:
+            run = self.run_as_user("render", self.scene, *SMALL, "-o", "a.png", env=env)
             if run.returncode == 0:
                 self.skipTest("this driver needs no folder")
             self.assertRegex(run.stderr, r"^eclat: error: .*; .*POCL_CACHE_DIR=FOLDER names.*\n(  Device .* failed to build the program\n)?$")
