@@ -142,6 +142,14 @@ class BadScenes(BadInput):
             self.assertEqual("images[0] is damaged or truncated: " in run.stderr, length < len(data), run.stderr)
 
 
+    def test_an_exposure_that_is_not_applied_is_told_of(self):
+        for line, is_told in [(b"", False), (b"EXPOSURE=2\n", True), (b"EXPOSURE=2\nEXPOSURE=0.5\n", False)]:
+            with open(self.path("map.hdr"), "wb") as file:
+                file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + line + b"\n-Y 1 +X 2\n" + bytes([128, 128, 128, 128]) * 2)
+            run = self.assert_ok(eclat("info", self.quad(), "--env", self.path("map.hdr")))
+            self.assertEqual("map.hdr: its EXPOSURE is not applied" in run.stderr, is_told, line)
+
+
 class BadRequests(BadInput):
     def test_too_many_pixels(self):
         for size in ["100000x100000", "100000x1", "65536x65536"]:
