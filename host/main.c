@@ -32,6 +32,13 @@ static void keep_memory_small(void)
 #endif
 }
 
+/* PoCL ends the process over an empty name. */
+static void drop_empty_folder(void)
+{
+    const char *folder = getenv("POCL_CACHE_DIR");
+    if (folder && !*folder) unsetenv("POCL_CACHE_DIR");
+}
+
 static struct {
     int argc, code;
     char **argv;
@@ -67,6 +74,7 @@ int main(int argc, char **argv)
 {
     occupy_standard_descriptors();
     keep_memory_small();
+    drop_empty_folder();
     ec_stop_watch_signals();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error to report, after the picture is safe */
     ec_stop_ignore_file_size();

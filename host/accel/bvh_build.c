@@ -104,6 +104,7 @@ static ec_range load(const ec_builder *builder, uint32_t count)
 {
     ec_range root = {.count = count};
     ec_range_clear(&root);
+    if (!count) return root; /* where clang 14 goes through the loop below 2^32 times */
 #pragma omp taskloop default(shared) grainsize(1)
     for (uint32_t first = 0; first < count; first += LOAD_CHUNK) {
         uint32_t left = count - first;

@@ -48,10 +48,17 @@ static void append_lines(char *text, size_t size, const char *log, bool errors, 
     }
 }
 
+/* PoCL says no more than that it failed where it cannot write what it compiles. */
+static const char *remedy(const ec_cl *cl, const char *log)
+{
+    if (is_error(log ? log : "", log ? strlen(log) : 0) || strcmp(cl->info.platform_name, "Portable Computing Language") != 0)
+        return "ECLAT_DUMP_KERNELS=DIR writes source and full log there";
+    return "its compiler names no error: is its disk full, or its folder not yours? POCL_CACHE_DIR=FOLDER names another";
+}
+
 ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log, cl_int code, ec_error *err)
 {
-    ec_fail(err, "kernels %s do not compile on %s: %s (%d); ECLAT_DUMP_KERNELS=DIR writes source and full log there",
-            label, cl->info.name, ec_cl_error_name(code), code);
+    ec_fail(err, "kernels %s do not compile on %s: %s (%d); %s", label, cl->info.name, ec_cl_error_name(code), code, remedy(cl, log));
     if (!err || !log) return EC_FAILED;
     int lines = EC_LOG_LINES;
     append_lines(err->text, sizeof err->text, log, true, &lines);

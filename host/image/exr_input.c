@@ -18,15 +18,19 @@ static void keep_message(exr_const_context_t context, exr_result_t code, const c
         if (*c == '\n' || *c == '\r') *c = ' ';
 }
 
-exr_result_t ec_exr_input_open(ec_exr_input *input, const char *path)
+static exr_result_t open_by(ec_exr_input *input, const char *path, int flags)
 {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     *input = (ec_exr_input){.path = path};
     setup.error_handler_fn = keep_message;
     setup.user_data = input;
-    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION | flags;
     return exr_start_read(&input->context, path, &setup);
 }
+
+exr_result_t ec_exr_input_open(ec_exr_input *input, const char *path) { return open_by(input, path, 0); }
+
+exr_result_t ec_exr_input_open_strictly(ec_exr_input *input, const char *path) { return open_by(input, path, EXR_CONTEXT_FLAG_STRICT_HEADER); }
 
 void ec_exr_input_close(ec_exr_input *input)
 {

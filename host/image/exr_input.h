@@ -15,6 +15,7 @@ typedef struct ec_exr_input {
 
 /* It must stay where it is until it is closed; half a picture is an error, not a picture. */
 exr_result_t ec_exr_input_open(ec_exr_input *input, const char *path);
+exr_result_t ec_exr_input_open_strictly(ec_exr_input *input, const char *path); /* nothing damaged in the header is passed over */
 void ec_exr_input_close(ec_exr_input *input);
 
 const char *ec_exr_reason(const ec_exr_input *input, exr_result_t code);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "image/exr_input.h"
 
 static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *exr, ec_error *err)
 {
@@ -24,8 +25,19 @@ static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *ex
     return EC_OK;
 }
 
+/* The library below takes an attribute's word for its size, gigabytes too. OpenEXRCore compares it with the file's. */
+static ec_result check_header(const char *path, ec_error *err)
+{
+    ec_exr_input in;
+    exr_result_t code = ec_exr_input_open_strictly(&in, path);
+    ec_result result = code == EXR_ERR_SUCCESS ? EC_OK : ec_fail(err, "cannot read '%s': %s; the file may be damaged or cut short, replace it", path, ec_exr_reason(&in, code));
+    ec_exr_input_close(&in);
+    return result;
+}
+
 ec_result ec_exr_read_rgba(const char *path, int32_t origin_x, int32_t origin_y, ec_exr *exr, ec_error *err)
 {
+    EC_TRY(check_header(path, err));
     EC_FREED ImfRgba *pixels = calloc((uint64_t)exr->width * exr->height, sizeof *pixels);
     ImfInputFile *file = pixels ? ImfOpenInputFile(path) : NULL;
     ec_result result;

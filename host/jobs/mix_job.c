@@ -56,7 +56,7 @@ static const char *name_of(const ec_layers *layers, uint32_t k)
 static ec_result read_gain(const char *text, const char *value, double gain[3], ec_error *err)
 {
     int c = 0;
-    for (char *end; c < 3; value = end + 1) {
+    for (char *end; c < 3 && !strpbrk(value, "xX"); value = end + 1) {
         gain[c] = strtod(value, &end);
         if (end == value || !(gain[c] >= 0 && gain[c] <= GAIN_MOST)) break;
         c++;

@@ -33,7 +33,7 @@ static int scan_real(const char *text, double *value, const char **end)
     char *stop;
     *value = strtod(text, &stop);
     *end = stop;
-    return stop != text && isfinite(*value);
+    return stop != text && stop <= text + size && isfinite(*value); /* strtod goes on behind 0x */
 }
 
 ec_result ec_parse_whole(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value,

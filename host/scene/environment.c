@@ -19,7 +19,7 @@ static int parse_color(const char *spec, float rgb[3])
     /* the letters are also those of inf, infinity, nan and of hexadecimal numbers, which are refused as numbers */
     if (strspn(spec, "0123456789+-.eE, \tinfatyINFATYxX") != strlen(spec) || !strchr(spec, ',')) return 0;
     int used = 0;
-    bool is_good = sscanf(spec, "%f ,%f ,%f %n", &rgb[0], &rgb[1], &rgb[2], &used) == 3 && used && !spec[used];
+    bool is_good = !strpbrk(spec, "xX") && sscanf(spec, "%f ,%f ,%f %n", &rgb[0], &rgb[1], &rgb[2], &used) == 3 && used && !spec[used];
     for (int i = 0; i < 3; i++) is_good = is_good && isfinite(rgb[i]) && rgb[i] >= 0;
     return is_good ? 1 : -1;
 }

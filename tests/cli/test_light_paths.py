@@ -3,10 +3,12 @@
 anything that bends light nothing changes."""
 import json
 import os
+import shutil
+import struct
 import unittest
 
 from other_way import OtherWay, scene
-from support import CORNELL, QUICK, RING, SHARED, eclat
+from support import CORNELL, QUICK, RING, SHARED, data_uri, eclat, write_gltf
 from tiers import full, long
 
 LADDER = scene("ladder")
@@ -61,6 +63,23 @@ class LightPaths(OtherWay):
                 run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
                 self.assertNotIn("caustics", run.stderr)
                 self.assertEqual(json.loads(run.stdout)["image_sha256"], self.render(*job, "--light-paths", "0")["image_sha256"])
+
+    def test_auto_in_a_mirror(self):
+        """What is seen in a mirror no light path can be joined to: none is traced. The mirror hangs over the ring, and faces down."""
+        with open(RING, encoding="utf-8") as file:
+            seen = json.load(file)
+        corners = struct.pack("<18f", *(k for x, z in [(-9, -9), (9, -9), (9, 9), (-9, -9), (9, 9), (-9, 9)] for k in (x, 3.4, z)))
+        seen["buffers"].append({"byteLength": len(corners), "uri": data_uri(corners)})
+        seen["bufferViews"].append({"buffer": 1, "byteLength": len(corners)})
+        seen["accessors"].append({"bufferView": len(seen["bufferViews"]) - 1, "componentType": 5126, "count": 6, "type": "VEC3", "min": [-9, 3.4, -9], "max": [9, 3.4, 9]})
+        seen["materials"].append({"name": "mirror", "pbrMetallicRoughness": {"roughnessFactor": 0}, "doubleSided": True})
+        seen["meshes"].append({"primitives": [{"attributes": {"POSITION": len(seen["accessors"]) - 1}, "material": len(seen["materials"]) - 1}]})
+        seen["scenes"][0]["nodes"].append(len(seen["nodes"]))
+        seen["nodes"].append({"mesh": len(seen["meshes"]) - 1})
+        shutil.copy(os.path.join(os.path.dirname(RING), "ring.bin"), self.folder)
+        job = [write_gltf(self.path("seen.gltf"), seen), "--size", "24x18", "--spp", "16", "--eye", "0.9,3.2,2.6"]
+        self.assertEqual(self.render(*job, "--look-at", "0,0,0")["light_paths"], 0.0625)
+        self.assertIsNone(self.render(*job, "--look-at", "0,6.8,0")["light_paths"])
 
     @full
     def test_auto_error(self):

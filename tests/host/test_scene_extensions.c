@@ -1,5 +1,7 @@
 /* tier: quick */
 /* Extensions: those that change no picture pass, even where they are required; others are read, or refused by name. */
+#include <sys/resource.h>
+
 #include "gltf/codecs.h"
 #include "test_scene_files.h"
 
@@ -148,6 +150,22 @@ static void expect_ktx2(const unsigned char *bytes, size_t size, double toleranc
     }
 }
 
+/* A level that claims 2 GiB: the transcoder would clear as much memory before it looks. */
+static void expect_claim_refused(void)
+{
+    unsigned char bytes[sizeof ktx2_uastc];
+    ec_image image = {0};
+    ec_decode_error err = {""};
+    struct rusage before, after;
+    memcpy(bytes, ktx2_uastc, sizeof bytes);
+    memcpy(bytes + 96, (const unsigned char[4]){0, 0, 255, 127}, 4);
+    getrusage(RUSAGE_SELF, &before);
+    CHECK(!ec_image_decode(bytes, sizeof bytes, &image, &err));
+    getrusage(RUSAGE_SELF, &after);
+    CHECK_MSG(strstr(err.text, "broken or truncated"), "%s", err.text);
+    CHECK_MSG(after.ru_maxrss - before.ru_maxrss < 1 << 20, "%ld KiB more", after.ru_maxrss - before.ru_maxrss);
+}
+
 static void test_ktx2(void)
 {
     char *json = named(required, "KHR_texture_basisu");
@@ -164,6 +182,7 @@ static void test_ktx2(void)
         ec_scene_free(s);
         expect_ktx2(ktx2_etc1s, sizeof ktx2_etc1s, 8);
         expect_ktx2(ktx2_uastc, sizeof ktx2_uastc, 2);
+        expect_claim_refused();
     }
     free(json);
 }

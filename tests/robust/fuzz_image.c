@@ -1,4 +1,5 @@
-/* Pictures by their bytes: an OpenEXR or Radiance file as an environment map, down to its table; a PNG or JPEG as a texture. */
+/* Pictures by their bytes: an OpenEXR or Radiance file as an environment map, down to its table; what else there is (PNG, JPEG, WebP, AVIF, KTX2)
+ * as a texture. */
 #include <math.h>
 
 #include "fuzz.h"
@@ -56,7 +57,7 @@ static void decode_texture(const uint8_t *data, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    if (size && (data[0] == 0x89 || data[0] == 0xff)) decode_texture(data, size); /* PNG, JPEG */
-    else read_environment(data, size);
+    if (size && (data[0] == 'v' || data[0] == '#')) read_environment(data, size);
+    else decode_texture(data, size);
     return 0;
 }

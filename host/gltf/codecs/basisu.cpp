@@ -12,6 +12,8 @@ extern "C" const bool ec_has_basisu = true;
 
 /* A picture of one colour is some hundred bytes long, whatever its size: only the longest side limits it. */
 #define PIXELS_PER_BYTE (1 << 24)
+/* A block of Zstandard's takes four bytes or more, and holds 128 KiB at most. */
+#define ZSTD_BYTES_PER_BYTE (1 << 15)
 
 namespace {
 
@@ -23,7 +25,9 @@ const char *transcode(const uint8_t *bytes, size_t length, ec_image *image, uint
     if (!is_ready || !file.init(bytes, uint32_t(length))) return "its KTX2 header is broken, or it is neither ETC1S nor UASTC";
     if (file.get_faces() != 1 || file.get_layers() > 1) return "it is a cube or an array of pictures, and a texture is one";
     if (const char *reason = ec_image_check_size(file.get_width(), file.get_height(), length, PIXELS_PER_BYTE)) return reason;
-    if (!file.start_transcoding()) return "its KTX2 data are broken or truncated";
+    const auto &level = file.get_level_index()[0]; /* the transcoder clears as much memory as it claims, up to 2 GiB */
+    const bool claims_more = level.m_uncompressed_byte_length.get_uint64() / ZSTD_BYTES_PER_BYTE > level.m_byte_length.get_uint64();
+    if (claims_more || !file.start_transcoding()) return "its KTX2 data are broken or truncated";
     const uint32_t count = file.get_width() * file.get_height();
     pixels = static_cast<uint8_t *>(malloc(4 * size_t(count)));
     if (!pixels) throw std::bad_alloc();
