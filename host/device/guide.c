@@ -111,14 +111,20 @@ static ec_result add_square(table *t, ec_photon *list, size_t count, float x, fl
     return EC_OK;
 }
 
-/* From a direction to its place in the square, and the box' size beside it. */
+/* From a direction to its place in the square. */
+static void find_place(const float d[3], float *x, float *y)
+{
+    const double turn = atan2((double)d[1], (double)d[0]) / (2 * PI);
+    *x = fminf((float)fmax(0.5 * d[2] + 0.5, 0), LAST_UNIT);
+    *y = fminf((float)(turn < 0 ? turn + 1 : turn), LAST_UNIT);
+}
+
+/* The box' size goes beside it. */
 static void place(ec_photon *one, float size)
 {
-    const double turn = atan2((double)one->d[1], (double)one->d[0]) / (2 * PI);
     photon in = {.size = size, .flux = one->flux};
     memcpy(in.p, one->p, sizeof in.p);
-    in.x = fminf((float)fmax(0.5 * one->d[2] + 0.5, 0), LAST_UNIT);
-    in.y = fminf((float)(turn < 0 ? turn + 1 : turn), LAST_UNIT);
+    find_place(one->d, &in.x, &in.y);
     memcpy(one, &in, sizeof in);
 }
 
@@ -154,13 +160,14 @@ static ec_result fill_box(table *t, size_t box, ec_photon *list, size_t count, i
     return fill_box(t, halves + EC_GUIDE_BOX_WORDS, list + below, count - below, depth + 1, err);
 }
 
-/* The root of the quadtree of the box about p; 0: it has none. */
-static uint32_t root_at(const table *t, const float p[3])
+/* The word that p's box begins with, and the root of its quadtree; 0: it has none. */
+static size_t box_at(const float *words, const float p[3], uint32_t *root)
 {
     for (size_t box = 0;;) {
-        const uint32_t link = get_word(&t->words[box + 1]), axis = link & 3;
-        if (axis == EC_GUIDE_LEAF) return link >> 2;
-        box = EC_GUIDE_BOX_WORDS * ((link >> 2) + (size_t)(p[axis] >= t->words[box]));
+        const uint32_t link = get_word(&words[box + 1]), axis = link & 3;
+        *root = link >> 2;
+        if (axis == EC_GUIDE_LEAF) return box;
+        box = EC_GUIDE_BOX_WORDS * (*root + (size_t)(p[axis] >= words[box]));
     }
 }
 
@@ -192,7 +199,8 @@ static void spread(const table *t, double *sums, const photon *one, float factor
 {
     float p[3];
     for (int k = 0; k < 3; k++) p[k] = one->p[k] + factor * one->size * jitter(state);
-    uint32_t at = root_at(t, p);
+    uint32_t at;
+    box_at(t->words, p, &at);
     const float size = factor * size_at(t, at, one->x, one->y);
     float x = one->x + size * jitter(state), y = one->y + size * jitter(state);
     x = fminf(fmaxf(x < 0 ? -x : x >= 1 ? 2 - x : x, 0), LAST_UNIT); /* off the poles, and once around */
@@ -260,4 +268,19 @@ ec_result ec_guide_build(ec_photon *photons, size_t count, float **words, size_t
     *words = t.words;
     *word_count = t.count;
     return EC_OK;
+}
+
+double ec_guide_pdf(const float *words, const float p[3], const float d[3], double *share)
+{
+    double pdf = 0.25 / PI;
+    uint32_t at;
+    float x, y;
+    *share = words ? (double)words[box_at(words, p, &at)] : 0;
+    if (!(*share > 0)) return 0;
+    for (find_place(d, &x, &y); at;) {
+        const size_t quarter = at + 2 * (size_t)quarter_of(&x, &y);
+        pdf *= 4 * (double)words[quarter];
+        at = get_word(&words[quarter + 1]);
+    }
+    return pdf;
 }

@@ -15,4 +15,8 @@ typedef struct ec_photon {
  * photons in the same order give the same table. */
 ec_result ec_guide_build(ec_photon *photons, size_t count, float **words, size_t *word_count, ec_error *err);
 
+/* The density per solid angle that the guide alone has at p, in the recentred frame, for the unit direction d; *share: of directions that are
+ * guided there, where all lobes are wide, or 0. words may be NULL: nothing is guided. */
+double ec_guide_pdf(const float *words, const float p[3], const float d[3], double *share);
+
 #endif

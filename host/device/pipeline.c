@@ -1,6 +1,7 @@
 /* Set-up and tear-down of a render on one device, from a cargo. */
 #include "device/pipeline.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -57,5 +58,6 @@ void ec_pipeline_destroy(ec_pipeline *p)
     memset(&p->buffers[EC_ARG_ACCEL], 0, EC_ACCEL_BUFFERS * sizeof *p->buffers);
     for (int i = 0; i < EC_ARG_COUNT; i++) ec_buffer_release(p->cl, &p->buffers[i]);
     for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);
+    free(p->guide);
     memset(p, 0, sizeof *p);
 }

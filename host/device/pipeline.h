@@ -43,6 +43,7 @@ typedef struct ec_pipeline {
             uint32_t trials;
         } tuning[2][EC_TUNED_BOUNCES][2]; /* intersect and connect; rays as they come, and sorted */
     } accels[EC_ACCEL_COUNT];
+    float *guide;                 /* what EC_ARG_GUIDE holds; owned; NULL: nothing */
     uint64_t rays;                /* traced so far, shadow rays included */
     double clocked_seconds, clocked_rays; /* of trials (trace.c) */
 } ec_pipeline;

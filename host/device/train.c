@@ -55,7 +55,7 @@ static ec_result collect(ec_pipeline *p, photons *all, ec_error *err)
     EC_TRY(ec_buffer_create(p->cl, "photons", bytes, NULL, &p->buffers[EC_ARG_PHOTONS], err));
     p->params.batch = 1;
     EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err));
-    for (uint32_t first = 0, count; first < PATHS; first += count) {
+    for (uint32_t first = 0, count; first < PATHS && all->count < PHOTONS_MOST; first += count) {
         count = p->wave < PATHS - first ? p->wave : PATHS - first;
         EC_TRY(trace(p, first, count, met, all, err));
     }
@@ -75,7 +75,7 @@ ec_result ec_pipeline_train(ec_pipeline *p, double *seconds, ec_error *err)
     ec_result result = collect(p, &all, err);
     if (result == EC_OK) result = ec_guide_build(all.list, all.count, &table, &words, err);
     if (result == EC_OK && table) result = ec_buffer_create(p->cl, "path guiding", words * sizeof *table, table, &p->buffers[EC_ARG_GUIDE], err);
-    free(table);
+    p->guide = table;
     free(all.list);
     *seconds = ec_now() - start;
     return result;

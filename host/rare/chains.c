@@ -1,9 +1,11 @@
 #include "rare/chains.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "device/guide.h"
 #include "film/film.h"
 #include "device/adaptive.h"
 
@@ -66,9 +68,23 @@ static void set_segment(const tracer *t, uint32_t slot, uint32_t entry, uint32_t
     c->segment = segment;
 }
 
-static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
+/* The density that the surface itself gave the path's direction: what a guide makes narrow, light sampling copes with. */
+static float pdf_of(const tracer *t, uint32_t entry)
 {
     const float pdf = word(t, t->queue, EC_PATH_PDF, entry);
+    float p[3], d[3];
+    double share;
+    for (int k = 0; k < 3; k++) {
+        p[k] = word(t, t->queue, EC_PATH_OX + k, entry);
+        d[k] = word(t, t->queue, EC_PATH_DX + k, entry);
+    }
+    const double guided = ec_guide_pdf(t->p->guide, p, d, &share);
+    return pdf > 0 ? (float)fmax((pdf - share * guided) / (1 - share), FLT_MIN) : pdf;
+}
+
+static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
+{
+    const float pdf = pdf_of(t, entry);
     const bool is_direct = !t->wide[slot] && (pdf < 0 || pdf > EC_CHAIN_SHARP);
     if (!is_direct) t->wide[slot] |= segment == 1 ? WIDE | WIDE_AT_FIRST : WIDE;
     if (t->found->count == t->room || !is_chain(&t->p->params, pdf)) return;

@@ -24,6 +24,7 @@ typedef struct beside {
     double square;          /* of the distance of the two unit directions */
     float offset[3];        /* from the light's to the chain's */
     double solid_angle;     /* of the light, from there; 0: none of it is in sight */
+    bool is_open;           /* whether it is in sight is not known: the chain's path ended with it */
     const ec_chain *chain;
 } beside;
 
@@ -45,6 +46,7 @@ static void place_beside(const ec_chain *chain, const double towards[3], beside 
 {
     b->chain = chain;
     b->square = 0;
+    b->is_open = false;
     for (int k = 0; k < 3; k++) {
         b->offset[k] = (float)(chain->direction[k] - towards[k]);
         b->square += (double)b->offset[k] * b->offset[k];
@@ -82,6 +84,7 @@ static void beside_lamp(const ec_rare_lights *all, const ec_chain *chain, const 
     place_beside(chain, way, b);
     const bool is_it = chain->hit != EC_NO_ID && ec_rare_material_of(all, chain->hit) == light->material;
     const bool is_hidden = !is_it && chain->reach < 0.99 * distance; /* false where it is not known */
+    b->is_open = !is_it && isnan(chain->reach);
     b->solid_angle = is_hidden ? 0 : size_of(chain, light, lamp);
 }
 
@@ -147,6 +150,16 @@ static double distance_of(const ec_chain *chain, const ec_rare_light *light, con
     return square;
 }
 
+/* The light is as much in sight of chains that do not know as it is of those around them that do. */
+static void settle_open(beside *near, uint32_t count)
+{
+    uint32_t known = 0, seen = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (!near[i].is_open) known++, seen += near[i].solid_angle > 0;
+    for (uint32_t i = 0; i < count && known; i++)
+        if (near[i].is_open) near[i].solid_angle *= (double)seen / known;
+}
+
 /* By those that are nearest to a light, or, where it is so large that more meet it, by these; by all of them where it lies all around, or where
  * they are too few to tell, and it is in sight of them. */
 static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp,
@@ -174,6 +187,7 @@ static void add_light(const ec_rare_lights *all, const selection *of, const ec_r
             add_chains(all, &next, 1, takes_all ? 4 * PI : next.solid_angle, weight, light->radiance, rare, s);
     }
     if (takes_all || met >= NEAREST || !surround(near, count)) return;
+    settle_open(near, count);
     add_chains(all, near, count, fmin(PI * fmax(near[count - 1].square, 1e-12), 4 * PI), weight, light->radiance, rare, s);
 }
 
