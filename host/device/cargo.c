@@ -120,14 +120,18 @@ static bool wants_light_tree(const ec_render_options *o, const ec_pack *pack)
     return o->light_choice != EC_LIGHTS_AUTO || ec_pack_wants_light_tree(pack);
 }
 
-/* called_for: the scene itself, or that of which it is what is written out: rounding may not change effects. */
+/* called_for: the scene itself, or that of which it is what is written out: rounding may not change effects. Which faces lie in one plane is found out
+ * in the world, for both. */
 static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_pack *pack,
                            ec_error *err)
 {
     EC_TRY(ec_pack_scene(scene, pack, err));
     if (called_for != scene) {
+        ec_effects here = pack->effects;
+        here.bits &= EC_FEATURE_COPLANAR;
         EC_TRY(ec_scene_calls(called_for, &pack->effects, err));
         pack->effects.bits &= ~EC_FEATURE_INSTANCES;
+        ec_effects_add(&pack->effects, &here);
     }
     if (o->light_paths > 0 || o->guiding) EC_TRY(ec_pack_casters(pack, o->guiding, err));
     if (o->integrator != EC_INTEGRATOR_PATH) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));

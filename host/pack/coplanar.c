@@ -6,6 +6,7 @@
 
 #include "base/freed.h"
 #include "base/vec3.h"
+#include "pack/met_prims.h"
 #include "pack/near_pairs.h"
 
 #define APART 0x1p-19       /* over the largest coordinate: 16 to 32 ulps of it, within which rounding tells nothing */
@@ -19,7 +20,8 @@ typedef struct rival {
 } rival;
 
 typedef struct finder {
-    const ec_prim *prims;
+    const ec_prim *prims; /* by id */
+    uint32_t prim_count;
     const ec_material *materials;
     const ec_motion *motion; /* NULL: nothing moves */
     double apart, wide;
@@ -178,11 +180,11 @@ static int by_rank(const void *a, const void *b)
 /* As kernels/lib/coplanar.h has it. */
 static ec_result write_lists(const finder *f, ec_pack *pack, ec_error *err)
 {
-    const uint64_t words = pack->prim_count + 3 * (uint64_t)f->count;
+    const uint64_t words = f->prim_count + 3 * (uint64_t)f->count;
     if (words > UINT32_MAX) return ec_fail(err, "%zu pairs of faces in one plane are more than can be numbered", f->count);
     pack->coplanar = calloc(words, sizeof *pack->coplanar);
     if (!pack->coplanar) return ec_fail(err, "out of memory for %zu pairs of faces in one plane", f->count);
-    uint32_t at = pack->prim_count;
+    uint32_t at = f->prim_count;
     for (size_t i = 0; i < f->count; i++) {
         const rival *r = &f->rivals[i];
         if (!pack->coplanar[r->of]) pack->coplanar[r->of] = at, at += 2;
@@ -204,23 +206,34 @@ static bool is_plain(const ec_scene *s)
     return plain;
 }
 
+/* Lists of what stays together. */
+static ec_result settle(finder *f, const ec_scene *scene, ec_pack *pack, ec_error *err)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < f->count; i++)
+        if (stay_together(f, &f->rivals[i], scene->indices)) f->rivals[kept++] = f->rivals[i];
+    f->count = kept;
+    if (!f->count) return EC_OK;
+    qsort(f->rivals, f->count, sizeof *f->rivals, by_rank);
+    EC_TRY(write_lists(f, pack, err));
+    ec_effects_call(&pack->effects, EC_FEATURE_COPLANAR, "triangle %u lies on triangle %u in one plane", f->rivals[0].of, f->rivals[0].prim);
+    return EC_OK;
+}
+
 ec_result ec_pack_coplanar(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
-    if (scene->placed_count || is_plain(scene)) return EC_OK;
-    finder f = {.prims = pack->prims, .materials = scene->materials, .motion = scene->motion.segments ? &scene->motion : NULL, .apart = APART * (double)pack->scene_max,
-                .wide = WIDE * (double)pack->scene_max, .looks_most = (uint64_t)pack->prim_count * PAIRS_MOST + PAIRS_FREE};
-    ec_result result = ec_near_pairs(pack->prims, pack->prim_count, (float)f.apart, look, &f, err);
+    ec_prim *met;
+    finder f = {.materials = scene->materials, .motion = scene->motion.segments ? &scene->motion : NULL, .apart = APART * (double)pack->scene_max,
+                .wide = WIDE * (double)pack->scene_max};
+    if (is_plain(scene)) return EC_OK;
+    EC_TRY(ec_pack_met_prims(scene, pack, &met, &f.prim_count, err));
+    if (!met) return EC_OK;
+    f.prims = met;
+    f.looks_most = (uint64_t)f.prim_count * PAIRS_MOST + PAIRS_FREE;
+    ec_result result = ec_near_pairs(f.prims, f.prim_count, (float)f.apart, look, &f, err);
     if (f.failed) result = ec_fail(err, "out of memory for %zu pairs of faces in one plane", f.count);
-    if (result == EC_OK && f.looks <= f.looks_most) { /* else too many lie on one another, and are left to rounding */
-        size_t kept = 0;
-        for (size_t i = 0; i < f.count; i++)
-            if (stay_together(&f, &f.rivals[i], scene->indices)) f.rivals[kept++] = f.rivals[i];
-        f.count = kept;
-        if (f.count) qsort(f.rivals, f.count, sizeof *f.rivals, by_rank);
-        if (f.count) result = write_lists(&f, pack, err);
-        if (pack->coplanar)
-            ec_effects_call(&pack->effects, EC_FEATURE_COPLANAR, "triangle %u lies on triangle %u in one plane", f.rivals[0].of, f.rivals[0].prim);
-    }
+    if (result == EC_OK && f.looks <= f.looks_most) result = settle(&f, scene, pack, err); /* else too many lie on one another, and are left to rounding */
     free(f.rivals);
+    if (met != pack->prims) free(met);
     return result;
 }

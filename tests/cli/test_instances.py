@@ -9,7 +9,7 @@ import random
 import shutil
 import unittest
 
-from support import SOURCE, Case, eclat, read_exr
+from support import SOURCE, Case, eclat, quad_scene, read_exr, write_gltf
 from tiers import full
 
 LAMPS = os.path.join(SOURCE, "scenes", "lamps")  # every effect of core glTF: textures, normal maps, alpha, vertex colours
@@ -88,6 +88,30 @@ class Instances(Case):
         self.assertLess(kept["device_bytes"], off["device_bytes"])
         self.assertRegex(self.assert_ok(eclat("info", "--instancing", "on", self.scene)).stdout,
                          rf'(?m)^kept once   {kept["kept_meshes"]} meshes at {kept["kept_instances"]} places: {kept["triangles"]} triangles in all$')
+
+
+class InOnePlane(Case):
+    def test_the_first_of_faces_in_one_plane_is_met(self):
+        """Two meshes, each kept once and at two places, all in one plane: every ray meets the same one, in every accelerator."""
+        scene, _ = quad_scene(material={"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.1, 0.1, 1], "metallicFactor": 0}, "doubleSided": True})
+        scene["materials"].append({"pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.1, 0.9, 1], "metallicFactor": 0}, "doubleSided": True})
+        scene["meshes"].append({"primitives": [{**scene["meshes"][0]["primitives"][0], "material": 1}]})
+        camera = scene["nodes"].pop()
+        half = [math.radians(angle) / 2 for angle in (3, -5, 11, 21)]
+        scene["nodes"] = [{"mesh": k % 2, "translation": [0, 0, 0.1], "rotation": [0, 0, math.sin(a), math.cos(a)], "scale": [-1 if k == 3 else 1, 1, 1]}
+                          for k, a in enumerate(half)] + [camera]
+        scene["scenes"][0]["nodes"] = list(range(5))
+        path, shas = write_gltf(self.path("a.gltf"), scene), set()
+        for accel in ([], ["--lanes", "1"], ["--accel", "none", "--lanes", "1"]):
+            run = self.assert_ok(eclat("render", path, "--instancing", "on", *accel, "--env", "1,1,1", "--size", "24x16", "--spp", "16", "--json", "--quiet",
+                                       "--channels", "albedo", "-o", self.path("a.exr")))
+            found = json.loads(run.stdout)
+            shas.add(found["image_sha256"])
+            self.assertIn("coplanar-faces", found["effects"])
+            _, channels = read_exr(self.path("a.exr"))
+            seen = [channels["albedo.R"][24 * y + x] for y in range(5, 11) for x in range(9, 15)]
+            self.assertLess(max(seen) - min(seen), 1e-3, seen)
+        self.assertEqual(len(shas), 1)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,13 @@
+/* Triangles as rays meet them, by their ids. Inside host/pack only. */
+#ifndef EC_PACK_MET_PRIMS_H
+#define EC_PACK_MET_PRIMS_H
+
+#include "pack/pack.h"
+
+#define EC_MET_PRIMS_MOST (1u << 21) /* 96 MiB */
+
+/* Those that stand in the world, and those of meshes that are kept once at every place of theirs. *met: by id; malloc'ed, or pack->prims itself where
+ * no mesh is kept, or NULL where they are more than EC_MET_PRIMS_MOST. */
+ec_result ec_pack_met_prims(const ec_scene *scene, const ec_pack *pack, ec_prim **met, uint32_t *count, ec_error *err);
+
+#endif
