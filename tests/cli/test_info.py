@@ -65,12 +65,12 @@ class Info(Case):
             scene["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC2"})
             scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
         found = set(self.info(write_gltf(self.path("glass.gltf"), scene))["effects"])
-        return found & {"smooth-surfaces", "transmission", "transmission-texture", "absorption", "transparent-shadows"}
+        return found & {"smooth-surfaces", "transmission", "transmission-texture", "absorption", "transparent-shadows", "transparent-bodies"}
 
     def test_glass_calls_for_what_it_has(self):
         body, brown = {"thicknessFactor": 1}, {"attenuationDistance": 1, "attenuationColor": [1, 1, 0.9]}
         smooth, passes, textured, absorbs = "smooth-surfaces", "transmission", "transmission-texture", "absorption"
-        pane = "transparent-shadows"
+        pane, straight = "transparent-shadows", "transparent-bodies"
         black, grey, white = (0, 0, 0), (128, 128, 128), (255, 255, 255)
         cases = [
             (set(), {}),
@@ -107,8 +107,8 @@ class Info(Case):
             (set(), {"transmission": 0, "volume": {**body, **brown}}),
             (set(), {"transmission": 1, "volume": {**body, **brown}, "texture": [black]}),
             (set(), {"volume": {**body, **brown}}),
-            # where nothing bends, roughness blurs nothing
-            ({passes, smooth}, {"transmission": 1, "volume": body, "ior": 1}),
+            # where nothing bends, roughness blurs nothing, and shadow rays pass
+            ({passes, smooth, pane, straight}, {"transmission": 1, "volume": body, "ior": 1}),
             ({passes, smooth}, {"transmission": 1, "volume": body, "ior": 1.00009}),
             ({passes}, {"transmission": 1, "volume": body, "ior": 1.00011}),
             ({passes}, {"transmission": 1, "ior": 1}),
