@@ -5,12 +5,12 @@ import subprocess
 import sys
 import unittest
 
-from support import ECLAT
+from support import ECLAT, SOURCE
 
 
 def fetch(name, package, *options):
     """The folder that it is in. options: pip's. Skips where it cannot be had."""
-    folder = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", name)
+    folder = os.path.join(os.path.dirname(os.path.abspath(ECLAT)) if os.path.dirname(ECLAT) else os.path.join(SOURCE, "build"), "tests", name)
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "lock"), "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
