@@ -362,8 +362,11 @@ class Sharing(FramesCase):
             self.assertEqual((row["programs_built"], row["programs_kept"]), (0, first["programs_built"]))
             self.assertGreaterEqual(row["bytes_kept"], texels)
             self.assertLess(row["bytes_uploaded"], first["bytes_uploaded"] - texels + 1)
-            self.assertEqual(row["bytes_kept"] + row["bytes_uploaded"], first["bytes_uploaded"])
         self.assertIn("refitted", [row["structures"] for row in others])
+        for row in others: # until a tree is built anew, when time says so, which has nodes of its own number
+            if row["structures"] == "rebuilt":
+                break
+            self.assertEqual(row["bytes_kept"] + row["bytes_uploaded"], first["bytes_uploaded"])
 
     def test_on_several_devices(self):
         scene = self.sliding()
