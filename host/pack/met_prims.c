@@ -1,4 +1,4 @@
-/* Corner for corner what scene/write_out.c writes. */
+/* Corners are those that scene/write_out.c writes, but that triangles which rounding has made lines keep theirs: nothing lies on them anyway. */
 #include "pack/met_prims.h"
 
 #include <string.h>

@@ -44,8 +44,8 @@ ec_result ec_selftest_slabs(ec_selftest *t, ec_error *err)
     return slab(t, "index 1 + 1e-6, passes", ec_material_glass(1 + 1e-6, 0, 0), true, 1, err);
 }
 
-/* What is in m is seen in white light from everywhere, by paths without roulette: no noise, and what is missing is lost, or in there for so
- * many segments. */
+/* Renders m in white light from everywhere, where the picture is white and without noise if no light is lost. Paths end by max_depth alone: what is
+ * missing then is lost, or still inside after so many segments. */
 static ec_result white_row(ec_selftest *t, ec_model *m, uint32_t max_depth, ec_error *err)
 {
     ec_scene *scene;

@@ -21,12 +21,7 @@ EC_FN edges coplanar_edges(const hit_filter *f, const ray *r, lane_u prim)
     quad v0 = gather_quad(f->g.prims, stored * EC_PRIM_WORDS), v1 = gather_quad(f->g.prims, stored * EC_PRIM_WORDS + 4u),
          v2 = gather_quad(f->g.prims, stored * EC_PRIM_WORDS + 8u);
     v3 p0 = v3_make(v0.a, v0.b, v0.c), p1 = v3_make(v1.a, v1.b, v1.c), p2 = v3_make(v2.a, v2.b, v2.c);
-    if (HAS(INSTANCES) && f->g.places) {
-        v3 q1 = v3_select(turned, p2, p1), q2 = v3_select(turned, p1, p2);
-        p0 = v3_select(placed, instance_point(f->g.places, place, p0), p0);
-        p1 = v3_select(placed, instance_point(f->g.places, place, q1), p1);
-        p2 = v3_select(placed, instance_point(f->g.places, place, q2), p2);
-    }
+    if (HAS(INSTANCES) && f->g.places) instance_corners(f->g.places, placed, turned, place, &p0, &p1, &p2);
     if (HAS(MOTION) && f->g.motion) motion_corners(f->g.motion, f->g.time, motion_moves(f->g.motion, prim), prim, &p0, &p1, &p2);
     return edges_make(ray_vertex(r, p0), ray_vertex(r, p1), ray_vertex(r, p2));
 }

@@ -93,12 +93,7 @@ EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f
     h.is_one_material = HAS_TEXTURES && all_same(h.material);
     h.light_pdf_a = v1.d;
     h.parts = HAS(LAMP_PARTS) ? as_lane_u(v2.d) >> EC_PRIM_PARTS : U(0);
-    if (HAS(INSTANCES) && any_lane(h.placed)) {
-        v3 p1 = v3_select(h.turned, h.p2, h.p1), p2 = v3_select(h.turned, h.p1, h.p2);
-        h.p0 = v3_select(h.placed, instance_point(g->places, h.place, h.p0), h.p0);
-        h.p1 = v3_select(h.placed, instance_point(g->places, h.place, p1), p1);
-        h.p2 = v3_select(h.placed, instance_point(g->places, h.place, p2), p2);
-    }
+    if (HAS(INSTANCES) && any_lane(h.placed)) instance_corners(g->places, h.placed, h.turned, h.place, &h.p0, &h.p1, &h.p2);
     if (HAS(MOTION) && g->motion) {
         lane_i moves = motion_moves(g->motion, prim) & !h.placed;
         if (any_lane(moves)) {

@@ -48,6 +48,15 @@ EC_FN v3 instance_point(global const float *places, lane_u at, v3 p)
                    place_row(gather_quad(places, at + 8u), p));
 }
 
+/* A mesh's triangle in the world, on lanes `placed`; turned, at: as instance_find has them. */
+EC_FN void instance_corners(global const float *places, lane_i placed, lane_i turned, lane_u at, v3 *p0, v3 *p1, v3 *p2)
+{
+    v3 second = v3_select(turned, *p2, *p1), third = v3_select(turned, *p1, *p2);
+    *p0 = v3_select(placed, instance_point(places, at, *p0), *p0);
+    *p1 = v3_select(placed, instance_point(places, at, second), *p1);
+    *p2 = v3_select(placed, instance_point(places, at, third), *p2);
+}
+
 /* Unit length, or 0 where it was. word: 0 turns tangents, EC_PLACE_NORMAL normals. */
 EC_FN v3 instance_direction(global const float *places, lane_u at, uint word, v3 d)
 {

@@ -228,7 +228,7 @@ static double weigh(uint32_t count, double apart)
     return weight;
 }
 
-/* What is over 2 may be chance in one pixel, and is none in many. */
+/* Pictures that are further apart than twice the noise: in one pixel chance may do that, in many it says that the denoised picture is the worse one. */
 static void check_whole(void)
 {
     CHECK_NEAR(weigh(1, 1), 1, 1e-3);

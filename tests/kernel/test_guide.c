@@ -41,7 +41,7 @@ static uint32_t cell_of(uint32_t i)
     return row * COLUMNS + column;
 }
 
-/* What is read here is as what the kernel reads, but on the sides of squares. */
+/* The host (ec_guide_pdf) and the kernel read the same densities, but where a direction lies on the side of a square, which rounding decides. */
 static void check_host(const float *table, const float p[3])
 {
     uint32_t apart = 0;
