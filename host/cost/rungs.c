@@ -53,14 +53,23 @@ static void add_integrators(rung_list *list)
     raster->options.integrator = EC_INTEGRATOR_RASTER;
     whitted->options.integrator = EC_INTEGRATOR_WHITTED;
     whitted->options.max_depth = EC_WHITTED_DEPTH;
-    raster->unbiased = whitted->unbiased = false;
+    ec_cost_rung *light = add(list, "light", "light");
+    light->options.integrator = EC_INTEGRATOR_LIGHT;
+    light->options.light_paths = EC_LIGHT_PATHS_ALONE;
+    light->options.guiding = light->options.adaptive = false;
+    light->options.clamp = 0;
+    raster->unbiased = whitted->unbiased = light->unbiased = false;
 }
 
 static void add_samplings(rung_list *list)
 {
     if (ec_scene_casts(list->scene)) {
-        begin(list, "guiding", "Directions, instead of by surfaces alone");
-        add(list, "guiding", "by light paths too, --guiding")->options.guiding = true;
+        begin(list, "light-paths", "Paths from the lights, instead of none");
+        ec_cost_rung *chosen = add(list, "light-paths-guiding", "what auto takes if it pays");
+        chosen->options.light_paths = EC_LIGHT_PATHS_FEW;
+        chosen->options.guiding = true;
+        add(list, "light-paths", "--light-paths %g", EC_LIGHT_PATHS_FEW)->options.light_paths = EC_LIGHT_PATHS_FEW;
+        add(list, "guiding", "--guiding")->options.guiding = true;
     }
     begin(list, "sampling", "Sampling of directions, instead of mis");
     add(list, "sample-light", "light")->options.sample = EC_SAMPLE_LIGHT;

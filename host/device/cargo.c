@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "device/ahead.h"
+#include "device/light_batch.h"
 #include "device/pipeline.h"
 #include "device/pixel_filter.h"
 
@@ -133,8 +134,9 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
         pack->effects.bits &= ~EC_FEATURE_INSTANCES;
         ec_effects_add(&pack->effects, &here);
     }
-    if (o->light_paths > 0 || o->guiding) EC_TRY(ec_pack_casters(pack, o->guiding, err));
-    if (o->integrator != EC_INTEGRATOR_PATH) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));
+    const ec_aim aim = o->integrator == EC_INTEGRATOR_LIGHT ? EC_AIM_SCENE : o->guiding ? EC_AIM_CASTERS_AND_SCENE : EC_AIM_CASTERS;
+    if (o->light_paths > 0 || o->guiding) EC_TRY(ec_pack_casters(pack, aim, err));
+    if (!ec_traces_paths(o->integrator)) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));
     return EC_OK;
 }
 
@@ -192,12 +194,11 @@ static void set_environment(const ec_pack *pack, ec_params *params)
 /* Steps so small that what they round off is 2^-30 of the mean radiance of the scene, about, and sums of 2^33 times that fit. */
 static void set_light_paths(const ec_render_options *o, const ec_pack *pack, uint64_t called, ec_params *params)
 {
-    const double pixels = (double)o->width * o->height, paths = fmax(floor(o->light_paths * pixels + 0.5), 1);
     int exponent;
     if (!pack->caster_count) return;
     frexp(pack->mean_radiance, &exponent);
     params->splat_unit = ldexpf(1, exponent - 31 < -120 ? -120 : exponent - 31);
-    params->light_paths = called & EC_FEATURE_LIGHT_PATHS ? (float)(paths / pixels) : 0.0f;
+    params->light_paths = called & EC_FEATURE_LIGHT_PATHS ? ec_light_paths_a_pixel(o->light_paths, o->width, o->height) : 0.0f;
     params->caster_count = pack->caster_count;
     for (uint32_t j = 0; j < pack->caster_count; j++) {
         memcpy(params->casters[j], pack->casters[j].centre, sizeof pack->casters[j].centre);
@@ -210,14 +211,14 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
 {
     const uint32_t unlimited = o->integrator == EC_INTEGRATOR_WHITTED ? EC_WHITTED_DEPTH : UINT32_MAX - EC_SEGMENT;
     params->width = o->width;
-    params->height = o->height;
+    params->height = params->film_rows = o->height;
     params->batch = batch;
     params->max_depth = o->max_depth ? o->max_depth : unlimited;
     params->cutoff = (float)o->cutoff;
     params->backdrop = o->hides_environment;
-    params->panes_count = o->integrator == EC_INTEGRATOR_PATH;
+    params->panes_count = ec_traces_paths(o->integrator);
     set_roulette(o->survival, params);
-    params->sample = o->sample;
+    params->sample = o->integrator == EC_INTEGRATOR_LIGHT ? EC_SAMPLE_LIGHT_PATHS : o->sample;
     params->apart = o->clamp > 0.0;
     params->limit = (float)o->clamp_luminance;
     params->light_count = ec_pipeline_joins(o, pack) ? pack->light_count : 0;
@@ -290,7 +291,7 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     head->waves_until_fast = o->waves_until_fast;
     for (int k = 0; k < 3; k++) head->params.scene_centre[k] = (float)scene->center[k];
     head->wave = o->wave;
-    if (scene->motion.segments && o->integrator != EC_INTEGRATOR_PATH)
+    if (scene->motion.segments && !ec_traces_paths(o->integrator))
         return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");
     EC_TRY(ec_pipeline_set_camera(&scene->cameras[o->camera], o, &head->params, err));
     double start = ec_now();

@@ -1,9 +1,9 @@
 /* Batches of one device: its waves, of light paths first. */
 #include "device/device_source.h"
 
-#include "base/random.h"
 #include "device/adaptive.h"
 #include "device/fold.h"
+#include "device/light_batch.h"
 #include "device/tiers.h"
 
 #define FEATURE_BYTES (4ull * EC_AOV_FIELDS)
@@ -12,12 +12,6 @@
 /* The first wave is smaller, so that there is something to show at once; but not where waves are that small anyway. */
 #define FIRST_SHARE 8
 #define FIRST_PATHS 16384
-
-/* Seeds that differ in one bit must give numbers that differ in every bit. */
-uint32_t ec_render_seed(uint64_t seed) { return (uint32_t)(ec_random_mix(seed * EC_RANDOM_STEP + 1) >> 16); }
-
-/* … and a replicate's light paths. */
-static uint32_t light_path_seed(uint64_t seed, uint32_t replicate) { return ec_render_seed(ec_random_mix(seed + EC_RANDOM_STEP) + replicate); }
 
 static uint64_t pixels_of(const ec_device_source *s) { return (uint64_t)s->pipeline.params.width * s->rows; }
 
@@ -138,22 +132,10 @@ static ec_result choose_samples(ec_device_source *s, const ec_batch_order *order
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
 }
 
-/* The light paths of a batch: those of its replicate, as many for each round of samples. */
-static ec_result run_light_paths(ec_device_source *s, const ec_batch_order *order, bool *complete, ec_error *err)
+static bool goes_on(void *user)
 {
-    ec_pipeline *p = &s->pipeline;
-    const uint32_t replicate = ec_schedule_batch(s->replicates, order->index).replicate, seed = light_path_seed(s->seed, replicate);
-    const uint32_t paths = (uint32_t)((double)p->params.light_paths * p->params.width * p->params.height + 0.5);
-    if (!paths) return EC_OK;
-    EC_TRY(ec_buffer_zero(p->cl, p->buffers[EC_ARG_SPLATS], 0, pixels_of(s) * 4 * EC_SPLAT_WORDS, err));
-    for (uint32_t first = 0, count; *complete && first < paths; first += count) {
-        EC_TRY(ec_tiers_step(p, err));
-        count = p->wave / p->params.batch;
-        if (count > paths - first) count = paths - first;
-        EC_TRY(ec_pipeline_run_light_wave(p, seed, first, count, err));
-        *complete = order->go_on(order->user, order->done);
-    }
-    return EC_OK;
+    const ec_batch_order *order = user;
+    return order->go_on(order->user, order->done);
 }
 
 static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
@@ -169,7 +151,8 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     EC_TRY(upload_list(s, order, err));
     EC_TRY(prepare(s, order, err));
     uint32_t reached = order->done;
-    EC_TRY(run_light_paths(s, order, complete, err));
+    const uint32_t light_seed = ec_light_path_seed(seed, ec_schedule_batch(s->replicates, order->index).replicate);
+    EC_TRY(ec_light_batch_run(p, light_seed, goes_on, (void *)order, complete, err));
     while (reached < order->count && *complete) {
         EC_TRY(take_back(s, err));
         EC_TRY(ec_tiers_step(p, err));

@@ -5,9 +5,20 @@
 
 #include "device/pipeline.h"
 
-static uint64_t not_built(uint64_t without)
+/* Paths through panes count on shadow rays to pass them too. Light paths do not scatter inside bodies, so then camera paths do not, either. */
+static uint64_t never_built(const ec_render_options *o, uint64_t without)
 {
-    return without & EC_FEATURE_PANES ? EC_FEATURE_PANES | EC_FEATURE_MATCHED : 0;
+    return (without & EC_FEATURE_PANES ? EC_FEATURE_PANES | EC_FEATURE_MATCHED : 0) |
+           (o->integrator == EC_INTEGRATOR_LIGHT ? EC_FEATURE_SCATTERING | EC_FEATURE_FOG : 0);
+}
+
+static void call_light_paths(const ec_render_options *o, const ec_pack *pack, ec_effects *called)
+{
+    if (!pack->caster_count || !(o->light_paths > 0)) return;
+    if (o->integrator == EC_INTEGRATOR_LIGHT) ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--integrator light");
+    else if (!(called->bits & EC_FEATURE_SCATTERING)) /* which they do not follow */
+        ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--light-paths %g, aimed at %u bodies that bend or mirror light", o->light_paths,
+                        pack->caster_count);
 }
 
 void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, ec_render_effects *effects)
@@ -16,14 +27,14 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     *called = pack->effects;
     if (options->scattering == EC_SCATTERING_MULTIPLE) ec_pack_rough(&pack->plain.scene, called);
     effects->without = options->without_of ? 0 : options->without;
+    effects->never = never_built(options, effects->without);
     if (options->sampler == EC_SAMPLER_SOBOL) ec_effects_call(called, EC_FEATURE_SOBOL, "--sampler sobol");
     if (options->terminator == EC_TERMINATOR_SMOOTH && (called->bits & EC_FEATURE_SMOOTH_NORMALS))
         ec_effects_call(called, EC_FEATURE_TERMINATOR, "--terminator smooth, and there are vertex normals");
     if (pack->light_node_count) ec_effects_call(called, EC_FEATURE_LIGHT_TREE, "%u lights are chosen among", pack->light_count);
     if (pack->lamp_node_count && options->integrator == EC_INTEGRATOR_PATH && ec_pipeline_joins(options, pack))
         ec_effects_call(called, EC_FEATURE_LAMP_PARTS, "lamps in %u parts, as their textures vary", 3 * pack->lamp_node_count);
-    if (pack->caster_count && options->light_paths > 0 && !(called->bits & EC_FEATURE_SCATTERING)) /* which they do not follow */
-        ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--light-paths %g, aimed at %u bodies that bend or mirror light", options->light_paths, pack->caster_count);
+    call_light_paths(options, pack, called);
     if (pack->caster_count && options->guiding) ec_effects_call(called, EC_FEATURE_GUIDING, "--guiding, by light paths to %u bodies that bend or mirror light", pack->caster_count - 1);
     if (options->layers.count) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels or --light-groups: %u layers", options->layers.count);
     else if (options->layers.mattes) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels cryptomatte");
@@ -33,7 +44,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     for (int i = 0; options->fog[0] > 0 && i < 3; i++) ec_effects_call(called, of_fog[i], "--fog %g,%g,%g", options->fog[0], options->fog[1], options->fog[2]);
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
     effects->built = options->all_effects ? ec_universal_features(effects) : called->bits | options->more_effects;
-    effects->built &= ~not_built(effects->without); /* paths through panes count on shadow rays to pass them too */
+    effects->built &= ~effects->never;
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
         if (ec_stage_is_of(&ec_stages[id], options->integrator, called->bits)) effects->launched |= 1u << id;
     if (!ec_pipeline_joins(options, pack)) effects->launched &= ~(1u << EC_CONNECT | 1u << EC_WHITTED_LIGHT);
@@ -42,7 +53,7 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
 uint64_t ec_universal_features(const ec_render_effects *effects)
 {
     const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS)); /* other ways, not more effects */
-    return all & ~not_built(effects->without);
+    return all & ~effects->never;
 }
 
 /* Lights without extent are met no other way, whatever --sample is. */

@@ -19,6 +19,7 @@ typedef struct ec_render_effects {
     ec_effects called;   /* by the scene and the options */
     uint64_t built;      /* EC_FEATURE_* in the kernels: more than that with all_effects */
     uint64_t without;    /* switched off on purpose */
+    uint64_t never;      /* in no kernel, not even with all_effects */
     uint32_t launched;   /* stages: 1 << ec_stage_id */
     ec_scene_buffer buffers[EC_SCENE_BUFFERS];
     uint32_t buffer_count;

@@ -26,12 +26,17 @@ typedef enum ec_integrator {
     EC_INTEGRATOR_PATH,   /* global illumination */
     EC_INTEGRATOR_WHITTED, /* a tree of mirrored and refracted rays, direct light from the lights' centres */
     EC_INTEGRATOR_RASTER, /* direct light from the lights' centres, without shadows */
+    EC_INTEGRATOR_LIGHT,  /* light tracing: paths from the lights, joined to the camera */
     EC_INTEGRATOR_COUNT
 } ec_integrator;
+
+/* Do paths go through queues, bounce by bounce? */
+static inline bool ec_traces_paths(ec_integrator i) { return i == EC_INTEGRATOR_PATH || i == EC_INTEGRATOR_LIGHT; }
 
 #define EC_LIGHT_PATHS_MOST 16
 #define EC_LIGHT_PATHS_AUTO (-1.0) /* render/caustics.c decides: EC_LIGHT_PATHS_FEW, or none */
 #define EC_LIGHT_PATHS_FEW 0.0625
+#define EC_LIGHT_PATHS_ALONE 1.0 /* of --integrator light */
 #define EC_WHITTED_DEPTH 10     /* segments of Whitted's trees where max_depth is 0 */
 #define EC_WHITTED_DEPTH_MOST 64 /* each takes 48 bytes a path in flight */
 
@@ -98,5 +103,7 @@ static inline uint32_t ec_render_replicates(const ec_render_options *o) { return
 
 /* What the kernels seed a render of that seed with. */
 uint32_t ec_render_seed(uint64_t seed);
+/* And those of a replicate's light paths, where seed is what camera paths are seeded with. */
+uint32_t ec_light_path_seed(uint32_t seed, uint32_t replicate);
 
 #endif

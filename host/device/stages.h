@@ -96,6 +96,7 @@ typedef enum ec_stage_id {
 } ec_stage_id;
 
 #define EC_OF(integrator) (1u << EC_INTEGRATOR_##integrator)
+#define EC_OF_PATHS (EC_OF(PATH) | EC_OF(LIGHT))
 #define EC_OF_ALL UINT32_MAX
 
 /* How many lanes a stage's program is built with: the pipeline's, the accelerator's, or a fixed number. */

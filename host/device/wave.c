@@ -79,7 +79,8 @@ ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pix
     static ec_integrate *const integrate[EC_INTEGRATOR_COUNT] = {
         [EC_INTEGRATOR_PATH] = ec_integrate_paths,
         [EC_INTEGRATOR_WHITTED] = ec_integrate_whitted,
-        [EC_INTEGRATOR_RASTER] = ec_integrate_raster};
+        [EC_INTEGRATOR_RASTER] = ec_integrate_raster,
+        [EC_INTEGRATOR_LIGHT] = ec_integrate_paths};
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
     scalars[EC_ARG_SEED] = seed;
     scalars[EC_ARG_FIRST_PIXEL] = first_pixel;

@@ -13,7 +13,8 @@
 
 #define OF(integrator) (1u << EC_INTEGRATOR_##integrator)
 #define PATHS OF(PATH)
-#define TRACERS (OF(PATH) | OF(WHITTED))
+#define PATHS_OR_LIGHT (OF(PATH) | OF(LIGHT))
+#define TRACERS (PATHS_OR_LIGHT | OF(WHITTED))
 
 #define LASTING "a window keeps no checkpoints and renders no slices"
 #define MOVING "a window shows one moment"
@@ -35,8 +36,8 @@ const ec_option ec_render_rows[] = {
      .help = "width of points and lines, in pixels of a picture " EC_TEXT(EC_DEFAULT_HEIGHT) " high, where the scene's first camera sees them", .otherwise = "1"},
     {.name = "scene", .metavar = "NAME|INDEX", EC_STORED(TEXT, choice.scene), .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "scene of the file to render", .otherwise = "the one the file names as its default"},
-    {.name = "shutter", .metavar = "A:B", .set = ec_set_shutter, .group = EC_GROUP_SCENE, .integrators = PATHS, .uses = EC_OPTION_INFO,
-     .help = "keep the shutter open from A to B seconds, for motion blur; --integrator path only"},
+    {.name = "shutter", .metavar = "A:B", .set = ec_set_shutter, .group = EC_GROUP_SCENE, .integrators = PATHS_OR_LIGHT, .uses = EC_OPTION_INFO,
+     .help = "keep the shutter open from A to B seconds, for motion blur; --integrator path or light"},
     {.name = "variant", .metavar = "NAME|INDEX", EC_STORED(TEXT, choice.variant), .group = EC_GROUP_SCENE, .uses = EC_OPTION_INFO | EC_OPTION_COST,
      .help = "material variant to use (KHR_materials_variants)"},
 
@@ -57,7 +58,7 @@ const ec_option ec_render_rows[] = {
              "between them; NAME=A+B puts several into one, all makes a group of each. What is left over is in rest. eclat mix weighs them anew",
      .not_in_window = "a window shows the sum"},
     {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = ec_set_denoise, .choices = ec_denoiser_names, .group = EC_GROUP_PICTURE,
-     .integrators = PATHS, .uses = EC_OPTION_WINDOW,
+     .integrators = PATHS_OR_LIGHT, .uses = EC_OPTION_WINDOW,
      .help = "denoise the picture, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "
              "the noisy one by which is nearer to the truth. The PNG shows the blend, best; the EXR keeps R, G and B as they are and has denoised, "
              "best and denoised.stderr beside them. --error is then that of best. oidn takes Intel's Open Image Denoise, atrous a filter of eclat's own "
@@ -213,8 +214,9 @@ const ec_option ec_render_rows[] = {
              "mean cosine of the angle, -0.999 (back) to 0.999 (forward). As in 0.05,0.9,0.6"},
     {.name = "integrator", .metavar = "NAME", EC_CHOSEN(options.integrator, ec_integrator_names), .group = EC_GROUP_TRANSPORT,
      .uses = EC_OPTION_INFO | EC_OPTION_WINDOW,
-     .help = "path is the path tracer. For comparison, whitted traces mirrored and refracted rays, with hard shadows from the centres of lights; raster "
-             "draws direct light from these centres without shadows",
+     .help = "path is the path tracer. For comparison, light traces paths from the lights alone, which find caustics at once and nothing that is seen in mirrors or "
+             "through glass; whitted traces mirrored and refracted rays, with hard shadows from the centres of lights; raster draws direct light from these "
+             "centres without shadows",
      .otherwise = "path"},
     {.name = "light-choice", .metavar = "NAME", EC_CHOSEN(options.light_choice, ec_light_choice_names), .group = EC_GROUP_TRANSPORT,
      .integrators = PATHS, .uses = EC_OPTION_INFO,
@@ -223,16 +225,16 @@ const ec_option ec_render_rows[] = {
      .otherwise = "auto"},
     {.name = "max-depth", .metavar = "N", .set = ec_set_max_depth, .group = EC_GROUP_TRANSPORT, .integrators = TRACERS,
      .help = "maximum number of segments in a path: 1 shows emission alone, 2 adds direct light; or inf", .otherwise = "inf, ended by roulette; whitted: 10, at most 64"},
-    {.name = "light-paths", .metavar = "N", .set = ec_set_light_paths, .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
+    {.name = "light-paths", .metavar = "N", .set = ec_set_light_paths, .group = EC_GROUP_TRANSPORT, .integrators = PATHS_OR_LIGHT,
      .uses = EC_OPTION_INFO,
      .help = "trace N paths from the lights for each path from the camera, towards what bends or mirrors light sharply, and weigh what both find: caustics "
              "converge many times sooner; auto traces 1/16, with --guiding, where a first look foretells that caustics would be most of the noise, else none. "
              "Only with --sample mis, and without --adaptive and --clamp",
-     .otherwise = "auto"},
+     .otherwise = "auto; with --integrator light 1"},
     {.name = "guiding", EC_STORED(FLAG, options.guiding), .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,
      .help = "learn from paths from the lights where light comes from, where something bends or mirrors it sharply, and sample directions by it too (path "
              "guiding): caustics, also those seen in mirrors and through glass, converge sooner. Only with --sample mis"},
-    {.name = "rr", .metavar = "P", .set = ec_set_rr, .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
+    {.name = "rr", .metavar = "P", .set = ec_set_rr, .group = EC_GROUP_TRANSPORT, .integrators = PATHS_OR_LIGHT,
      .help = "Russian roulette: a survival probability at every surface, as in 0.8; auto, by throughput from the fifth segment on; or off, which requires "
              "--max-depth N",
      .otherwise = "auto"},
@@ -242,7 +244,7 @@ const ec_option ec_render_rows[] = {
      .otherwise = "mis"},
     {.name = "sampler", .metavar = "NAME", EC_CHOSEN(options.sampler, ec_sampler_names), .group = EC_GROUP_TRANSPORT, .uses = EC_OPTION_INFO,
      .help = "random numbers: sobol (Owen-scrambled) or independent", .otherwise = "sobol"},
-    {.name = "scattering", .metavar = "NAME", EC_CHOSEN(options.scattering, ec_scattering_names), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
+    {.name = "scattering", .metavar = "NAME", EC_CHOSEN(options.scattering, ec_scattering_names), .group = EC_GROUP_TRANSPORT, .integrators = PATHS_OR_LIGHT,
      .uses = EC_OPTION_INFO,
      .help = "rough metal and glass: single scattering, as glTF defines it, loses light; multiple adds the light that facets reflect or transmit to one another",
      .otherwise = "single"},

@@ -26,8 +26,9 @@ static ec_result check_owner(const ec_option *option, ec_integrator integrator, 
     if (belongs(option, integrator)) return EC_OK;
     for (uint32_t k = 0; k < EC_INTEGRATOR_COUNT; k++) {
         if (!(option->integrators >> k & 1)) continue;
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", used ? " or " : "", ec_integrator_names[k]);
+        const size_t used = strlen(names);
+        const bool is_last = option->integrators >> k == 1;
+        snprintf(names + used, sizeof names - used, "%s%s", !used ? "" : is_last ? " or " : ", ", ec_integrator_names[k]);
     }
     return ec_usage(err, "--%s belongs to --integrator %s; leave it out or choose that", option->name, names);
 }
@@ -78,6 +79,8 @@ static ec_result check_combinations(const ec_option *options, int count, const b
         return ec_usage(err, "--light-paths and --sample %s: light paths are weighed against both other ways; leave one out", ec_sample_names[asked->sample]);
     if (asked->light_paths > 0 && asked->clamp > 0)
         return ec_usage(err, "--light-paths and --clamp: light paths bring the light that a clamp would take; leave one out");
+    if (asked->integrator == EC_INTEGRATOR_LIGHT && asked->light_paths == 0)
+        return ec_usage(err, "--integrator light and --light-paths 0: no path would be traced; leave one out");
     if (asked->guiding && asked->sample != EC_SAMPLE_MIS)
         return ec_usage(err, "--guiding and --sample %s: guided directions are weighed against light sampling; leave one out", ec_sample_names[asked->sample]);
     if (asked->survival == 1 && asked->max_depth == 0)
@@ -126,6 +129,8 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
 static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
+    if (o->integrator == EC_INTEGRATOR_LIGHT && request->adaptive == EC_ADAPTIVE_ON)
+        return ec_usage(err, "--integrator light and --adaptive: light paths fall where they will, not on the pixels that are due; leave one out");
     if (o->light_paths > 0 && request->adaptive == EC_ADAPTIVE_ON)
         return ec_usage(err, "--light-paths and --adaptive: light paths fall where they will, not on the pixels that are due; leave one out");
     o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && !(o->light_paths > 0));
@@ -260,6 +265,7 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     ec_render_options *limits = &request->options;
     if (limits->integrator == EC_INTEGRATOR_WHITTED && !limits->max_depth && !request->endless)
         limits->max_depth = EC_WHITTED_DEPTH;
+    if (limits->integrator == EC_INTEGRATOR_LIGHT && limits->light_paths == EC_LIGHT_PATHS_AUTO) limits->light_paths = EC_LIGHT_PATHS_ALONE;
     EC_TRY(check_shutter(&request->choice, err));
     EC_TRY(check_combinations(options, count, given, limits, err));
     if (request->every > 0 && !request->checkpoint && !request->snapshot)

@@ -10,7 +10,7 @@
 #include "jobs/option.h"
 #include "live/shared.h"
 
-_Static_assert((int)ECLAT_RASTER == EC_INTEGRATOR_RASTER && (int)ECLAT_INTEGRATOR_COUNT == EC_INTEGRATOR_COUNT, "one order of integrators");
+_Static_assert((int)ECLAT_RASTER == EC_INTEGRATOR_RASTER && (int)ECLAT_LIGHT == EC_INTEGRATOR_LIGHT && (int)ECLAT_INTEGRATOR_COUNT == EC_INTEGRATOR_COUNT, "one order of integrators");
 _Static_assert((int)ECLAT_TONEMAP_NONE == EC_TONEMAP_NONE && (int)ECLAT_TONEMAP_AGX == EC_TONEMAP_AGX && (int)ECLAT_TONEMAP_COUNT == EC_TONEMAP_COUNT,
                "one order of tone curves");
 

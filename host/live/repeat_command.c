@@ -36,7 +36,7 @@ static bool is_kept(const ec_given_options *given, int i, bool is_asked, ec_inte
     const uint32_t uses = ec_render_row(option)->uses;
     bool is_last = true, is_deep = !strcmp(option, "max-depth") && (!strcmp(value, "inf") || atoi(value) > EC_WHITTED_DEPTH_MOST);
     for (int k = i + 1; k < given->count; k++) is_last &= strcmp(given->list[k].option, option) != 0;
-    if (!is_last || uses & EC_OPTION_WINDOW || !ec_combinations_belongs(option, integrator)) return false;
+    if (!is_last || uses & EC_OPTION_WINDOW || !strcmp(option, "light-paths") || !ec_combinations_belongs(option, integrator)) return false;
     return (is_asked || !(uses & EC_OPTION_CAMERA)) && !(integrator == EC_INTEGRATOR_WHITTED && is_deep);
 }
 
@@ -56,7 +56,7 @@ char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const ecl
     ec_words w = {0};
     const ec_render_request *request = &live->request;
     const bool is_asked = !wish->is_moved && o->camera == scene->request.options.camera;
-    const bool is_still = request->choice.shutter && o->integrator != EC_INTEGRATOR_PATH; /* they show the exposure's middle */
+    const bool is_still = request->choice.shutter && !ec_traces_paths(o->integrator); /* they show the exposure's middle */
     const uint64_t without = is_still ? o->without & ~EC_FEATURE_MOTION : o->without;
     ec_words_add(&w, "eclat");
     ec_words_add(&w, "render");
@@ -65,6 +65,7 @@ char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const ecl
     ec_words_add(&w, "--size=%ux%u", o->width, o->height);
     add_camera(&w, is_asked, wish, o);
     if (o->integrator != EC_INTEGRATOR_PATH) ec_words_add(&w, "--integrator=%s", ec_integrator_names[o->integrator]);
+    if (o->integrator == EC_INTEGRATOR_PATH && ec_scene_casts(scene->job.scene)) ec_words_add(&w, "--light-paths=%.9g", o->light_paths);
     if (is_still) ec_words_add(&w, "--at=%.17g", 0.5 * (request->choice.opens + request->choice.closes));
     if (wish->env_degrees != 0) ec_words_add(&w, "--env-rotate=%.9g", wish->env_degrees);
     for (uint32_t i = 0; i < ec_feature_count; i++)

@@ -25,8 +25,11 @@ static void drop_foreign(ec_render_options *o)
         o->sample = EC_SAMPLE_MIS;
         o->light_choice = EC_LIGHTS_AUTO;
         o->terminator = EC_TERMINATOR_GEOMETRIC;
-        o->survival = 0;
+        o->guiding = false;
+        o->light_paths = 0;
     }
+    if (!ec_traces_paths(o->integrator)) o->survival = 0;
+    if (o->integrator == EC_INTEGRATOR_LIGHT) o->light_paths = EC_LIGHT_PATHS_ALONE, o->clamp = 0;
     if (o->integrator == EC_INTEGRATOR_RASTER) {
         o->fstop = o->focus = 0;
         o->filter = EC_FILTER_BOX;
@@ -43,11 +46,12 @@ ec_result ec_live_setup_make(ec_live *live, ec_live_scene *scene, ec_integrator 
     if (!s) return ec_fail(err, "out of memory for a pipeline");
     *made = s;
     s->options = scene->request.options;
+    if (s->options.integrator == EC_INTEGRATOR_LIGHT || s->options.light_paths == EC_LIGHT_PATHS_AUTO) s->options.light_paths = 0; /* no first look */
     s->options.integrator = integrator;
     s->without = without;
     s->options.without = without & scene->optional;
     drop_foreign(&s->options);
-    if (integrator != EC_INTEGRATOR_PATH && contents->motion.segments) s->options.without |= EC_FEATURE_MOTION; /* the moment in the middle */
+    if (!ec_traces_paths(integrator) && contents->motion.segments) s->options.without |= EC_FEATURE_MOTION; /* the moment in the middle */
     if (contents->environment.rgb) s->options.more_effects |= EC_FEATURE_ENVIRONMENT_TURN;
     pthread_mutex_lock(&live->lock);
     s->scene = scene;

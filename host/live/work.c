@@ -114,7 +114,7 @@ ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err)
     const ec_live_setup *setup = r->setup[ECLAT_PICTURE];
     bool complete;
     ec_render_options options = setup->options;
-    if (!r->wish.is_denoised || options.integrator != EC_INTEGRATOR_PATH) options.denoise = EC_DENOISER_NONE;
+    if (!r->wish.is_denoised || !ec_traces_paths(options.integrator)) options.denoise = EC_DENOISER_NONE;
     else if (!options.denoise) options.denoise = EC_DENOISER_AUTO;
     if (!r->picture.film.width) EC_TRY(ec_live_film_start(&r->picture, &options, r->wish.more, r->wish.width, r->wish.height, err));
     if (r->aside) EC_TRY(look(r, ECLAT_PICTURE, r->wish.width, r->wish.height, err));

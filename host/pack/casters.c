@@ -13,7 +13,7 @@
 #define PI 3.14159265358979323846
 #define SHARP_ROUGHNESS 0.4 /* wider lobes are met by camera paths often enough */
 #define LEAST_SHARE 0.02    /* of the light paths, for each caster and light */
-#define SCENE_SHARE 0.2f    /* of light paths, to the scene as a whole where that is asked for */
+#define SCENE_SHARE 0.2f    /* of light paths, to the scene as a whole where that is asked for beside them */
 #define WORTH_SPLITTING 0.7 /* two spheres for one, where they are so much smaller together */
 
 /* Panes bend none, nor do bodies of index 1. */
@@ -155,7 +155,7 @@ static uint32_t make_clusters(boxes *all, uint32_t most, cluster *clusters)
     return count;
 }
 
-/* W of luminance that a light sends to a sphere, about; power: of lamps for a pmf of 1. Lights of a range know no far. */
+/* W of luminance that a light sends to a sphere, about; power: of lamps for a pmf of 1. */
 static double flux(const ec_pack *pack, const ec_light_data *l, double power, const ec_caster *c)
 {
     const uint32_t kind = l->kind & EC_LIGHT_KIND_MASK;
@@ -167,7 +167,6 @@ static double flux(const ec_pack *pack, const ec_light_data *l, double power, co
         const double q = kind == EC_KIND_TRIANGLE ? (l->a[k] + (double)l->b[k] + l->c[k]) / 3 : l->a[k], d = q - c->centre[k];
         d2 += d * d;
     }
-    if (kind != EC_KIND_TRIANGLE && l->c[2] > 0.0f) return 0;
     return power * l->pmf * fmin(0.5, r2 / (d2 > 0 ? d2 : r2));
 }
 
@@ -186,16 +185,25 @@ static ec_result fill_emission(ec_pack *pack, double *weights, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_pack_casters(ec_pack *pack, bool with_scene, ec_error *err)
+/* Up to `most` spheres about what casts. */
+static ec_result find_clusters(const ec_scene *scene, uint32_t most, cluster *clusters, uint32_t *count, ec_error *err)
+{
+    boxes all = {.count = 0};
+    const ec_result result = find_boxes(scene, &all, err);
+    if (result == EC_OK) *count = make_clusters(&all, most, clusters);
+    free(all.list);
+    return result;
+}
+
+ec_result ec_pack_casters(ec_pack *pack, ec_aim aim, ec_error *err)
 {
     const uint32_t n = pack->light_count;
-    boxes all = {.count = 0};
-    cluster clusters[EC_CASTERS_MOST];
+    const bool with_scene = aim == EC_AIM_CASTERS_AND_SCENE;
+    const ec_caster scene = {.radius = pack->scene_radius, .share = with_scene ? SCENE_SHARE : 0};
+    cluster clusters[EC_CASTERS_MOST] = {{.sphere = scene}};
+    uint32_t count = 1;
     if (!n) return EC_OK;
-    ec_result result = find_boxes(&pack->plain.scene, &all, err);
-    uint32_t count = result == EC_OK ? make_clusters(&all, EC_CASTERS_MOST - with_scene, clusters) : 0;
-    free(all.list);
-    EC_TRY(result);
+    if (aim != EC_AIM_SCENE) EC_TRY(find_clusters(&pack->plain.scene, EC_CASTERS_MOST - with_scene, clusters, &count, err));
     EC_FREED double *weights = calloc(n, sizeof *weights);
     if (!weights) return ec_fail(err, "out of memory for %u lights", n);
     double lamps = 0, sum = 0, shares = 0, emitted = 0;
@@ -218,7 +226,6 @@ ec_result ec_pack_casters(ec_pack *pack, bool with_scene, ec_error *err)
         pack->casters[j].share = (float)(clusters[j].sphere.share / sum + LEAST_SHARE);
         shares += pack->casters[j].share;
     }
-    const ec_caster scene = {.radius = pack->scene_radius, .share = with_scene ? SCENE_SHARE : 0};
     for (uint32_t j = 0; j < count; j++) pack->casters[j].share *= (float)((1 - scene.share) / shares);
     if (with_scene) pack->casters[count++] = scene;
     for (uint32_t i = 0; i < n; i++)

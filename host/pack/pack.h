@@ -123,9 +123,14 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 /* Does a material, or anything, bend light, or mirror most of it, within a narrow lobe? */
 bool ec_material_casts(const ec_scene *scene, const ec_material *material);
 bool ec_scene_casts(const ec_scene *scene);
-/* Finds casters, and which lights shine on them; before there is a light tree. with_scene: a sphere about the scene is one too, if there are
- * others. */
-ec_result ec_pack_casters(ec_pack *pack, bool with_scene, ec_error *err);
+/* What light paths are aimed at. */
+typedef enum ec_aim {
+    EC_AIM_CASTERS,
+    EC_AIM_CASTERS_AND_SCENE, /* a sphere about the scene is one too, if there are others */
+    EC_AIM_SCENE              /* that alone */
+} ec_aim;
+/* Finds casters, and which lights shine on them; before there is a light tree. */
+ec_result ec_pack_casters(ec_pack *pack, ec_aim aim, ec_error *err);
 
 /* Makes pack->lights those of integrators that sum over lights at their centres: triangles in one plane, edge to edge, as one;
  * small bodies as one point, with their radius in pdf_a; without the environment, and without those of which nothing comes. Nothing samples

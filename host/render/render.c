@@ -13,7 +13,7 @@
 static ec_result check_ends(const ec_render_options *o, ec_error *err)
 {
     bool ends = (o->survival >= 0.0 && o->survival < 1.0) || o->max_depth;
-    if (o->integrator != EC_INTEGRATOR_PATH || ends) return EC_OK;
+    if (!ec_traces_paths(o->integrator) || ends) return EC_OK;
     return ec_fail(err, "a survival probability of %g with unlimited depth: nothing would end a path; set max_depth, or a survival under 1", o->survival);
 }
 
@@ -100,7 +100,15 @@ static void tell_scattering(const ec_render_options *o, const ec_log *log)
 {
     if (o->integrator != EC_INTEGRATOR_PATH)
         ec_note(log, "bodies absorb here what they would scatter: only --integrator path scatters light inside them");
-    if (o->light_paths > 0) ec_note(log, "--light-paths: none are sent, since light paths do not scatter inside bodies, as light does in this scene");
+    else if (o->light_paths > 0)
+        ec_note(log, "--light-paths: none are sent, since light paths do not scatter inside bodies, as light does in this scene");
+}
+
+/* Who leaves it out. */
+static void tell_unjoined(const ec_render_options *o, uint64_t called, const ec_log *log)
+{
+    if (o->integrator == EC_INTEGRATOR_LIGHT && (called & (EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION)))
+        ec_note(log, "what is seen in mirrors and through glass is missing here: paths from the lights are joined to the camera where a surface scatters");
 }
 
 /* The scene is what the course expects. */
@@ -114,6 +122,7 @@ static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
     if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(head->effects.called.bits & EC_FEATURE_MULTISCATTER))
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");
     if (head->effects.called.bits & EC_FEATURE_SCATTERING) tell_scattering(r->options, log);
+    tell_unjoined(r->options, head->effects.called.bits, log);
     if (r->course->admit) EC_TRY(r->course->admit(r->course->user, r->stats, err));
     return past && past->allotment.weight ? ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err) : EC_OK;
 }

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/random.h"
+#include "device/light_batch.h"
 #include "device/tiers.h"
 #include "rare/paths.h"
 
@@ -64,7 +65,8 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
     ec_params *params = &p->params;
     ec_environment e = s->environment;
     s->options.width = params->width = view->width;
-    s->options.height = params->height = view->height;
+    s->options.height = params->height = params->film_rows = view->height;
+    if (params->light_paths > 0) params->light_paths = ec_light_paths_a_pixel(s->options.light_paths, view->width, view->height);
     EC_TRY(ec_pipeline_set_camera(&view->camera, &s->options, params, err));
     params->camera_medium = ec_insides_of(&s->insides, &view->camera);
     ec_environment_turn(&e, view->env_degrees);
@@ -154,8 +156,11 @@ ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error
     ec_pipeline *p = &session->pipeline;
     uint32_t pixels = p->params.width * p->params.height;
     double start = ec_now();
+    bool go_on;
     batch->complete = false;
     EC_TRY(set_batch(p, batch, err));
+    EC_TRY(ec_light_batch_run(p, ec_light_path_seed(batch->seed, batch->replicate), batch->go_on, batch->user, &go_on, err));
+    if (!go_on) return ec_cl_finish(p->cl, err);
     for (uint32_t first = 0, count; first < pixels; first += count) {
         if (batch->go_on && !batch->go_on(batch->user)) return ec_cl_finish(p->cl, err);
         EC_TRY(ec_tiers_step(p, err));

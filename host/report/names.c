@@ -15,7 +15,8 @@ const char *const ec_light_choice_names[] =
     {[EC_LIGHTS_AUTO] = "auto", [EC_LIGHTS_BY_POWER] = "power", [EC_LIGHTS_BY_TREE] = "tree", NULL};
 const char *const ec_integrator_names[] = {[EC_INTEGRATOR_PATH] = "path",
                                            [EC_INTEGRATOR_WHITTED] = "whitted",
-                                           [EC_INTEGRATOR_RASTER] = "raster", NULL};
+                                           [EC_INTEGRATOR_RASTER] = "raster",
+                                           [EC_INTEGRATOR_LIGHT] = "light", NULL};
 const char *const ec_sample_names[] = {
     [EC_SAMPLE_MIS] = "mis", [EC_SAMPLE_LIGHT] = "light", [EC_SAMPLE_BSDF] = "bsdf", [EC_SAMPLE_HEMISPHERE] = "hemisphere", NULL};
 const char *const ec_sampler_names[] = {

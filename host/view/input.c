@@ -101,7 +101,8 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
     case EC_DO_HELP: in->help = !in->help, in->effects = false; break;
     case EC_DO_INTEGRATOR_PATH:
     case EC_DO_INTEGRATOR_WHITTED:
-    case EC_DO_INTEGRATOR_RASTER: w->integrator = (eclat_integrator)(action - EC_DO_INTEGRATOR_PATH); break;
+    case EC_DO_INTEGRATOR_RASTER:
+    case EC_DO_INTEGRATOR_LIGHT: w->integrator = (eclat_integrator)(action - EC_DO_INTEGRATOR_PATH); break;
     case EC_DO_BRIGHTER: w->exposure = round(3 * w->exposure + 1) / 3; break;
     case EC_DO_DARKER: w->exposure = round(3 * w->exposure - 1) / 3; break;
     case EC_DO_TONEMAP: w->tonemap = (eclat_tonemap)((w->tonemap + 1) % ECLAT_TONEMAP_COUNT); break;

@@ -15,6 +15,7 @@ const ec_view_key ec_view_keys[] = {
     {{"1", NULL}, EC_DO_INTEGRATOR_PATH, "1", "path tracer"},
     {{"2", NULL}, EC_DO_INTEGRATOR_WHITTED, "2", "Whitted's ray trees"},
     {{"3", NULL}, EC_DO_INTEGRATOR_RASTER, "3", "rasteriser"},
+    {{"4", NULL}, EC_DO_INTEGRATOR_LIGHT, "4", "paths from the lights alone"},
     {{"E", NULL}, EC_DO_BRIGHTER, "E", "a third of a stop brighter"},
     {{"e", NULL}, EC_DO_DARKER, "e", "a third of a stop darker"},
     {{"t", "T"}, EC_DO_TONEMAP, "T", "next tone mapper"},

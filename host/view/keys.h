@@ -10,6 +10,7 @@ typedef enum ec_view_action {
     EC_DO_INTEGRATOR_PATH, /* in the order of eclat_integrator */
     EC_DO_INTEGRATOR_WHITTED,
     EC_DO_INTEGRATOR_RASTER,
+    EC_DO_INTEGRATOR_LIGHT,
     EC_DO_BRIGHTER,
     EC_DO_DARKER,
     EC_DO_TONEMAP,

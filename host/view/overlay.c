@@ -10,7 +10,7 @@
 
 static const float white[3] = {1, 1, 1}, grey[3] = {0.78f, 0.82f, 0.86f}, yellow[3] = {1, 0.85f, 0.4f}, red[3] = {1, 0.5f, 0.45f};
 
-static const char *const integrators[] = {"path", "whitted", "raster"};
+static const char *const integrators[] = {"path", "whitted", "raster", "light"};
 
 static const char *tonemap_name(eclat_tonemap tonemap)
 {

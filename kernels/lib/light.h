@@ -253,6 +253,14 @@ EC_FN lane_f light_falloff(const light_record *l, lane_f cosine)
     return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT ? cone * cone : F(1.0f);
 }
 
+/* What is left at a squared distance of the light of a range. */
+EC_FN lane_f light_range_window(const light_record *l, lane_f d2)
+{
+    lane_f inverse_range = l->c.z;
+    lane_f x2 = d2 * inverse_range * inverse_range;
+    return min(max(1.0f - x2 * x2, F(0.0f)), F(1.0f));
+}
+
 /* KHR_lights_punctual: inverse square with a smooth range window, cone falloff squared. */
 EC_FN light_sample light_sample_punctual(const light_record *l, lane_i m, v3 p, float scene_radius)
 {
@@ -264,10 +272,7 @@ EC_FN light_sample light_sample_punctual(const light_record *l, lane_i m, v3 p, 
     s.towards = v3_select(is_directional, far, to_point);
     lane_f d2 = v3_dot(to_point, to_point);
     s.wi = v3_select(is_directional, v3_negate(direction), v3_scale(to_point, 1.0f / sqrt(d2)));
-    lane_f inverse_range = l->c.z;
-    lane_f x2 = d2 * inverse_range * inverse_range;
-    lane_f window = min(max(1.0f - x2 * x2, F(0.0f)), F(1.0f));
-    lane_f falloff = window / d2 * light_falloff(l, -v3_dot(s.wi, direction));
+    lane_f falloff = light_range_window(l, d2) / d2 * light_falloff(l, -v3_dot(s.wi, direction));
     s.radiance = v3_scale(l->emission, is_directional ? F(1.0f) : falloff);
     s.pdf = l->pmf;
     s.is_delta = m;

@@ -46,16 +46,41 @@ EC_FN lane_f aim_pdf(constant ec_params *params, v3 q, v3 d)
     return sum;
 }
 
+/* The direction that is off the axis by an angle of cosine 1 - rise, turned by u1 about it. */
+EC_FN v3 direction_about(v3 axis, lane_f rise, lane_f u1)
+{
+    v3 s, t;
+    lane_f cos_phi, sin_phi = sincos_2pi(u1, &cos_phi), sine = sqrt(max(rise * (2.0f - rise), F(0.0f)));
+    v3_frame(axis, &s, &t);
+    return v3_normalize(v3_fma(axis, 1.0f - rise, v3_fma(s, sine * cos_phi, v3_scale(t, sine * sin_phi))));
+}
+
 /* A direction so, to the caster about `centre`; u1, u2 in [0, 1). */
 EC_FN v3 aim_sample(v3 centre, lane_f radius, v3 q, lane_f u1, lane_f u2)
 {
-    v3 way = v3_sub(centre, q), s, t;
-    lane_f d2 = v3_dot(way, way), sine2 = radius * radius / d2, cos_phi, sin_phi = sincos_2pi(u1, &cos_phi);
-    lane_f rise = u2 * (sine2 < 1.0f ? sine2 / (1.0f + sqrt(max(1.0f - sine2, F(0.0f)))) : F(2.0f)); /* 1 - cosine */
+    v3 way = v3_sub(centre, q);
+    lane_f d2 = v3_dot(way, way), sine2 = radius * radius / d2;
+    lane_f rise = u2 * (sine2 < 1.0f ? sine2 / (1.0f + sqrt(max(1.0f - sine2, F(0.0f)))) : F(2.0f));
     v3 axis = v3_select(d2 > 0.0f, v3_scale(way, 1.0f / sqrt(d2)), v3_make(F(0.0f), F(0.0f), F(1.0f)));
-    v3_frame(axis, &s, &t);
-    lane_f sine = sqrt(max(rise * (2.0f - rise), F(0.0f)));
-    return v3_normalize(v3_fma(axis, 1.0f - rise, v3_fma(s, sine * cos_phi, v3_scale(t, sine * sin_phi))));
+    return direction_about(axis, rise, u1);
+}
+
+/* A direction in which a lamp shines, in proportion to its cosine, and the density over that. Both sides: u2's first half is behind n. */
+EC_FN v3 lamp_direction(v3 n, lane_i both_sides, lane_f u1, lane_f u2, lane_f *pdf_per_cosine)
+{
+    lane_i behind = both_sides & (u2 < 0.5f);
+    lane_f rest = both_sides ? (behind ? 2.0f * u2 : 2.0f * u2 - 1.0f) : u2;
+    *pdf_per_cosine = both_sides ? F(0.5f * EC_INV_PI) : F(EC_INV_PI);
+    return direction_about(v3_select(behind, v3_negate(n), n), 1.0f - sqrt(1.0f - rest), u1);
+}
+
+/* A direction in which a point shines, uniform over its cone, or all around. */
+EC_FN v3 punctual_direction(const light_record *l, lane_f u1, lane_f u2, lane_f *pdf)
+{
+    lane_i is_spot = (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT;
+    lane_f most = is_spot ? 1.0f - l->c.y : F(2.0f);
+    *pdf = 0.5f * EC_INV_PI / most;
+    return direction_about(v3_select(is_spot, l->b, v3_make(F(0.0f), F(0.0f), F(1.0f))), most * u2, u1);
 }
 
 /* Density per area across d of the line through p along d: uniform over the casters' disks. */

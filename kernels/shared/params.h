@@ -10,7 +10,8 @@ typedef enum ec_sample {
     EC_SAMPLE_MIS,       /* light and BSDF sampling, weighed by the power heuristic */
     EC_SAMPLE_LIGHT,     /* a point on a light; BSDF sampling leads the path on and counts no light found again */
     EC_SAMPLE_BSDF,      /* only what directions sampled by the BSDF meet */
-    EC_SAMPLE_HEMISPHERE /* only what directions meet that are uniform over the hemisphere about ns */
+    EC_SAMPLE_HEMISPHERE, /* only what directions meet that are uniform over the hemisphere about ns */
+    EC_SAMPLE_LIGHT_PATHS /* only what light paths bring, and light that the camera sees itself: --integrator light */
 } ec_sample;
 
 #define EC_CASTERS_MOST 8

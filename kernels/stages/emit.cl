@@ -1,5 +1,5 @@
-/* Light paths begin: a caster, a light, a point on it and a direction to the caster (lib/light_path.h); of a far light its direction and a
- * point of the caster's disk. Reads: params, lights. Writes: the path queue, those that carry light; what each slot's path is of, and zeroes the
+/* Light paths begin: a caster, a light, a point on it and a direction to the caster (lib/light_path.h), or as the light shines where only light
+ * paths count; of a far light its direction and a point of the caster's disk. Reads: params, lights. Writes: the path queue, those that carry light; what each slot's path is of, and zeroes the
  * slots' radiance. Next: intersect. Slots are counted as of camera rays, with light paths in the place of pixels. */
 #include "../lib/coplanar.h"
 #include "../lib/film.h"
@@ -20,6 +20,7 @@ kernel void ec_emit(constant ec_params *params, uint seed, uint first_pixel, uin
     if (i >= path_count) return;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
     lights light = {light_table, 0, {params, environment_texels, environment_table}, 0, emission_table};
+    const bool all_around = params->sample == EC_SAMPLE_LIGHT_PATHS;
     lane_u slot = LANE_NUMBERS + i, path, sample, r1, r2, first, share;
     lane_i active = LANE_NUMBERS < path_count - i;
     slot_to_pixel(params, first_pixel, 0, slot, &path, &sample);
@@ -64,11 +65,14 @@ kernel void ec_emit(constant ec_params *params, uint seed, uint first_pixel, uin
             v3 q = v3_fma(one.c, b2, v3_fma(one.b, b1, v3_scale(one.a, b0)));
             v3 sum = v3_fma(v3_abs(one.c), b2, v3_fma(v3_abs(one.b), b1, v3_scale(v3_abs(one.a), b0)));
             v3 n = v3_normalize(v3_cross(v3_sub(one.b, one.a), v3_sub(one.c, one.a)));
-            d = aim_sample(centre, radius, q, u3, u4);
+            lane_i both_sides = (one.kind & EC_LIGHT_TWO_SIDED) != 0u;
+            lane_f per_cosine, per_area = motion_per_area(one.a, one.b, one.c);
+            d = all_around ? lamp_direction(n, both_sides, u3, u4, &per_cosine) : aim_sample(centre, radius, q, u3, u4);
             lane_f cosine = v3_dot(n, d);
-            is = is & ((cosine > 0.0f) | ((one.kind & EC_LIGHT_TWO_SIDED) != 0u));
+            is = is & ((cosine > 0.0f) | both_sides);
             Le = v3_select(is, light_radiance(&one, &g, is, b1, b2, v3_negate(d)), Le);
-            e = emission_lamp(&light, is, id, motion_per_area(one.a, one.b, one.c), q, d, fabs(cosine));
+            e = all_around ? (is ? emission_pmf(&light, is ? id : U(0)) * per_area * per_cosine : F(0.0f))
+                           : emission_lamp(&light, is, id, per_area, q, d, fabs(cosine));
             o = surface_offset(q, v3_scale(sum, F(EC_GAMMA(9))), n, d);
             if (HAS_COPLANAR) {
                 hit_filter filter = {g, filter_key(seed, path, sample, 0, true), false, 0};
@@ -79,10 +83,12 @@ kernel void ec_emit(constant ec_params *params, uint seed, uint first_pixel, uin
     }
     if (HAS(PUNCTUAL_LIGHTS)) {
         lane_i is = active & (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL), far = is & (type == EC_KIND_DIRECTIONAL);
-        v3 along = v3_select(far, one.b, aim_sample(centre, radius, one.a, u3, u4));
+        lane_f pdf;
+        v3 along = all_around ? punctual_direction(&one, u3, u4, &pdf) : aim_sample(centre, radius, one.a, u3, u4);
+        along = v3_select(far, one.b, along);
         o = v3_select(is, v3_select(far, aim_far_origin(params, centre, radius, one.b, u3, u4), one.a), o);
         d = v3_select(is, along, d);
-        lane_f near_e = emission_pmf(&light, id) * aim_pdf(params, o, d);
+        lane_f near_e = emission_pmf(&light, id) * (all_around ? pdf : aim_pdf(params, o, d));
         e = is ? (far ? emission_far(&light, id, F(1.0f), o, d) : near_e) : e;
         Le = v3_select(is, v3_scale(one.emission, far ? F(1.0f) : light_falloff(&one, v3_dot(d, one.b))), Le);
     }

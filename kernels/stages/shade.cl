@@ -80,7 +80,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (!left) return;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
     lights light = {light_table, light_shares, {params, environment_texels, environment_table}, light_tree, emission_table};
-    const bool by_light = HAS(LIGHT_PATHS) && params->light_paths > 0.0f;
+    const bool by_light = HAS(LIGHT_PATHS) && params->light_paths > 0.0f && params->sample == EC_SAMPLE_MIS;
+    const bool only_seen = params->sample == EC_SAMPLE_LIGHT_PATHS; /* paths go on through panes alone */
 
     lane_i active = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
@@ -193,7 +194,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (HAS(LAYERS) && HAS(MOTION) && motion && bounce == 0 && params->layer_of[EC_LAYER_MOTION])
         store_motion_vector(params, radiance, motion, camera_keys, slot, &h, prim, d, active, found);
     /* This vertex ends segment bounce + 1; light sampled here would arrive over segment bounce + 2. */
-    if (bounce + 2 > params->max_depth || !any_lane(scatters | strewn)) return;
+    if (bounce + 2 > params->max_depth || !any_lane(scatters | strewn) || (only_seen && !HAS(PANES))) return;
 
     lane_u pixel, sample;
     slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
@@ -225,7 +226,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     guide guided;
     if (guides) guided = guide_at(guide_table, scatters, s.p, &b);
     lane_i joins = (scatters & !bsdf_is_single(&b)) | strewn; /* no light sample lies in a mirror's one direction */
-    if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && any_lane(joins)) {
+    if ((HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) || HAS(ENVIRONMENT)) && params->light_count && !only_seen && any_lane(joins)) {
         lane_f pdf_bsdf;
         sample_pair_u(random, pair + EC_PAIR_LIGHT, &r1, &r2);
         light_sample l = light_sample_one(&light, &g, joins, above, r1, r2);
@@ -291,6 +292,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     }
     lane_i straight = !TRUE_MASK; /* by a pane */
     if (HAS(PANES)) straight = (next_way.pdf < 0.0f) & (next_way.wi.z < 0.0f) & pane_is(&b, flags);
+    if (only_seen) alive = alive & straight;
     uint bits = mask_bits(alive);
     if (!bits) return;
     uint at = queue_reserve(counters->rays[step + 1], params->part, i, popcount(bits));

@@ -38,6 +38,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
     lights light = {light_table, 0, {params, environment_texels, environment_table}, light_tree, emission_table};
     const uint vertex = bounce & ~EC_LIGHT_BOUNCE;
+    const bool alone = params->sample == EC_SAMPLE_LIGHT_PATHS; /* nothing else finds what light paths miss */
 
     lane_i active = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
@@ -106,15 +107,20 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
 
     /* N of the first vertex. */
     lane_i is_first = fabs(ratio) > EC_NO_VERTEX, is_delta = ratio < 0.0f;
-    lane_f n_joined = F(0.0f), e_here = e;
+    lane_f n_joined = F(0.0f), e_here = e, window = F(1.0f);
     if (any_lane(scatters & is_first)) {
         lane_u id = as_lane_u(gather_f(light_slots + EC_LIGHT_SLOT_LIGHT * wave, slot));
         v3 between = v3_sub(sa.p, source);
         n_joined = light_path_joined_pdf(&light, &g, scatters & is_first, id, gather_f(light_slots + EC_LIGHT_SLOT_B1 * wave, slot),
                                          gather_f(light_slots + EC_LIGHT_SLOT_B2 * wave, slot), sa.p, source, d);
-        lane_u type = HAS(PUNCTUAL_LIGHTS) ? as_lane_u(gather_f(light_table, id * EC_LIGHT_WORDS + 12u)) & EC_LIGHT_KIND_MASK : U(EC_KIND_TRIANGLE);
-        lane_i near = is_first & ((type == EC_KIND_POINT) | (type == EC_KIND_SPOT));
-        e_here = near ? e / v3_dot(between, between) : e;
+        if (HAS(PUNCTUAL_LIGHTS)) {
+            light_record one = light_load(&light, scatters & is_first ? id : U(0));
+            lane_u type = one.kind & EC_LIGHT_KIND_MASK;
+            lane_i near = is_first & ((type == EC_KIND_POINT) | (type == EC_KIND_SPOT));
+            lane_f way2 = v3_dot(between, between);
+            e_here = near ? e / way2 : e;
+            window = near ? light_range_window(&one, way2) : window;
+        }
     }
 
     EC_LOOP
@@ -124,7 +130,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
         lane_i m = scatters & (joins ? film.seen : way_on.pdf != 0.0f);
         if (!any_lane(m) || (!joins && vertex + 3 > params->max_depth)) continue;
         surface s;
-        v3 beta_c = beta;
+        v3 beta_c = joins ? v3_scale(beta, window) : v3_scale(beta, straight ? F(1.0f) : window);
         surface_place(&h, c, &s);
         surface_frame(&g, &h, m, c, &s);
         lane_i crosses = v3_dot(sa.ng, c) < 0.0f;
@@ -143,7 +149,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
         }
         lane_i lifted = !TRUE_MASK;
         if (HAS(TERMINATOR) && params->terminator && normals) (void)terminator_origin(&g, &h, &s, &lifted);
-        lane_i misses = light_path_misses(&s, c_local.z, a_local.z, lifted);
+        lane_i misses = light_path_misses(&s, c_local.z, a_local.z, lifted) & (alone ? !TRUE_MASK : TRUE_MASK);
         lane_i good = agrees(&s, a, a_local) & agrees(&s, c, c_local);
         lane_f turn_cosines = fabs(v3_dot(s.ng, c)) / fabs(v3_dot(s.ng, a));
         lane_f n_over_p = min(n_joined / pdf, F(EC_K_MOST));
@@ -156,7 +162,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
             lane_f kappa = F(params->light_paths), area = film.area;
             lane_f t_over_p = e_here * min(kappa * area / (turn_cosines * pdf), F(EC_K_MOST));
             lane_f np = (is_first ? n_over_p : fabs(ratio)) / t_over_p, pp = is_delta ? F(0.0f) : 1.0f / t_over_p;
-            lane_f weight = 1.0f / fma(np, np, fma(pp, pp, F(1.0f)));
+            lane_f weight = alone ? F(1.0f) : 1.0f / fma(np, np, fma(pp, pp, F(1.0f)));
             v3 arriving = v3_scale(v3_mul(beta_c, value), turn_cosines * weight * film.weight / (area * kappa));
             shadow_way way = {U(params->camera_medium), v3_splat(F(1.0f)), !TRUE_MASK};
             if (HAS(ABSORPTION)) {

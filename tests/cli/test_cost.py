@@ -11,7 +11,7 @@ import unittest
 
 import denoiser
 from polling import GUARD
-from support import CORNELL, ECLAT, ENVIRONMENT, SOURCE, Case, eclat, quad_scene, write_gltf
+from support import CORNELL, ECLAT, ENVIRONMENT, RING, SOURCE, Case, eclat, quad_scene, write_gltf
 from tiers import full, long
 
 SMALL = ("--size", "32x32")
@@ -66,6 +66,17 @@ class NoDenoiser(Case):
             self.assertNotIn("denoise", [rung["id"] for rung in json.load(file)["rungs"]])
 
 
+@full
+class Caustics(Case):
+    def test_light_paths_are_traced(self):
+        """In a ring, most of whose noise is a caustic: they take noise away and no light."""
+        report = study_that_measures("light-paths", 15, RING, *SMALL)[1]
+        base, found = rung_of(report, PATH), rung_of(report, "light-paths")
+        self.assertLess(found["variance"], base["variance"])
+        self.assertLess(abs(found["bias_squared"]), 4 * found["bias_squared_se"])
+        self.assertTrue(rung_of(report, "light-paths-guiding"))
+
+
 class FullStudy(Case):
     """One study, long enough to reach what leaves something out."""
 
@@ -75,7 +86,7 @@ class FullStudy(Case):
 
     @full
     def test_every_rung_is_measured_or_says_why_not(self):
-        expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "rr-0.8",
+        expected = ["path", "sample-light", "sample-bsdf", "sample-hemisphere", "sampler-independent", "raster", "whitted", "light", "rr-0.8",
                     "rr-0.5", "rr-off", "clamp-1", "clamp-10", "clamp-100", "fast-math", "no-indirect", "no-lamps-3", "accel-bvh8", "accel-bvh2", "accel-kdtree", "accel-grid",
                     "lanes-1", "lanes-4", "lanes-8", "lanes-16"]
         for name in expected:

@@ -119,7 +119,7 @@ class Shells(Case):
         subprocess.run(["bash", "-n", self.script("completion", "bash")], check=True)
         self.assertEqual(self.complete("eclat", "ren"), ["render"])
         self.assertEqual(self.complete("eclat", "render", "--integ"), ["--integrator"])
-        self.assertEqual(self.complete("eclat", "render", "--integrator", ""), ["path", "whitted", "raster"])
+        self.assertEqual(self.complete("eclat", "render", "--integrator", ""), ["path", "whitted", "raster", "light"])
         self.assertEqual(self.complete("eclat", "render", "--integrator", "=", "w"), ["whitted"])
         self.assertEqual(self.complete("eclat", "render", "--adaptive", "="), ["auto", "on", "off"])
         self.assertEqual(self.complete("eclat", "render", "--spp", "1"), [])
@@ -253,18 +253,18 @@ class WrongOptions(Case):
                 self.usage("render", "s.gltf", *end, says="--rr off belongs with a finite --max-depth")
 
     def test_options_of_another_integrator(self):
-        for integrator, option, says in [("raster", ["--rr", "0.5"], "path"), ("raster", ["--sample", "light"], "path"), ("whitted", ["--light-choice", "tree"], "path"),
-                                         ("raster", ["--max-depth", "3"], "path or whitted"), ("raster", ["--accel", "bvh8"], "path or whitted"),
-                                         ("whitted", ["--rr", "0.5"], "path"), ("whitted", ["--terminator", "smooth"], "path"), ("whitted", ["--sample", "mis"], "path"),
+        for integrator, option, says in [("raster", ["--rr", "0.5"], "path or light"), ("raster", ["--sample", "light"], "path"), ("whitted", ["--light-choice", "tree"], "path"),
+                                         ("raster", ["--max-depth", "3"], "path, whitted or light"), ("raster", ["--accel", "bvh8"], "path, whitted or light"),
+                                         ("whitted", ["--rr", "0.5"], "path or light"), ("whitted", ["--terminator", "smooth"], "path"), ("whitted", ["--sample", "mis"], "path"),
                                          ("whitted", ["--clamp", "1"], "path"), ("raster", ["--clamp", "1"], "path"),
-                                         ("path", ["--cutoff", "0"], "whitted"), ("raster", ["--cutoff", "0"], "whitted")]:
+                                         ("path", ["--cutoff", "0"], "whitted"), ("light", ["--fog", "1,1,0"], "path"), ("raster", ["--cutoff", "0"], "whitted")]:
             with self.subTest(integrator=integrator, option=option):
                 self.usage("render", "s.gltf", "--integrator", integrator, *option, says=f"{option[0]} belongs to --integrator {says};")
 
     def test_a_lens_has_an_opening_and_a_focus(self):
         self.usage("render", "s.gltf", "--fstop", "2", says="--fstop and --focus go together: how wide the lens is, and how far away it is sharp; give --focus too")
         self.usage("render", "s.gltf", "--focus", "2", says="give --fstop too")
-        self.usage("render", "s.gltf", "--fstop", "2", "--focus", "1", "--integrator", "raster", says="belongs to --integrator path or whitted;")
+        self.usage("render", "s.gltf", "--fstop", "2", "--focus", "1", "--integrator", "raster", says="belongs to --integrator path, whitted or light;")
 
     def test_a_plan_is_of_one_whole_picture(self):
         for option, value in [("--frames", "0:1"), ("--samples", "0:16")]:

@@ -230,6 +230,29 @@ static void test_saves_are_repeated_by_their_commands(void)
     eclat_live_close(live);
 }
 
+/* Paths from the lights, alone and beside the camera's: the window's picture has the bits of a render. By itself it traces none. */
+static void test_light_paths(void)
+{
+    static const char *const given[] = {NULL, "0.25"};
+    for (int i = 0; i < 2; i++) {
+        told t;
+        eclat_error err;
+        eclat_job *job = make_job(ECLAT_SOURCE_DIR "/scenes/ring/ring.gltf", OUT "l.exr");
+        if (given[i]) CHECK_MSG(eclat_job_set(job, "light-paths", given[i], &err) == ECLAT_OK, "%s", err.text);
+        eclat_live *live = open_live(job, NULL, &t);
+        eclat_wish wish = small_wish(live);
+        for (int k = 0; k < 2; k++) {
+            wish.integrator = k ? ECLAT_LIGHT : ECLAT_PATH;
+            CHECK(settle(live, &t, &wish).integrator == wish.integrator);
+            unlink(k ? OUT "l-2.exr" : OUT "l.exr");
+            wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
+            CHECK_MSG(strstr(t.command, k ? "--integrator=light" : i ? "--light-paths=0.25" : "--light-paths=0 ") != NULL, "%s", t.command);
+            check_repeats(t.command, k ? OUT "l-2.exr" : OUT "l.exr");
+        }
+        eclat_live_close(live);
+    }
+}
+
 static void copy(const char *from, const char *to)
 {
     char text[4096];
@@ -284,6 +307,7 @@ int main(void)
     test_wishes_change_it();
     test_a_wish_denoises();
     test_saves_are_repeated_by_their_commands();
+    test_light_paths();
     test_files_change();
     test_what_cannot_be_opened();
     TEST_END();

@@ -284,7 +284,7 @@ typedef struct eclat_live_listener {
 eclat_result eclat_live_open(const eclat_job *job, const char *against, const eclat_live_listener *listener, eclat_live **live, eclat_error *err);
 void eclat_live_close(eclat_live *live); /* NULL is fine. Waits for what cannot be broken off, such as a compiler */
 
-typedef enum eclat_integrator { ECLAT_PATH, ECLAT_WHITTED, ECLAT_RASTER, ECLAT_INTEGRATOR_COUNT } eclat_integrator;
+typedef enum eclat_integrator { ECLAT_PATH, ECLAT_WHITTED, ECLAT_RASTER, ECLAT_LIGHT, ECLAT_INTEGRATOR_COUNT } eclat_integrator;
 /* The order of the option tonemap's choices. */
 typedef enum eclat_tonemap {
     ECLAT_TONEMAP_NEUTRAL, ECLAT_TONEMAP_NONE, ECLAT_TONEMAP_ACES, ECLAT_TONEMAP_AGX, ECLAT_TONEMAP_FILMIC, ECLAT_TONEMAP_COUNT

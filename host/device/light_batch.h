@@ -1,0 +1,17 @@
+/* The light paths of a batch. */
+#ifndef EC_DEVICE_LIGHT_BATCH_H
+#define EC_DEVICE_LIGHT_BATCH_H
+
+#include "device/pipeline.h"
+
+/* Asked between waves; false: stop. */
+typedef bool ec_light_go_on(void *user);
+
+/* What is asked for each pixel, rounded so that a picture has a whole number of paths; at least one. */
+float ec_light_paths_a_pixel(double asked, uint32_t width, uint32_t height);
+
+/* Traces params.batch light paths for each of those that a round of samples has, and leaves their light in the splats. *complete: false if
+ * go_on, which may be NULL, said no. Nothing where there are no light paths. */
+ec_result ec_light_batch_run(ec_pipeline *p, uint32_t seed, ec_light_go_on *go_on, void *user, bool *complete, ec_error *err);
+
+#endif
