@@ -104,6 +104,7 @@ ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error
     add_contents(root, &scene->contents);
     add_names(root, "extensions_used", &scene->contents.extensions);
     add_names(root, "extensions_unsupported", &scene->contents.ignored);
+    ec_caustics_json(report, root);
     ec_effects_json(root, &report->effects);
     add_bvh(root, &report->bvh);
     add_accels(root, report);

@@ -7,6 +7,7 @@
 
 #include "device/effects.h"
 #include "device/probe.h"
+#include "report/json.h"
 #include "scene/scene.h"
 
 /* One accelerator, measured; refused: why it was not, or empty. */
@@ -37,6 +38,10 @@ ec_result ec_scene_report_count(ec_scene_report *report, ec_error *err);
 
 void ec_scene_report_text(const ec_scene_report *report, FILE *to);
 ec_result ec_scene_report_json(const ec_scene_report *report, FILE *to, ec_error *err);
+
+/* Materials that cast caustics, and how. */
+void ec_caustics_text(const ec_scene_report *report, FILE *to);
+void ec_caustics_json(const ec_scene_report *report, cJSON *root);
 
 /* "0 'Main' (perspective, 39.3 degrees high)" */
 void ec_camera_describe(const ec_scene *scene, uint32_t index, char *text, size_t size);

@@ -134,6 +134,7 @@ void ec_scene_report_text(const ec_scene_report *report, FILE *to)
     print_contents(&scene->contents, to);
     print_list("extensions  ", &scene->contents.extensions, to);
     print_list("unsupported ", &scene->contents.ignored, to);
+    ec_caustics_text(report, to);
     print_cost(report, to);
     print_accels(report, to);
 }

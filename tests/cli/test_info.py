@@ -6,7 +6,7 @@ import struct
 import unittest
 import zlib
 
-from support import CORNELL, SHARED, SOURCE, Case, data_uri, eclat, quad_scene, write_glb, write_gltf
+from support import CORNELL, RING, SHARED, SOURCE, Case, data_uri, eclat, quad_scene, write_glb, write_gltf
 from tiers import full
 
 
@@ -353,6 +353,14 @@ class Info(Case):
         for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "kernels", "effects",
                      "memory", "BVH"]:
             self.assertRegex(run.stdout, rf"(?m)^{word} ")
+
+    def test_what_casts_caustics(self):
+        found = self.assert_ok(eclat("info", RING)).stdout
+        self.assertRegex(found, r'(?m)^caustics +light is mirrored by material 1 "ring"\n +render looks first whether light paths pay')
+        self.assertEqual(self.info(RING)["caustics"], [{"material": 1, "name": "ring", "light": "mirrored"}])
+        self.assertRegex(self.assert_ok(eclat("info", CORNELL)).stdout, r"(?m)^caustics +none: no surface bends light")
+        glass = self.info(os.path.join(SOURCE, "scenes", "vase", "vase.gltf"))["caustics"]
+        self.assertEqual({one["light"] for one in glass}, {"bent"})
 
     @full
     def test_accelerators_are_measured(self):
