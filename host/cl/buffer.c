@@ -145,7 +145,7 @@ ec_result ec_buffer_fill(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t byt
     cl_event event;
     cl_int code = clEnqueueFillBuffer(cl->queue, buffer, word, sizeof(cl_uint), offset, bytes, 0, NULL, &event);
     EC_TRY(ec_cl_check(code, "clEnqueueFillBuffer", NULL, err));
-    return ec_cl_launched(cl, event, "filling a buffer", err);
+    return ec_cl_launched(cl, event, "filling a buffer", NULL, err);
 }
 
 ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err)
@@ -169,5 +169,5 @@ ec_result ec_buffer_unmap(ec_cl *cl, cl_mem buffer, float **at, ec_error *err)
     cl_int code = clEnqueueUnmapMemObject(cl->queue, buffer, *at, 0, NULL, &event);
     *at = NULL;
     EC_TRY(ec_cl_check(code, "clEnqueueUnmapMemObject", NULL, err));
-    return ec_cl_launched(cl, event, "unmapping a buffer", err);
+    return ec_cl_launched(cl, event, "unmapping a buffer", NULL, err);
 }

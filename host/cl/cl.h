@@ -47,11 +47,28 @@ ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32
  * cl/workarounds.c. */
 typedef enum ec_cache_use { EC_CACHE_AUTO = 0, EC_CACHE_ON, EC_CACHE_OFF } ec_cache_use;
 
+/* How many work-items of a kernel one launch may have: cl/pace.h. */
+#define EC_PACES 32
+typedef struct ec_pace {
+    char label[40];
+    uint64_t most;            /* of one launch */
+    uint64_t busy;            /* that had something to do, since the last look … */
+    double seconds, longest;  /* … what they took, and the longest launch */
+} ec_pace;
+typedef struct ec_paces {
+    double limit;             /* seconds that a launch may take; 0: no limit */
+    ec_pace table[EC_PACES];
+    uint32_t count;
+    uint64_t launches, pieces;/* asked for, and into how many these were cut */
+    double longest;           /* seconds of a piece */
+} ec_paces;
+
 /* A command that may still fail once it runs. */
 #define EC_LAUNCHES 64
 typedef struct ec_cl_launch {
     cl_event event;
     const char *label;
+    ec_pace *pace;            /* NULL: nobody looks how long it took */
 } ec_cl_launch;
 
 /* A context and an in-order queue on one device. One thread at a time, but for ec_program_build: one thread may build
@@ -77,6 +94,7 @@ typedef struct ec_cl {
     ec_cache_use cache;       /* EC_CACHE_AUTO unless set after ec_cl_open */
     ec_cl_launch launches[EC_LAUNCHES]; /* whose end has not been looked at */
     uint32_t launch_count;
+    ec_paces paces;
 } ec_cl;
 ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err);
 void ec_cl_close(ec_cl *cl);
@@ -144,6 +162,9 @@ ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, ui
  * ec_buffer_read or ec_cl_finish says so, with the label (a text that lives as long). PoCL compiles a kernel once for
  * each local size and once more for launches of 65536 items and over: keep a kernel to one of each. */
 ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local, ec_error *err);
+/* pace.c: on cards launches are cut into pieces that take no longer than half a second, to the same results. They stay small unless somebody
+ * says how many of the work-items with this label had something to do, before they run or after. */
+void ec_cl_busy(ec_cl *cl, const char *label, uint64_t items);
 ec_result ec_cl_finish(ec_cl *cl, ec_error *err);
 
 /* An argument of ec_kernel_call: an array that is copied to the device and, OUT, back; NULL makes it a NULL buffer. Or a scalar. */
@@ -164,7 +185,7 @@ ec_result ec_kernel_call(ec_cl *cl, cl_program program, const char *name, uint64
                          uint32_t count, ec_error *err);
 
 /* launches.c: takes over a command's event; waits for all of them and looks how they ended; does neither. */
-ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_error *err);
+ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_pace *pace, ec_error *err);
 ec_result ec_cl_landed(ec_cl *cl, ec_error *err);
 void ec_cl_forget_launches(ec_cl *cl);
 

@@ -4,16 +4,18 @@
 #include "cl/cl.h"
 #include "cl/ahead.h"
 #include "cl/kept.h"
+#include "cl/pace.h"
 
 ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err)
 {
     memset(cl, 0, sizeof *cl);
     cl->info = *info;
+    EC_TRY(ec_pace_begin(cl, err));
     const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)info->platform, 0};
     cl_int code;
     cl->context = clCreateContext(properties, 1, &info->id, NULL, NULL, &code);
     EC_TRY(ec_cl_check(code, "clCreateContext", info->name, err));
-    cl->queue = clCreateCommandQueue(cl->context, info->id, 0, &code);
+    cl->queue = clCreateCommandQueue(cl->context, info->id, cl->paces.limit > 0 ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     ec_result result = ec_cl_check(code, "clCreateCommandQueue", info->name, err);
     if (result != EC_OK) ec_cl_close(cl);
     return result;

@@ -1,7 +1,7 @@
 /* Kernels: made, given their arguments, run. */
 #include <stdio.h>
 
-#include "cl/cl.h"
+#include "cl/pace.h"
 
 ec_result ec_kernel_create(cl_program program, const char *name, cl_kernel *kernel, ec_error *err)
 {
@@ -32,9 +32,9 @@ ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, ui
     return EC_OK;
 }
 
-static cl_int enqueue(ec_cl *cl, cl_kernel kernel, size_t items, size_t group, cl_event *event)
+static cl_int enqueue(ec_cl *cl, cl_kernel kernel, size_t first, size_t items, size_t group, cl_event *event)
 {
-    return clEnqueueNDRangeKernel(cl->queue, kernel, 1, NULL, &items, &group, 0, NULL, event);
+    return clEnqueueNDRangeKernel(cl->queue, kernel, 1, first ? &first : NULL, &items, &group, 0, NULL, event);
 }
 
 /* The largest power of two that the driver allows for this kernel: a card's registers may not hold more of its work-items at once. */
@@ -47,18 +47,32 @@ static size_t group_most(const ec_cl *cl, cl_kernel kernel)
 }
 
 /* local is a power of two. No kernel asks how large its group is. */
+static ec_result run_piece(ec_cl *cl, const char *label, ec_pace *pace, cl_kernel kernel, size_t first, size_t items, size_t local, ec_error *err)
+{
+    cl_event event;
+    cl_int code = enqueue(cl, kernel, first, items, local, &event);
+    if (code == CL_INVALID_WORK_GROUP_SIZE) {
+        const size_t most = group_most(cl, kernel);
+        if (most < local) code = enqueue(cl, kernel, first, items, most, &event);
+    }
+    EC_TRY(ec_cl_check(code, "clEnqueueNDRangeKernel", label, err));
+    return ec_cl_launched(cl, event, label, pace, err);
+}
+
+/* No kernel asks for the offset of a launch or for its size. */
 ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local,
                         ec_error *err) {
     if (global == 0) return EC_OK;
-    const size_t items = (size_t)((global + local - 1) / local * local);
-    cl_event event;
-    cl_int code = enqueue(cl, kernel, items, local, &event);
-    if (code == CL_INVALID_WORK_GROUP_SIZE) {
-        const size_t most = group_most(cl, kernel);
-        if (most < local) code = enqueue(cl, kernel, items, most, &event);
+    const uint64_t items = (global + local - 1) / local * local;
+    ec_pace *pace = ec_pace_of(cl, label);
+    if (!pace) return run_piece(cl, label, NULL, kernel, 0, (size_t)items, local, err);
+    cl->paces.launches++;
+    for (uint64_t first = 0, count; first < items; first += count) {
+        count = ec_pace_piece(pace, items - first, local);
+        cl->paces.pieces++;
+        EC_TRY(run_piece(cl, label, pace, kernel, (size_t)first, (size_t)count, local, err));
     }
-    EC_TRY(ec_cl_check(code, "clEnqueueNDRangeKernel", label, err));
-    return ec_cl_launched(cl, event, label, err);
+    return EC_OK;
 }
 
 /* For tests and self-tests. */
@@ -80,6 +94,7 @@ ec_result ec_kernel_call(ec_cl *cl, cl_program program, const char *name, uint64
         EC_TRY_CLEANUP(ec_buffer_write(cl, buffers[i], 0, arrays[i].bytes, arrays[i].data, err));
     }
     EC_TRY_CLEANUP(ec_kernel_arguments(kernel, arguments, count, err));
+    ec_cl_busy(cl, name, items);
     EC_TRY_CLEANUP(ec_kernel_run(cl, name, kernel, items, local, err));
     for (uint32_t i = 0; i < count; i++)
         if (arrays[i].use == EC_ARRAY_OUT) EC_TRY_CLEANUP(ec_buffer_read(cl, buffers[i], 0, arrays[i].bytes, arrays[i].data, err));

@@ -1,13 +1,22 @@
 /* Commands that fail as they run. An in-order queue goes on after one, and not every driver lets the next call that blocks fail:
  * without a look at the events the picture would be made of what a buffer held before. */
-#include "cl/cl.h"
+#include "cl/pace.h"
 
-ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_error *err)
+ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_pace *pace, ec_error *err)
 {
     ec_result result = cl->launch_count == EC_LAUNCHES ? ec_cl_landed(cl, err) : EC_OK;
-    if (result == EC_OK) cl->launches[cl->launch_count++] = (ec_cl_launch){event, label};
+    if (result == EC_OK) cl->launches[cl->launch_count++] = (ec_cl_launch){event, label, pace};
     else clReleaseEvent(event);
     return result;
+}
+
+/* By the device's own clock. */
+static double seconds_of(cl_event event)
+{
+    cl_ulong start = 0, end = 0;
+    clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, NULL);
+    clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL);
+    return end > start ? 1e-9 * (double)(end - start) : 0;
 }
 
 ec_result ec_cl_landed(ec_cl *cl, ec_error *err)
@@ -22,7 +31,9 @@ ec_result ec_cl_landed(ec_cl *cl, ec_error *err)
             culprit = cl->launches[i].label;
             why = code != CL_SUCCESS ? code : status;
         }
+        if (cl->launches[i].pace && status == CL_COMPLETE) ec_pace_took(cl, cl->launches[i].pace, seconds_of(cl->launches[i].event));
     }
+    ec_pace_learn(cl);
     ec_cl_forget_launches(cl);
     return culprit ? ec_cl_check(why, "running a kernel", culprit, err)
                    : ec_cl_check(waited, "clWaitForEvents", cl->info.name, err);

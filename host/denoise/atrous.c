@@ -45,6 +45,7 @@ static ec_result run_passes(work *w, ec_error *err)
         const ec_argument arguments[] = {EC_ARGUMENT(w->colours[pass % 2]), EC_ARGUMENT(w->features), EC_ARGUMENT(w->colours[(pass + 1) % 2]),
                                          EC_ARGUMENT(w->width), EC_ARGUMENT(w->height), EC_ARGUMENT(apart)};
         EC_TRY(ec_kernel_arguments(w->kernel, arguments, sizeof arguments / sizeof *arguments, err));
+        ec_cl_busy(&w->cl, "atrous", w->pixels);
         EC_TRY(ec_kernel_run(&w->cl, "atrous", w->kernel, w->pixels, LOCAL, err));
     }
     return EC_OK;

@@ -18,6 +18,17 @@ uint32_t ec_local_size(const ec_device_info *device)
     return device->type & CL_DEVICE_TYPE_CPU ? EC_LOCAL_SIZE : EC_LOCAL_SIZE_OF_CARDS;
 }
 
+/* That carry so many paths, pixels or triangles. */
+static uint64_t work_items(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t count)
+{
+    return count / (stage->lanes == 1 ? 1 : p->kernels.lanes);
+}
+
+void ec_pipeline_busy(ec_pipeline *p, ec_stage_id id, const uint32_t *parts)
+{
+    ec_cl_busy(p->cl, ec_stages[id].label, work_items(p, &ec_stages[id], ec_pipeline_total(parts)));
+}
+
 static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32_t accel, const uint32_t *scalars, ec_error *err)
 {
     const ec_stage_entry *stage = &ec_stages[id];
@@ -29,6 +40,7 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32
         EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
     }
     const uint64_t items = ec_pipeline_items(id, accel, p->kernels.lanes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
+    if (stage->busy < EC_ARG_SCALAR_COUNT) ec_cl_busy(p->cl, stage->label, work_items(p, stage, scalars[stage->busy]));
     return ec_kernel_run(p->cl, stage->label, kernel, items, ec_local_size(&p->cl->info), err);
 }
 

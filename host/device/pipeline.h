@@ -113,6 +113,8 @@ ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, uint64_t
 uint64_t ec_pipeline_items(ec_stage_id stage, uint32_t accel, uint32_t set_lanes, uint32_t wave, uint32_t triangles);
 ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
 ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
+/* A launch of a stage had the entries of a queue, counted by parts. */
+void ec_pipeline_busy(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *parts);
 /* trace.c: the closest hits or the shadow rays of a bounce, in the way that has proved the fastest there; sets EC_ARG_SORTS. */
 ec_result ec_pipeline_trace(ec_pipeline *pipeline, int connect, uint32_t bounce, uint32_t *scalars, ec_error *err);
 

@@ -111,6 +111,7 @@ typedef struct ec_stage_entry {
     uint32_t lanes;
     uint64_t calls_for;        /* launched with this effect alone; 0: always */
     uint64_t features;         /* bits that can change its code; others do not multiply binaries */
+    ec_arg busy;               /* what says how many of a launch have something to do: EC_ARG_COUNTERS of a queue (ec_pipeline_busy) */
     uint32_t argument_count;
     const ec_arg *arguments;
 } ec_stage_entry;

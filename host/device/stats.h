@@ -42,6 +42,8 @@ typedef struct ec_render_stats {
     uint32_t instances;           /* of meshes that are kept once; 0: none, or they were written out */
     uint64_t triangles, stored_triangles; /* that rays can meet, and that take memory */
     uint64_t device_bytes;        /* peak of all buffers, on all devices */
+    uint64_t launches, pieces;    /* of kernels on devices whose launches are bounded (cl/pace.h), and into how many these were cut; 0: on no device */
+    double longest_piece;         /* seconds */
     uint64_t scene_bytes;         /* of what goes to each device, made of the scene */
     ec_render_share shares[EC_DEVICES_MOST]; /* by device, where there are several */
     uint32_t share_count;

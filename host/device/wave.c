@@ -13,12 +13,16 @@ static ec_result begin_segment(ec_pipeline *p, ec_error *err)
 }
 
 /* rays[0] then says what is left. */
-static ec_result end_segment(ec_pipeline *p, ec_error *err)
+static ec_result end_segment(ec_pipeline *p, ec_stage_id shade, ec_error *err)
 {
     ec_counters *counters = &p->counters;
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    for (uint32_t step = 0; step < EC_SEGMENT; step++)
+    for (uint32_t step = 0; step < EC_SEGMENT; step++) {
         p->rays += ec_pipeline_total(counters->rays[step]) + ec_pipeline_total(counters->shadows[step]);
+        ec_pipeline_busy(p, EC_INTERSECT, counters->rays[step]);
+        ec_pipeline_busy(p, shade, counters->rays[step]);
+        ec_pipeline_busy(p, EC_CONNECT, counters->shadows[step]);
+    }
     memcpy(counters->rays[0], counters->rays[EC_SEGMENT], sizeof counters->rays[0]);
     return EC_OK;
 }
@@ -27,6 +31,7 @@ static ec_result end_segment(ec_pipeline *p, ec_error *err)
 static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t first_bounce, ec_error *err)
 {
     const bool of_light = kind != 0;
+    const ec_stage_id shade = of_light ? EC_SHADE_LIGHT : EC_SHADE;
     EC_TRY(begin_segment(p, err));
     if (of_light && first_bounce == 0) EC_TRY(ec_pipeline_launch(p, EC_EMIT, scalars, err));
     for (uint32_t step = 0; step < EC_SEGMENT && first_bounce + step < p->params.max_depth; step++) {
@@ -35,12 +40,12 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, u
         scalars[EC_ARG_STEP] = step;
         ec_pipeline_swap_queues(p, bounce);
         EC_TRY(ec_pipeline_trace(p, 0, bounce, scalars, err));
-        EC_TRY(ec_pipeline_launch(p, of_light ? EC_SHADE_LIGHT : EC_SHADE, scalars, err));
+        EC_TRY(ec_pipeline_launch(p, shade, scalars, err));
         if (p->buffers[EC_ARG_PHOTONS]) continue; /* they teach the guide (train.c), and are joined to no camera */
         if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, bounce, scalars, err));
         if (of_light) EC_TRY(ec_pipeline_launch(p, EC_SPLAT, scalars, err));
     }
-    return end_segment(p, err);
+    return end_segment(p, shade, err);
 }
 
 /* From a bounce on, as long as p->counters.rays[0] tells of paths. */

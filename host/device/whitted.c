@@ -14,7 +14,10 @@ static ec_result clear_shadows(ec_pipeline *p, ec_error *err)
 static ec_result read_counters(ec_pipeline *p, ec_error *err)
 {
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof p->counters, &p->counters, err));
-    for (int k = 0; k < EC_SEGMENT; k++) p->rays += ec_pipeline_total(p->counters.shadows[k]);
+    for (int k = 0; k < EC_SEGMENT; k++) {
+        p->rays += ec_pipeline_total(p->counters.shadows[k]);
+        ec_pipeline_busy(p, EC_CONNECT, p->counters.shadows[k]);
+    }
     return EC_OK;
 }
 
@@ -28,6 +31,7 @@ static ec_result shade_lights(ec_pipeline *p, uint32_t *scalars, ec_error *err)
             EC_TRY(read_counters(p, err));
             EC_TRY(clear_shadows(p, err));
         }
+        ec_pipeline_busy(p, EC_WHITTED_LIGHT, p->counters.rays[0]);
         EC_TRY(ec_pipeline_launch(p, EC_WHITTED_LIGHT, scalars, err));
         EC_TRY(ec_pipeline_trace(p, 1, scalars[EC_ARG_BOUNCE], scalars, err));
     }
@@ -40,6 +44,8 @@ ec_result ec_integrate_whitted(ec_pipeline *p, uint32_t *scalars, ec_error *err)
     ec_pipeline_fill_parts(p, scalars[EC_ARG_PATH_COUNT]);
     for (uint32_t step = 0; ec_pipeline_total(counters->rays[0]); step++) {
         p->rays += ec_pipeline_total(counters->rays[0]);
+        ec_pipeline_busy(p, EC_INTERSECT, counters->rays[0]);
+        ec_pipeline_busy(p, EC_WHITTED, counters->rays[0]);
         memset(counters->rays[1], 0, sizeof counters->rays[1]);
         EC_TRY(clear_shadows(p, err));
         scalars[EC_ARG_BOUNCE] = step;

@@ -123,6 +123,9 @@ void ec_sources_close(ec_sources *s, ec_render_stats *stats)
         stats->device_bytes += s->devices[i].peak_allocated_bytes;
         stats->cache_hits += s->devices[i].cache_hits;
         stats->cache_misses += s->devices[i].cache_misses;
+        stats->launches += s->devices[i].paces.launches;
+        stats->pieces += s->devices[i].paces.pieces;
+        if (s->devices[i].paces.longest > stats->longest_piece) stats->longest_piece = s->devices[i].paces.longest;
     }
     ec_cargo_free(&s->cargo);
     free(s->recruits);

@@ -72,6 +72,14 @@ static void add_forecast(cJSON *root, const ec_forecast *f)
             EC_REAL("seconds_high", f->seconds_high), EC_REAL("error_bound", f->error_bound), EC_REAL("spread", f->spread));
 }
 
+/* Only where launches are bounded. */
+static void add_launches(cJSON *root, const ec_render_stats *stats)
+{
+    if (!stats->launches) return;
+    EC_JSON(ec_json_object(root, "launches"), EC_WHOLE("count", stats->launches), EC_WHOLE("pieces", stats->pieces),
+            EC_REAL("longest_seconds", stats->longest_piece));
+}
+
 static void add_cost(cJSON *root, const ec_render_report *report)
 {
     const ec_render_stats *stats = report->stats;
@@ -110,6 +118,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     add_forecast(root, &stats->forecast);
     ec_json_real(root, "allotment_gain", stats->allotment_gain);
     add_cost(root, report);
+    add_launches(root, stats);
     EC_JSON(root, EC_WHOLE("lanes", stats->lanes), EC_WHOLE("instances", stats->instances), EC_WHOLE("triangles", stats->triangles),
             EC_WHOLE("stored_triangles", stats->stored_triangles), EC_WHOLE("wave", stats->wave), EC_WHOLE("replicates", report->replicates),
             EC_WHOLE("strips", stats->strips));

@@ -104,6 +104,13 @@ static void print_setup(const ec_render_stats *stats, FILE *to)
             counted, ec_seconds(stats->accel_seconds).text, ec_seconds(stats->pack_seconds).text, guide, ec_seconds(stats->first_pixel_seconds).text, then);
 }
 
+/* Only where launches are bounded. */
+static void print_launches(const ec_render_stats *stats, FILE *to)
+{
+    if (!stats->launches) return;
+    fprintf(to, "launches %" PRIu64 " of kernels, in %" PRIu64 " pieces, the longest of %s\n", stats->launches, stats->pieces, ec_seconds(stats->longest_piece).text);
+}
+
 static const char *stop_in_words(const char *stopped_by)
 {
     if (!strcmp(stopped_by, "error")) return "the error bound is under --error";
@@ -148,6 +155,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
                 stats->peer_samples, stats->samples_per_pixel, ec_bytes(stats->peer_bytes).text);
     if (stats->share_count) fprintf(to, "memory   %s at the peak\n", ec_bytes(report->peak_memory_bytes).text);
     print_setup(stats, to);
+    print_launches(stats, to);
     if (report->verbose) ec_effects_text(&stats->effects, to, 9);
     else print_effects(&stats->effects, to);
     fprintf(to, "invalid  %" PRIu64 " samples\n", stats->invalid_samples);

@@ -25,7 +25,7 @@ class Run:
         if options.device:
             self.card["ECLAT_DEVICE"] = options.device
         # The other device is what it is, whatever is tried out on the first.
-        self.other = {key: value for key, value in self.card.items() if key not in ("ECLAT_DEVICE", "ECLAT_DEVICE_TYPE", "ECLAT_WORKAROUND")}
+        self.other = {key: value for key, value in self.card.items() if key not in ("ECLAT_DEVICE", "ECLAT_DEVICE_TYPE", "ECLAT_LAUNCH_SECONDS", "ECLAT_WORKAROUND")}
 
     def call(self, *arguments, env=None, program=None):
         command = [program or self.eclat, *arguments]
@@ -87,18 +87,21 @@ class Run:
         mine, report, why = self.render(scene, "card", self.card)
         theirs, right, why_not = self.render(scene, "processor", self.other)
         if not report or not right:
-            return f"| {scene} | {why if not report else why_not} | | | | |", False
+            return f"| {scene} | {why if not report else why_not} | | | | | |", False
+        launches = report.get("launches")
         same = report["image_sha256"] == right["image_sha256"]
         test = self.call("compare", mine, theirs, "--json")
         told = json.loads(test.stdout) if test.stdout else {}
         verdict = "same bits" if same else "no more than noise" if test.returncode == 0 else "differs by more than noise"
         error = f"{100 * told['error']:.3g} %" if told.get("error") is not None else "-"
         return (f"| {scene} | {verdict} | {error} | {report['image_sha256'][:16]} | {report['rays_per_second'] / 1e6:.2f} | "
-                f"{right['rays_per_second'] / 1e6:.2f} |"), test.returncode == 0
+                f"{right['rays_per_second'] / 1e6:.2f} | "
+                + (f"{1e3 * launches['longest_seconds']:.3g} ms of {launches['pieces']} |" if launches else "- |")), test.returncode == 0
 
     def pictures(self):
         rows = [self.compare(scene) for scene in SCENES]
-        self.add("Pictures", ["| scene | against the processor's | difference | SHA-256 | Mrays/s | the processor's |", "|---|---|---|---|---|---|",
+        self.add("Pictures", ["| scene | against the processor's | difference | SHA-256 | Mrays/s | the processor's | longest launch |",
+                              "|---|---|---|---|---|---|---|",
                               *(row for row, _ in rows)], all(passed for _, passed in rows))
 
     def traversal(self):

@@ -1,0 +1,62 @@
+# tiers: quick, full
+"""Launches of kernels that are cut into pieces, so that none takes long: on cards, and where ECLAT_LAUNCH_SECONDS says so."""
+import json
+import os
+import unittest
+
+from support import CORNELL, SOURCE, Case, eclat, read_exr
+from tiers import full
+
+LAMPS = os.path.join(SOURCE, "scenes", "lamps", "lamps.gltf")
+SHORT = {"ECLAT_LAUNCH_SECONDS": "1e-6"}
+
+
+class Launches(Case):
+    def render(self, name, *arguments, scene=CORNELL, **environment):
+        run = self.assert_ok(eclat("render", scene, "-q", "--json", "-o", self.path(name), *arguments, env=environment))
+        return json.loads(run.stdout), read_exr(self.path(name))[1]
+
+    def assert_cut(self, *arguments, **how):
+        """The same bits in many pieces of each launch as whole."""
+        whole, picture = self.render("whole.exr", *arguments, ECLAT_LAUNCH_SECONDS="0", **how)
+        cut, other = self.render("cut.exr", *arguments, **SHORT, **how)
+        self.assertNotIn("launches", whole)
+        self.assertGreater(cut["launches"]["pieces"], 4 * cut["launches"]["count"], cut["launches"])
+        self.assertEqual(other, picture)
+        self.assertEqual(cut["image_sha256"], whole["image_sha256"])
+        self.assertEqual(cut["rays"], whole["rays"])
+
+    def test_pieces_give_the_same_bits(self):
+        self.assert_cut("--size", "48x48", "--spp", "16", "--lanes", "1")
+
+    def test_a_processor_is_left_alone_and_a_card_is_not(self):
+        size = "--size", "24x24", "--spp", "8"
+        self.assertNotIn("launches", self.render("a.exr", *size)[0])
+        launches = self.render("a.exr", *size, ECLAT_DEVICE_TYPE="gpu")[0]["launches"]
+        self.assertEqual(launches["pieces"], launches["count"])  # there is little to do
+        self.assertGreater(launches["longest_seconds"], 0)
+
+    def test_the_report_tells(self):
+        run = self.assert_ok(eclat("render", CORNELL, "--size", "24x24", "--spp", "8", "-o", self.path("a.exr"), env=SHORT))
+        self.assertRegex(run.stdout + run.stderr, r"(?m)^launches \d+ of kernels, in \d+ pieces, the longest of [\d.]+ .?s$")
+
+    def test_a_limit_that_is_none_is_one_clear_line(self):
+        line = self.assert_one_error(eclat("render", CORNELL, "-q", "-o", self.path("a.exr"), env={"ECLAT_LAUNCH_SECONDS": "soon"}), 1)
+        self.assertIn("ECLAT_LAUNCH_SECONDS=soon: must be the most seconds that a launch may take, or 0 for no limit", line)
+
+    @full
+    def test_every_integrator(self):
+        size = "--size", "48x48", "--spp", "16"
+        for more in (["--integrator", "whitted"], ["--integrator", "raster"], ["--light-paths", "1"], ["--guiding"], ["--denoise=atrous"]):
+            with self.subTest(more=more):
+                self.assert_cut(*size, *more, scene=LAMPS, ECLAT_DEVICE_TYPE="gpu")
+
+    @full
+    def test_lanes_and_structures(self):
+        for more in (["--accel", "bvh2"], ["--accel", "bvh8"], ["--accel", "grid"], ["--accel", "kdtree"]):
+            with self.subTest(more=more):
+                self.assert_cut("--size", "128x128", "--spp", "8", *more)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""The host's share of a render: processor time of the program's main thread, which launches kernels, waits and takes in films, over that of all threads,
+of which a processor's OpenCL driver has the others. Linux alone."""
+import argparse
+import glob
+import json
+import os
+import subprocess
+import tempfile
+import time
+
+import bench_common as common
+
+MOST = 2.0  # per cent
+SPP = 4096
+FIRST_TICKS = 50  # of all threads, in hundredths of a second: preparation, which is left out
+LEAST_TICKS = 200
+
+
+
+def look(pid, ticks):
+    """Processor time of each thread so far; those that have ended keep theirs."""
+    for path in glob.glob(f"/proc/{pid}/task/*/stat"):
+        try:
+            with open(path, encoding="utf-8") as file:
+                words = file.read().rpartition(")")[2].split()
+        except OSError:
+            continue  # it has ended meanwhile
+        thread = int(path.split("/")[4])
+        ticks[thread] = max(ticks.get(thread, 0), int(words[11]) + int(words[12]))
+    return ticks.get(pid, 0), sum(ticks.values())
+
+
+def render(eclat, scene, wave, size, spp, environment):
+    """The report, and ticks of the main thread and of all: after the preparation, and shortly before the end."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [eclat, "render", scene, "--size", size, "--spp", str(spp), "--wave", str(wave), "-q", "--json", "-o", os.path.join(folder, "a.exr")]
+        ticks, first, last = {}, None, None
+        with subprocess.Popen(command, stdout=subprocess.PIPE, env=dict(os.environ, **environment), encoding="utf-8") as run:
+            while run.poll() is None:
+                time.sleep(0.05)
+                last = look(run.pid, ticks)
+                first = first or (last if last[1] > FIRST_TICKS else None)
+            return json.loads(run.stdout.read()), first, last
+
+
+def measure(eclat, scene, wave, size, spp, environment):
+    """Ticks of the main thread and of all, and how many waves these were."""
+    report, first, last = render(eclat, scene, wave, size, spp, environment)
+    if not first or last[1] - first[1] < LEAST_TICKS:
+        common.fail("the render was over before there was anything to measure; give more --spp")
+    return last[0] - first[0], last[1] - first[1], report["samples"] / report["wave"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
+    parser.add_argument("--wave", type=int, default=65536, help="paths in flight (default: 65536)")
+    parser.add_argument("--size", default="256x256", help="of the picture (default: 256x256)")
+    parser.add_argument("--spp", type=int, default=SPP, help=f"samples a pixel (default: {SPP})")
+    parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
+    options = parser.parse_args()
+    eclat = common.eclat_path(options.eclat)
+    rows = []
+    for name, environment in (("as it is", {}), ("as if a card", {"ECLAT_DEVICE_TYPE": "gpu"})):
+        job = eclat, common.cornell_box(), options.wave, options.size
+        render(*job, 16, environment)  # compiles
+        own, whole, waves = measure(*job, options.spp, environment)
+        share = 100 * own / whole
+        rows.append(common.row(f"host's share of a wave of {options.wave} paths, processor {name}", f"{share:.2f} % ({1e4 * own / waves:.0f} us a wave)",
+                               f"<= {MOST:g} %", share <= MOST))
+    common.print_rows(rows)
+    if options.json:
+        common.write_json(options.json, {"rows": rows})
+
+
+if __name__ == "__main__":
+    main()
