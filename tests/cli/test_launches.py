@@ -36,6 +36,16 @@ class Launches(Case):
         self.assertEqual(launches["pieces"], launches["count"])  # there is little to do
         self.assertGreater(launches["longest_seconds"], 0)
 
+    def test_the_host_waits_once_in_eight_bounces(self):
+        """Queues are counted on the device: three launches a bounce, and some before and after, for each time that the host asks."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        counts = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_CALL": "none", "FAULT_COUNTS": self.path("counts"), "ECLAT_DEVICE_TYPE": "gpu"}
+        self.render("a.exr", "--size", "48x48", "--spp", "16", **counts)
+        with open(self.path("counts"), encoding="utf-8") as file:
+            calls = {name: int(count) for name, count in (line.split() for line in file)}
+        self.assertGreater(calls["clEnqueueNDRangeKernel"], 12 * calls["clEnqueueReadBuffer"], calls)
+
     def test_the_report_tells(self):
         run = self.assert_ok(eclat("render", CORNELL, "--size", "24x24", "--spp", "8", "-o", self.path("a.exr"), env=SHORT))
         self.assertRegex(run.stdout + run.stderr, r"(?m)^launches \d+ of kernels, in \d+ pieces, the longest of [\d.]+ .?s$")

@@ -13,50 +13,50 @@ import bench_common as common
 
 MOST = 2.0  # per cent
 SPP = 4096
-FIRST_TICKS = 50  # of all threads, in hundredths of a second: preparation, which is left out
-LEAST_TICKS = 200
+FIRST_SECONDS = 0.5  # of all threads: preparation, which is left out
+LEAST_SECONDS = 2.0
 
 
-
-def look(pid, ticks):
+def look(pid, seconds):
     """Processor time of each thread so far; those that have ended keep theirs."""
-    for path in glob.glob(f"/proc/{pid}/task/*/stat"):
+    for path in glob.glob(f"/proc/{pid}/task/*/schedstat"):
         try:
             with open(path, encoding="utf-8") as file:
-                words = file.read().rpartition(")")[2].split()
-        except OSError:
+                nanoseconds = int(file.read().split()[0])
+        except (OSError, IndexError):
             continue  # it has ended meanwhile
         thread = int(path.split("/")[4])
-        ticks[thread] = max(ticks.get(thread, 0), int(words[11]) + int(words[12]))
-    return ticks.get(pid, 0), sum(ticks.values())
+        seconds[thread] = max(seconds.get(thread, 0.0), 1e-9 * nanoseconds)
+    return seconds.get(pid, 0.0), sum(seconds.values())
 
 
 def render(eclat, scene, wave, size, spp, environment):
-    """The report, and ticks of the main thread and of all: after the preparation, and shortly before the end."""
+    """The report, and seconds of the main thread and of all: after the preparation, and shortly before the end."""
     with tempfile.TemporaryDirectory() as folder:
         command = [eclat, "render", scene, "--size", size, "--spp", str(spp), "--wave", str(wave), "-q", "--json", "-o", os.path.join(folder, "a.exr")]
-        ticks, first, last = {}, None, None
+        seconds, first, last = {}, None, None
         with subprocess.Popen(command, stdout=subprocess.PIPE, env=dict(os.environ, **environment), encoding="utf-8") as run:
             while run.poll() is None:
                 time.sleep(0.05)
-                last = look(run.pid, ticks)
-                first = first or (last if last[1] > FIRST_TICKS else None)
+                last = look(run.pid, seconds)
+                first = first or (last if last[1] > FIRST_SECONDS else None)
             return json.loads(run.stdout.read()), first, last
 
 
 def measure(eclat, scene, wave, size, spp, environment):
-    """Ticks of the main thread and of all, and how many waves these were."""
+    """Seconds of the main thread and of all, and how many waves these were."""
     report, first, last = render(eclat, scene, wave, size, spp, environment)
-    if not first or last[1] - first[1] < LEAST_TICKS:
+    if not first or last[1] - first[1] < LEAST_SECONDS:
         common.fail("the render was over before there was anything to measure; give more --spp")
-    return last[0] - first[0], last[1] - first[1], report["samples"] / report["wave"]
+    whole = last[1] - first[1]
+    return last[0] - first[0], whole, report["samples"] / report["wave"] * whole / last[1]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
     parser.add_argument("--wave", type=int, default=65536, help="paths in flight (default: 65536)")
-    parser.add_argument("--size", default="256x256", help="of the picture (default: 256x256)")
+    parser.add_argument("--size", default="64x64", help="of the picture (default: 64x64)")
     parser.add_argument("--spp", type=int, default=SPP, help=f"samples a pixel (default: {SPP})")
     parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
     options = parser.parse_args()
@@ -67,7 +67,7 @@ def main():
         render(*job, 16, environment)  # compiles
         own, whole, waves = measure(*job, options.spp, environment)
         share = 100 * own / whole
-        rows.append(common.row(f"host's share of a wave of {options.wave} paths, processor {name}", f"{share:.2f} % ({1e4 * own / waves:.0f} us a wave)",
+        rows.append(common.row(f"host's share of a wave of {options.wave} paths, processor {name}", f"{share:.2f} % ({1e6 * own / waves:.0f} us a wave)",
                                f"<= {MOST:g} %", share <= MOST))
     common.print_rows(rows)
     if options.json:

@@ -47,11 +47,11 @@ def main():
             rows += build_rows(file.read())
     except OSError:
         pass
-    for name in ("start.json", "limits.json", "write.json", "race.json", "effects.json"):
+    for name in ("start.json", "limits.json", "host.json", "write.json", "race.json", "effects.json"):
         rows += (load(folder, name) or {"rows": []})["rows"]
     common.print_rows(rows)
     if len(sys.argv) > 2:
-        common.write_json(sys.argv[2], {"rows": rows, "traversal": traversal, "start": load(folder, "start.json"), "limits": load(folder, "limits.json"), "write": load(folder, "write.json"), "race": load(folder, "race.json"),
+        common.write_json(sys.argv[2], {"rows": rows, "traversal": traversal, "start": load(folder, "start.json"), "limits": load(folder, "limits.json"), "host": load(folder, "host.json"), "write": load(folder, "write.json"), "race": load(folder, "race.json"),
                                          "effects": load(folder, "effects.json")})
     sys.exit(any(r["met"] is False for r in rows))
 

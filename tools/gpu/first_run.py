@@ -57,8 +57,9 @@ class Run:
             return False
         # As they are, not as they are tried.
         true = json.loads(self.call("devices", "--json", env=self.other).stdout)["devices"]
-        processors = [device for device in true if device["type"] == "CPU" and device["available"]]
-        self.other["ECLAT_DEVICE"] = self.options.against or (str(processors[0]["index"]) if processors else "")
+        processors = [device["index"] for device in true if device["type"] == "CPU" and device["available"]]
+        others = [index for index in processors if index != report["default"]] or processors
+        self.other["ECLAT_DEVICE"] = self.options.against or (str(others[0]) if others else "")
         self.verbatim("Devices", self.call("devices"))
         return True
 
