@@ -2,10 +2,12 @@
 """tools/gpu_first_run, tried on a processor that is taken for a card."""
 import os
 import re
+import signal
 import subprocess
 import sys
 import unittest
 
+from polling import poll_until
 from support import ECLAT, ENVIRONMENT, SOURCE, Case
 from tiers import full
 
@@ -31,6 +33,21 @@ class FirstRun(Case):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("Failed: Devices.", done.stdout)
         self.assertIn("no OpenCL driver is installed", self.read())
+
+    def test_what_is_known_is_written_before_what_may_hang(self):
+        program = self.path("eclat")
+        with open(program, "w", encoding="utf-8") as file:
+            file.write(f'#!/bin/sh\ncase "$1" in selftest) exec sleep 600;; *) exec "{os.path.abspath(ECLAT)}" "$@";; esac\n')
+        os.chmod(program, 0o755)
+        command = [sys.executable, TOOL, "--quick", "--eclat", program]
+        with subprocess.Popen(command, env=ENVIRONMENT, cwd=self.folder, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True) as process:
+            try:
+                poll_until(lambda: os.path.exists(self.path("gpu-first-run.md")), process)
+            finally:
+                os.killpg(process.pid, signal.SIGKILL)
+        text = self.read()
+        self.assertIn("This did not come to its end; last under way: self-test.", text)
+        self.assertIn("## Devices", text)
 
     @full
     def test_a_processor_as_if_it_were_a_card(self):

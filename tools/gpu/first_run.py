@@ -21,6 +21,7 @@ class Run:
         self.options, self.root, self.build, self.work = options, root, build, work
         self.eclat = os.path.abspath(options.eclat) if options.eclat else os.path.join(build, "eclat")
         self.parts, self.failed = [], []
+        self.under_way = "list of devices"
         self.card = dict(os.environ)
         if options.device:
             self.card["ECLAT_DEVICE"] = options.device
@@ -110,13 +111,22 @@ class Run:
         scene = os.path.join(self.root, "scenes", "showcase", "showcase.gltf")
         self.verbatim("Rays through the showcase", self.call("info", scene, "--accel", *(["bvh2"] if self.options.quick else ["all"])), keep=8)
 
-    def report(self):
+    def steps(self):
+        """What has been found out so far may be written at each turn: a driver may take the machine with it."""
         if self.devices():
-            for step in (self.selftest, self.kernel_tests, self.pictures, self.traversal):
+            for name, step in (("self-test", self.selftest), ("kernel tests", self.kernel_tests), ("pictures", self.pictures), ("traversal", self.traversal)):
+                self.under_way = name
+                yield
                 step()
+        self.under_way = None
+        yield
+
+    def report(self):
         version = self.call("--version").stdout.splitlines()
         return "\n".join([f"# First run of eclat on {getattr(self, 'card_device', {}).get('name', 'no device')}", "", self.verdict(), "",
                           *("    " + line for line in version), "", *self.parts])
 
     def verdict(self):
+        if self.under_way:
+            return f"This did not come to its end; last under way: {self.under_way}."
         return "Everything passed." if not self.failed else "Failed: " + ", ".join(self.failed) + "."
