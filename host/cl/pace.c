@@ -10,6 +10,7 @@
 #define FIRST_A_UNIT 256   /* work-items a compute unit before anything is known … */
 #define FIRST_LEAST 4096   /* … and in all */
 #define LEAST 64
+#define SHORTEST 1e-6      /* seconds: no launch is done sooner, whatever the clock says; llvmpipe's has them all take a nanosecond */
 
 ec_result ec_pace_begin(ec_cl *cl, ec_error *err)
 {
@@ -46,6 +47,7 @@ uint64_t ec_pace_piece(const ec_pace *pace, uint64_t left, uint64_t group)
 
 void ec_pace_took(ec_cl *cl, ec_pace *pace, double seconds)
 {
+    if (seconds < SHORTEST) return;
     pace->seconds += seconds;
     if (seconds > pace->longest) pace->longest = seconds;
     if (seconds > cl->paces.longest) cl->paces.longest = seconds;

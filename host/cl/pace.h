@@ -12,7 +12,7 @@ ec_result ec_pace_begin(ec_cl *cl, ec_error *err);
 ec_pace *ec_pace_of(ec_cl *cl, const char *label);
 /* Work-items of the next piece, of those that are left of a launch; both are multiples of `group`. */
 uint64_t ec_pace_piece(const ec_pace *pace, uint64_t left, uint64_t group);
-/* A piece took so long. */
+/* A piece took so long, by the device's clock. */
 void ec_pace_took(ec_cl *cl, ec_pace *pace, double seconds);
 /* All that were launched are done: fits the sizes of pieces. */
 void ec_pace_learn(ec_cl *cl);

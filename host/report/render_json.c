@@ -77,7 +77,7 @@ static void add_launches(cJSON *root, const ec_render_stats *stats)
 {
     if (!stats->launches) return;
     EC_JSON(ec_json_object(root, "launches"), EC_WHOLE("count", stats->launches), EC_WHOLE("pieces", stats->pieces),
-            EC_REAL("longest_seconds", stats->longest_piece));
+            EC_REAL("longest_seconds", stats->longest_piece > 0 ? stats->longest_piece : NAN));
 }
 
 static void add_cost(cJSON *root, const ec_render_report *report)

@@ -108,7 +108,9 @@ static void print_setup(const ec_render_stats *stats, FILE *to)
 static void print_launches(const ec_render_stats *stats, FILE *to)
 {
     if (!stats->launches) return;
-    fprintf(to, "launches %" PRIu64 " of kernels, in %" PRIu64 " pieces, the longest of %s\n", stats->launches, stats->pieces, ec_seconds(stats->longest_piece).text);
+    fprintf(to, "launches %" PRIu64 " of kernels, in %" PRIu64 " pieces, ", stats->launches, stats->pieces);
+    if (stats->longest_piece > 0) fprintf(to, "the longest of %s\n", ec_seconds(stats->longest_piece).text);
+    else fprintf(to, "small ones, since the device's clock does not tell how long they take\n");
 }
 
 static const char *stop_in_words(const char *stopped_by)

@@ -37,7 +37,7 @@ class FirstRun(Case):
     def test_what_is_known_is_written_before_what_may_hang(self):
         program = self.path("eclat")
         with open(program, "w", encoding="utf-8") as file:
-            file.write(f'#!/bin/sh\ncase "$1" in selftest) exec sleep 600;; *) exec "{os.path.abspath(ECLAT)}" "$@";; esac\n')
+            file.write(f'#!/bin/sh\ncase "$1" in selftest) exec tail -f /dev/null;; *) exec "{os.path.abspath(ECLAT)}" "$@";; esac\n')
         os.chmod(program, 0o755)
         command = [sys.executable, TOOL, "--quick", "--eclat", program]
         with subprocess.Popen(command, env=ENVIRONMENT, cwd=self.folder, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True) as process:

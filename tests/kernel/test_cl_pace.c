@@ -92,6 +92,22 @@ static void limits(void)
     unsetenv("ECLAT_LAUNCH_SECONDS");
 }
 
+/* A clock that tells of no time: nothing is learnt. */
+static void clocks(void)
+{
+    ec_cl cl = {.info = {.type = CL_DEVICE_TYPE_GPU, .compute_units = 24}};
+    ec_error err = {0};
+    CHECK_OK(ec_pace_begin(&cl, &err), err);
+    ec_pace *pace = ec_pace_of(&cl, "kernel");
+    const uint64_t first = pace->most;
+    for (int look = 0; look < 3; look++) {
+        ec_cl_busy(&cl, "kernel", WAVE);
+        ec_pace_took(&cl, pace, 1e-9);
+        ec_pace_learn(&cl);
+    }
+    CHECK(pace->most == first && cl.paces.longest == 0);
+}
+
 /* More kernels than there is room for: all have a pace. */
 static void many(void)
 {
@@ -110,6 +126,7 @@ int main(void)
     unsetenv("ECLAT_LAUNCH_SECONDS");
     limits();
     many();
+    clocks();
     cards();
     scenes();
     TEST_END();

@@ -16,6 +16,11 @@ def last_line(run):
     return ((run.stderr + run.stdout).strip().splitlines() or [f"exit code {run.returncode}"])[-1]
 
 
+def longest(launches):
+    seconds = launches["longest_seconds"]
+    return f"{'unknown' if seconds is None else f'{1e3 * seconds:.3g} ms'} of {launches['pieces']}"
+
+
 class Run:
     def __init__(self, options, root, build, work):
         self.options, self.root, self.build, self.work = options, root, build, work
@@ -98,7 +103,7 @@ class Run:
         error = f"{100 * told['error']:.3g} %" if told.get("error") is not None else "-"
         return (f"| {scene} | {verdict} | {error} | {report['image_sha256'][:16]} | {report['rays_per_second'] / 1e6:.2f} | "
                 f"{right['rays_per_second'] / 1e6:.2f} | "
-                + (f"{1e3 * launches['longest_seconds']:.3g} ms of {launches['pieces']} |" if launches else "- |")), test.returncode == 0
+                + (longest(launches) if launches else "-") + " |"), test.returncode == 0
 
     def pictures(self):
         rows = [self.compare(scene) for scene in SCENES]
