@@ -8,7 +8,7 @@ enum { EC_BLEND_TILE = 16 };
 
 /* Sums over pixels of a tile. */
 typedef struct ec_tile_sums {
-    double pixels, clean, noisy, apart, noise, variance, plains; /* the last two: of (clean - noisy) / 2 */
+    double pixels, clean, noisy, apart, noise, gain, variance, plains; /* the last two: of `gain` */
     double noisy_squares;         /* of single pixels' `noisy` */
 } ec_tile_sums;
 
@@ -43,7 +43,7 @@ void ec_blend_choose(ec_blend *blend);
 static inline ec_tile_sums ec_blend_sums(const ec_blend_tile *t)
 {
     const ec_tile_sums *a = &t->half[0], *b = &t->half[1];
-    return (ec_tile_sums){a->pixels + b->pixels, a->clean + b->clean, a->noisy + b->noisy, a->apart + b->apart, a->noise + b->noise,
+    return (ec_tile_sums){a->pixels + b->pixels, a->clean + b->clean, a->noisy + b->noisy, a->apart + b->apart, a->noise + b->noise, a->gain + b->gain,
                           a->variance + b->variance, a->plains + b->plains, a->noisy_squares + b->noisy_squares};
 }
 

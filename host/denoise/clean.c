@@ -39,12 +39,12 @@ static void finish_row(work *w, uint32_t y, ec_judged *judged, ec_pixel *pixels,
     for (uint32_t x = 0; x < width; x++) {
         const ec_judged *j = &judged[x];
         const ec_blend_at at = ec_blend_look(&w->blend, x, y);
-        const double a = at.weight, b = 1 - a, variance = j->clean_variance + j->noisy_variance;
+        const double a = at.weight, b = 1 - a;
         write_pixel(w, first + x, &at, pixels[x].mean);
         sums->noise += j->noise;
         const double plain = a * a * j->clean_plain + b * b * j->noisy_plain;
         const ec_judged_sum clean = {j->clean, j->clean_variance, j->clean_plain, j->clean_plain * j->clean_plain, 0, j->noise};
-        const ec_judged_sum best = {a * j->clean + b * j->noisy - a * b * j->apart + at.optimism * variance,
+        const ec_judged_sum best = {a * j->clean + b * j->noisy - a * b * j->apart + at.optimism * 4 * (j->gain_variance + a * j->gain_apart),
                                     a * a * j->clean_variance + b * b * j->noisy_variance, plain, plain * plain, b * b * j->noisy, a * a * j->noise};
         ec_judged_join(&sums->clean, &clean);
         ec_judged_join(&sums->best, &best);

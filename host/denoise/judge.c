@@ -24,6 +24,12 @@
  * where few pixels decide, and less where many do (margin). By v alone intervals held in 79 of 100 renders of scenes/lamps, with it in 99
  * (16 samples, --clamp 10), and with one standard error everywhere and Student's t besides they were a quarter wider.
  *
+ * What a blend gains (blend.c). The noisy picture is p = (a + b) / 2, and the product of both pictures' errors is (c - m)(p - m). D(a) follows a and knows
+ * nothing of b, so that (D(a) - D(b)) (a - b) / 4 has its expectation, and no error of the denoiser's own in it: `gain` is Var p less that. Where D is as
+ * good as constant, c - m = B and p - m = e, q = (B - e)^2 and what gain is of this picture, e^2 - B e, go together: less the estimate of Var p, by
+ * 2 Var p (B^2 + Var p) but for the third moment. With q, with s for Var p and with an estimate of (Var p)^2 that is made of four different replicates,
+ * 2 ((q - s) s + (Var p)^2 (n + 1) / (n - 1)) has that expectation, whatever the fourth moment is.
+ *
  * The guides are the same for both halves and made of some of their samples; what comes of that is less than these trials can see:
  * tests/cli/denoise_seeds.py. */
 #include "denoise/judge.h"
@@ -78,7 +84,7 @@ void ec_half(const ec_film *film, uint32_t half, float scale, uint32_t fields, f
 
 /* U, v and the plain variance of a half's replicates about a value, and the variance of their mean; spread: the variance of a replicate. */
 typedef struct against {
-    double square, variance, plain, mean_variance;
+    double square, variance, plain, mean, mean_variance;
 } against;
 
 static against judge_by(double value, const double *replicates, uint32_t n, double spread)
@@ -91,7 +97,19 @@ static against judge_by(double value, const double *replicates, uint32_t n, doub
     const double pairs = n * (n - 1.0), square = (p1 * p1 - p2) / pairs;
     if (n >= 4) /* by Newton's identities */
         fourth = (p1 * p1 * p1 * p1 - 6 * p1 * p1 * p2 + 3 * p2 * p2 + 8 * p1 * p3 - 6 * p4) / (pairs * (n - 2.0) * (n - 3.0));
-    return (against){square, square * square - fourth, 4 * fmax(square, 0) * spread / n + 2 * spread * spread / pairs, (p2 - p1 * p1 / n) / pairs};
+    return (against){square, square * square - fourth, 4 * fmax(square, 0) * spread / n + 2 * spread * spread / pairs, value - p1 / n, (p2 - p1 * p1 / n) / pairs};
+}
+
+/* The square of a replicate's variance, without bias whatever the distribution: the mean of products of the squared differences of two pairs that have
+ * none in common. */
+static double square_of_variance(const double *y, uint32_t n, double mean)
+{
+    double p2 = 0, p4 = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const double square = (y[i] - mean) * (y[i] - mean);
+        p2 += square, p4 += square * square;
+    }
+    return (p2 * p2 - p4 + 2 * (p2 * p2 - 2 * p4) / (n - 2.0) + 3 * (p2 * p2 - 2 * p4) / ((n - 2.0) * (n - 3.0))) / (n * (n - 1.0));
 }
 
 /* Luminances of one pixel's replicates, one half after the other. */
@@ -110,6 +128,12 @@ static ec_judged judge(const double *y, uint32_t n, const float *a, const float 
     j.clean_variance = 0.25 * (by_b.variance + by_a.variance) + together;
     j.clean_plain = 0.25 * (by_b.plain + by_a.plain) + together;
     j.noisy_plain = 2 * j.noisy * j.noisy;
+    const double shared = 0.5 * half * (by_a.mean - by_b.mean), of_shared = half * half * j.noisy;
+    j.gain = j.noisy - shared;
+    j.gain_plain = j.noisy * j.noisy + of_shared;
+    const double fourth = square_of_variance(y, n, mean) / (n * n);
+    j.gain_variance = j.noisy * j.noisy - fourth + of_shared;
+    j.gain_apart = 2 * ((j.apart - j.noisy) * j.noisy + fourth * (n + 1) / (n - 1));
     j.noisy_variance = j.noisy_plain * n / (n + 1); /* of pixels that are normal; E[s^4] exceeds v^2 by that much */
     return j;
 }

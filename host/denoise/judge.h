@@ -18,8 +18,11 @@ typedef struct ec_judged {
     double clean, noisy;           /* squared errors of the denoised picture, the mean of both denoised halves, and of the noisy one */
     double apart;                  /* squared difference of the two, which is known */
     double noise;                  /* squared standard error of the denoised one: what is left of `clean` is bias */
+    double gain;                   /* `noisy` less the covariance of both errors: half of how fast a blend's error falls as it leaves the noisy one */
     double clean_variance, noisy_variance; /* of the two estimates: without bias … */
-    double clean_plain, noisy_plain;       /* … and by the replicates' variance as it is: too large where samples are rare and bright, never too small by one that came once */
+    double gain_variance;          /* of that, as an estimate of what is expected … */
+    double gain_apart;             /* … and the covariance of `apart` with what it misses of this very picture's */
+    double clean_plain, noisy_plain, gain_plain; /* … and by the replicates' variance as it is: too large where samples are rare and bright, never too small by one that came once */
 } ec_judged;
 
 /* Row `row`; denoised: both halves as a denoiser made them, 3 floats a pixel. */

@@ -1,14 +1,16 @@
-"""usage: python3 denoise_seeds.py [--seeds N] [--keep FOLDER] [--clamp LIMIT] [SCENE ...]
+"""usage: python3 denoise_seeds.py [--seeds N] [--minutes M] [--keep FOLDER] [--clamp LIMIT] [SCENE ...]
 How far denoised pictures of many seeds are from the truth, and how often the stated intervals hold it. Prints rows of docs/denoise.md's table.
 
-What was rendered is kept in FOLDER, as slices: after a change of host/denoise they are merged and judged anew, and no path is traced. The truth of a
-seed's picture is the mean of all other seeds' pictures, whose own variance is taken off: each square error is without bias."""
+What was rendered is kept in FOLDER, as slices: after a change of host/denoise they are merged and judged anew, and no path is traced. With --minutes
+no seed is begun once they are over, and all scenes have as many. The truth of a seed's picture is the mean of all other seeds' pictures, whose own
+variance is taken off: each square error is without bias."""
 import argparse
 import json
 import math
 import os
 import sys
 import tempfile
+import time
 from array import array
 
 import denoiser
@@ -132,6 +134,18 @@ def measure(folder, scene, seeds, options=(), budgets=tuple(BUDGETS)):
     return cells
 
 
+def fill(folder, scenes, seeds, options, minutes):
+    """Renders seed by seed what is to be judged; how many seeds all scenes have."""
+    until = time.monotonic() + 60 * minutes
+    for seed in range(1, seeds + 1):
+        if time.monotonic() > until:
+            return seed - 1
+        for scene in scenes:
+            for part in SLICES:
+                Seeds(folder, scene, options).slice(seed, *part)
+    return seeds
+
+
 def show(cells):
     for cell in cells:
         print(cell.row(cell is cells[0]), cell, sep="\n    ", file=sys.stderr, flush=True)
@@ -140,13 +154,17 @@ def show(cells):
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("--seeds", type=int, default=SEEDS)
+    parser.add_argument("--minutes", type=float, default=math.inf)
     parser.add_argument("--keep")
     parser.add_argument("--clamp")
     parser.add_argument("scenes", nargs="*", default=SCENES)
     args = parser.parse_args()
+    options = ["--clamp", args.clamp] if args.clamp else []
     with tempfile.TemporaryDirectory() as passing:
+        folder = args.keep or passing
+        seeds = fill(folder, args.scenes, args.seeds, options, args.minutes)
         for scene in args.scenes:
-            show(measure(args.keep or passing, scene, args.seeds, ["--clamp", args.clamp] if args.clamp else []))
+            show(measure(folder, scene, seeds, options))
 
 
 if __name__ == "__main__":
