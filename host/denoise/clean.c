@@ -6,6 +6,8 @@
 #include "denoise/blend.h"
 #include "film/pixel.h"
 
+#define OFF 0.05 /* weights under it make of the noise 2.5 % at most: the denoiser is called off there */
+
 typedef struct work {
     const ec_film *film;
     const float *const *half;
@@ -48,6 +50,29 @@ static void finish_row(work *w, uint32_t y, ec_judged *judged, ec_pixel *pixels,
                                     a * a * j->clean_variance + b * b * j->noisy_variance, plain, plain * plain, b * b * j->noisy, a * a * j->noise};
         ec_judged_join(&sums->clean, &clean);
         ec_judged_join(&sums->best, &best);
+    }
+}
+
+/* The middle of a tile in one direction. */
+static uint32_t middle(uint32_t tile, uint32_t pixels)
+{
+    const uint32_t first = tile * EC_BLEND_TILE, end = first + EC_BLEND_TILE;
+    return (first + (end < pixels ? end : pixels)) / 2;
+}
+
+static void count_tiles(const work *w, ec_denoised *out)
+{
+    double harm = 0;
+    out->tiles = w->blend.columns * w->blend.rows;
+    for (uint32_t i = 0; i < out->tiles; i++) {
+        const ec_tile_sums t = ec_blend_sums(&w->blend.tiles[i]);
+        out->nearer += t.clean < t.noisy;
+        if (w->blend.tiles[i].weight >= OFF) continue;
+        out->off++;
+        if (out->off > 1 && t.clean - t.noisy <= harm) continue;
+        harm = t.clean - t.noisy;
+        out->off_x = middle(i % w->blend.columns, w->film->width);
+        out->off_y = middle(i / w->blend.columns, w->film->height);
     }
 }
 
@@ -94,12 +119,7 @@ static void tell(const work *w, const row_sums *sums, const ec_film_error *noisy
     out->noisy = noisy->error;
     out->noise = sqrt(sums->noise / pixels) / noisy->mean_luminance;
     out->bias = sqrt(fmax(out->clean.error * out->clean.error - out->noise * out->noise, 0));
-    out->tiles = w->blend.columns * w->blend.rows;
-    for (uint32_t i = 0; i < out->tiles; i++) {
-        const ec_tile_sums t = ec_blend_sums(&w->blend.tiles[i]);
-        out->nearer += t.clean < t.noisy;
-        out->off += w->blend.tiles[i].weight == 0;
-    }
+    count_tiles(w, out);
 }
 
 ec_result ec_clean_make(const ec_film *film, const float *const half[2], const ec_film_error *noisy, const ec_film_clean *into, ec_denoised *out,

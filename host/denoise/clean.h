@@ -10,7 +10,8 @@ typedef struct ec_denoised {
     ec_stated_error clean, best;   /* of the denoised picture, and of the one that takes of both what is nearer to the truth */
     double noise, bias;            /* of the denoised one: its squared error is the sum of their squares */
     double noisy;                  /* the error of the picture itself, for comparison */
-    uint32_t tiles, nearer, off;   /* of 16 x 16 pixels; where the denoised one is nearer to the truth; where the best one takes nothing of it */
+    uint32_t tiles, nearer, off;   /* of 16 x 16 pixels; where the denoised one is nearer to the truth; where the best one takes next to nothing of it */
+    uint32_t off_x, off_y;         /* the middle of the tile among these that the denoiser would harm most */
     double seconds;
     char library[32];              /* "Open Image Denoise 2.5.1" */
 } ec_denoised;

@@ -19,7 +19,7 @@ static void print_best(const ec_denoised *d, FILE *to)
 {
     fprintf(to, "best     error %s", in_words(&d->best).text);
     if (d->off == d->tiles) fprintf(to, ": the denoiser is off everywhere\n");
-    else if (d->off) fprintf(to, "; the denoiser is off in %u of %u tiles, where the noisy picture is nearer to the truth\n", d->off, d->tiles);
+    else if (d->off) fprintf(to, "; the denoiser is off in %u of %u tiles, where the noisy picture is nearer to the truth, most so around pixel %u, %u\n", d->off, d->tiles, d->off_x, d->off_y);
     else fprintf(to, "; a blend by tiles of both\n");
 }
 
@@ -62,6 +62,7 @@ void ec_denoised_json(cJSON *root, const ec_denoised *d)
             EC_REAL("seconds", d->seconds), EC_STRING("library", d->library));
     add_stated(best, &d->best);
     EC_JSON(best, EC_WHOLE("tiles_off", d->off));
+    if (d->off) EC_JSON(best, EC_WHOLE("off_x", d->off_x), EC_WHOLE("off_y", d->off_y));
 }
 
 void ec_denoised_attributes(ec_report_attributes *to, const ec_denoised *d)

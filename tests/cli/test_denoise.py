@@ -47,6 +47,8 @@ class Denoise(Case):
             self.assertLessEqual(one["error"], one["high95"])
         self.assertAlmostEqual(math.hypot(clean["bias"], clean["noise"]), clean["error"], delta=1e-9)
         self.assertEqual(clean["tiles"], 9)
+        self.assertGreater(best["tiles_off"], 0)  # at the edges of the lamp
+        self.assertTrue(0 <= best["off_x"] < 48 and 0 <= best["off_y"] < 40)
         self.assertLess(best["error"], 1.25 * min(clean["error"], report["error"]))  # 1920 pixels do not tell it better
         for key in ("error", "low95", "high95"):
             self.assertAlmostEqual(attributes["eclat.denoised." + key], clean[key], delta=1e-12)
@@ -99,7 +101,7 @@ class Denoise(Case):
         run = self.assert_ok(eclat("render", *JOB, "--spp", "64", "--denoise", "-o", self.path("a.exr"), env=self.oidn))
         number = r"[\d.]+ %"
         self.assertRegex(run.stdout, rf"denoised error {number} \(95 % interval {number} to {number}\), bias {number}, noise {number}; .*nearer to the truth in \d of 9 tiles")
-        self.assertRegex(run.stdout, rf"best     error {number} \(95 % interval {number} to {number}\)")
+        self.assertRegex(run.stdout, rf"best     error {number} \(95 % interval {number} to {number}\); the denoiser is off in \d of 9 tiles, .* around pixel \d+, \d+\n")
 
     def test_too_few_samples(self):
         """There is a picture, but none that is denoised, and why is said."""
@@ -152,7 +154,7 @@ class Denoise(Case):
             self.assertIn("install the system's package", line)
             self.assertIn("pip install pyoidn", line)
             run = self.assert_ok(eclat("render", *JOB, "--denoise", "--spp", "16", "-o", self.path("b.exr"), env=nowhere))
-            self.assertIn("note: Intel's Open Image Denoise is not installed ('pip install pyoidn')", run.stderr)
+            self.assertIn("note: Intel's Open Image Denoise is not installed (the system's package of it, version 2, or 'pip install pyoidn')", run.stderr)
             self.assertEqual(read_exr(self.path("b.exr"))[0]["eclat.denoised.library"], "a-trous filter")
         with open(self.path("libOpenImageDenoise.so.2"), "w", encoding="utf-8") as file:
             file.write("no library")

@@ -158,6 +158,7 @@ static void check_exact(void)
     CHECK_NEAR(d.clean.high95, real, 1e-5 * real);
     CHECK(d.best.error < 1e-6 && real_error(best) < 1e-6);
     CHECK(d.off > 0 && d.nearer == 0); /* where stripes are the denoiser is off; elsewhere both are alike */
+    CHECK(d.off_x > 16 && d.off_x < WIDTH && d.off_y >= HEIGHT / 2 && d.off_y < HEIGHT);
     ec_film_destroy(&film);
 }
 

@@ -213,7 +213,7 @@ typedef struct eclat_stated_error {
 typedef struct eclat_denoised {
     eclat_stated_error denoised, best;
     double bias, noise;                        /* of the denoised one: its squared error is the sum of their squares */
-    uint32_t tiles, tiles_nearer, tiles_off;   /* of 16 x 16 pixels: where the denoised one is nearer to the truth; where the best one has nothing of it */
+    uint32_t tiles, tiles_nearer, tiles_off;   /* of 16 x 16 pixels: where the denoised one is nearer to the truth; where the best one has under 5 % of it */
     const char *why;                           /* why there is none, in words; NULL: there is one */
 } eclat_denoised;
 eclat_denoised eclat_picture_get_denoised(const eclat_picture *picture);
