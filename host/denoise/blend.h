@@ -8,7 +8,7 @@ enum { EC_BLEND_TILE = 16 };
 
 /* Sums over pixels of a tile. */
 typedef struct ec_tile_sums {
-    double pixels, clean, noisy, apart, noise, gain, variance, plains; /* the last two: of `gain` */
+    double pixels, clean, noisy, apart, noise, gain, gain_apart, variance, plains; /* the last two: of `gain` */
     double noisy_squares;         /* of single pixels' `noisy` */
 } ec_tile_sums;
 
@@ -18,10 +18,11 @@ typedef struct ec_blend_tile {
     double slope;                 /* by which it falls where what it goes by is higher by 1; 0: it is at an end */
 } ec_blend_tile;
 
-/* Pixels between the middles of four tiles, or beyond the outer ones: sums of what their weights make of the error, which is quadratic in them. Corners
- * are left and right above, left and right below. */
+/* Pixels between the middles of four tiles, or beyond the outer ones: sums of what their weights make of the error, which is quadratic in them;
+ * together: the covariance of linear[i] and square[i][i]; variance: of linear[i]; apart_variance: of the sum of square[i]. Corners are left and right
+ * above, left and right below. */
 typedef struct ec_blend_cell {
-    double square[4][4], linear[4], variance[4], plains[4];
+    double square[4][4], linear[4], together[4], variance[4], apart_variance[4], plains[4];
 } ec_blend_cell;
 
 typedef struct ec_blend {
@@ -43,7 +44,8 @@ void ec_blend_choose(ec_blend *blend);
 static inline ec_tile_sums ec_blend_sums(const ec_blend_tile *t)
 {
     const ec_tile_sums *a = &t->half[0], *b = &t->half[1];
-    return (ec_tile_sums){a->pixels + b->pixels, a->clean + b->clean, a->noisy + b->noisy, a->apart + b->apart, a->noise + b->noise, a->gain + b->gain,
+    return (ec_tile_sums){a->pixels + b->pixels, a->clean + b->clean, a->noisy + b->noisy, a->apart + b->apart,
+                          a->noise + b->noise, a->gain + b->gain, a->gain_apart + b->gain_apart,
                           a->variance + b->variance, a->plains + b->plains, a->noisy_squares + b->noisy_squares};
 }
 

@@ -28,7 +28,7 @@
  * nothing of b, so that (D(a) - D(b)) (a - b) / 4 has its expectation, and no error of the denoiser's own in it: `gain` is Var p less that. Where D is as
  * good as constant, c - m = B and p - m = e, q = (B - e)^2 and what gain is of this picture, e^2 - B e, go together: less the estimate of Var p, by
  * 2 Var p (B^2 + Var p) but for the third moment. With q, with s for Var p and with an estimate of (Var p)^2 that is made of four different replicates,
- * 2 ((q - s) s + (Var p)^2 (n + 1) / (n - 1)) has that expectation, whatever the fourth moment is.
+ * 2 ((q - s) s + (Var p)^2 (n + 1) / (n - 1)) has that expectation, whatever the fourth moment is. The variance of q is twice that less 2 (Var p)^2.
  *
  * The guides are the same for both halves and made of some of their samples; what comes of that is less than these trials can see:
  * tests/cli/denoise_seeds.py. */
@@ -134,6 +134,7 @@ static ec_judged judge(const double *y, uint32_t n, const float *a, const float 
     const double fourth = square_of_variance(y, n, mean) / (n * n);
     j.gain_variance = j.noisy * j.noisy - fourth + of_shared;
     j.gain_apart = 2 * ((j.apart - j.noisy) * j.noisy + fourth * (n + 1) / (n - 1));
+    j.apart_variance = 2 * j.gain_apart - 2 * fourth;
     j.noisy_variance = j.noisy_plain * n / (n + 1); /* of pixels that are normal; E[s^4] exceeds v^2 by that much */
     return j;
 }

@@ -22,6 +22,7 @@ typedef struct ec_judged {
     double clean_variance, noisy_variance; /* of the two estimates: without bias … */
     double gain_variance;          /* of that, as an estimate of what is expected … */
     double gain_apart;             /* … and the covariance of `apart` with what it misses of this very picture's */
+    double apart_variance;         /* of `apart`, as far as the noisy picture makes it */
     double clean_plain, noisy_plain, gain_plain; /* … and by the replicates' variance as it is: too large where samples are rare and bright, never too small by one that came once */
 } ec_judged;
 

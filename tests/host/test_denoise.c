@@ -215,19 +215,31 @@ static void check_weights(void)
     ec_blend_free(&blend);
 }
 
-/* The weight of a picture whose denoised error nothing is known of: `count` pixels of noise 1 that the two pictures are so far apart in, squared. */
-static double weigh(uint32_t count, double apart)
+/* The weight of a picture that has so many pixels like this one, and others that say nothing. */
+static double weigh_like(uint32_t count, ec_judged pixel)
 {
     static ec_judged row[EC_BLEND_TILE];
     ec_blend blend;
     ec_error err;
     CHECK_OK(ec_blend_create(&blend, EC_BLEND_TILE, 1, &err), err);
-    for (uint32_t x = 0; x < EC_BLEND_TILE; x++) row[x] = x < count ? (ec_judged){.noisy = 1, .apart = apart, .gain_variance = 1e9} : (ec_judged){0};
+    for (uint32_t x = 0; x < EC_BLEND_TILE; x++) row[x] = x < count ? pixel : (ec_judged){0};
     ec_blend_add_row(&blend, 0, row, EC_BLEND_TILE);
     ec_blend_choose(&blend);
     const double weight = blend.tiles[0].weight;
     ec_blend_free(&blend);
     return weight;
+}
+
+/* Where nothing is known of the denoised picture's error: pixels of noise 1 that the two pictures are so far apart in, squared. */
+static double weigh(uint32_t count, double apart) { return weigh_like(count, (ec_judged){.noisy = 1, .apart = apart, .gain_variance = 1e9}); }
+
+/* Pixels alike of noise 1, by which the two pictures' difference of 4 strays: of p of them the weight is (p - 2) / p of a quarter, and not under 0. */
+static void check_few(void)
+{
+    const ec_judged pixel = {.noisy = 1, .gain = 1, .apart = 4, .gain_apart = 2 * 4};
+    CHECK_NEAR(weigh_like(1, pixel), 0, 1e-9);
+    CHECK_NEAR(weigh_like(4, pixel), 0.125, 1e-9);
+    CHECK_NEAR(weigh_like(16, pixel), 0.25 * 14 / 16, 1e-9);
 }
 
 /* Pictures that are further apart than twice the noise: in one pixel chance may do that, in many it says that the denoised picture is the worse one. */
@@ -272,6 +284,7 @@ int main(void)
     check_reach();
     check_weights();
     check_whole();
+    check_few();
     check_alike();
     check_stated("normal", draw_normal, 0.5, 8, 1, films, least, most, true);
     check_stated("wide filter", draw_normal, 1.5, 8, 2, films, least, most, true);
