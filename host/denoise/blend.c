@@ -11,7 +11,7 @@
  * But q is of this very picture: its noise makes q and g larger together, so that g over q promises too much where it is large. b_i is worth
  * b_i - C_i / A_ii, C_i = sum of Cov(q, g) B_i^3 the covariance of both: of p pixels alike (p - 2) / p of it (James and Stein 1961), and nothing where one
  * pixel decides. At the lamps of Veach's plates the denoiser makes one pixel's error three times what it was, at 64 samples nine times: `best` was 5.5 %
- * worse than the noisy picture with t (64 samples, 15 seeds), 2.1 % and at 16 samples 6.7 % with g alone, and with this 0.5 % and 0.1 % better (20 seeds).
+ * worse than the noisy picture with t (64 samples, 15 seeds), with g alone 2.1 % and at 16 samples 6.7 % (20 seeds), and as it is -0.3 % and 1.2 % (38 seeds).
  *
  * Whether a denoiser pays at all is not always told: where single samples make the noise, s strays by more than itself. The weight of the whole picture is
  * drawn in the same way, by WHOLE, to that of either picture. A denoiser follows the noise, not its opposite: t >= q - s, and q is known. Where q
@@ -19,7 +19,7 @@
  * freedom whose centre is off by 1, of variance 6 s^2, and the estimate of s adds 4 * 2 s^2 / (n - 1): q - 2 s strays by the square root of 7 sum s^2,
  * with eight replicates. The weight is drawn to 1, as denoising mostly pays, but to 0 where q - 2 s is that far over 0, and in between where it is less.
  * Where one lamp's pixel makes all the noise, q is 3 s by chance. Without such a draw `best` was 14 % worse than the better of both in
- * scenes/lamps; with one that goes by q over s alone 2.1 % in scenes/lamps with --clamp 10, with this one 0.7 % (16 samples, 100 seeds).
+ * scenes/lamps; with one that goes by q over s alone 2.1 % in scenes/lamps with --clamp 10, with this one 0.7 % (16 samples, 100 seeds, weights by t).
  *
  * The variances of b_i and A_ii make that of a weight, V / A^2, V = Var b + w^2 Var A, w that of the whole picture: even where both are alike and 1 is
  * right, s over q strays about it. A weight that goes by its own surroundings alone would follow the noise, so that it is drawn to the weight of the whole
