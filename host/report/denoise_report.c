@@ -19,7 +19,8 @@ static void print_best(const ec_denoised *d, FILE *to)
 {
     fprintf(to, "best     error %s", in_words(&d->best).text);
     if (d->off == d->tiles) fprintf(to, ": the denoiser is off everywhere\n");
-    else if (d->off) fprintf(to, "; the denoiser is off in %u of %u tiles, where the noisy picture is nearer to the truth, most so around pixel %u, %u\n", d->off, d->tiles, d->off_x, d->off_y);
+    else if (d->off) fprintf(to, "; the denoiser is off in %u of %u tiles, where the noisy picture is nearer to the truth, most so around pixel %u, %u\n",
+                             d->off, d->tiles, d->off_x, d->off_y);
     else fprintf(to, "; a blend by tiles of both\n");
 }
 
