@@ -59,6 +59,7 @@ class LightTracing(OtherWay):
     def test_rectangle(self):
         self.assert_lit_alike("rectangle")
 
+    @full
     def test_range(self):
         """What a window leaves of a light's reach counts at its first surface."""
         self.assert_lit_alike("range")
