@@ -1,8 +1,8 @@
-"""usage: python3 denoise_seeds.py [--seeds N] [--minutes M] [--keep FOLDER] [--clamp LIMIT] [SCENE ...]
+"""usage: python3 denoise_seeds.py [--seeds N] [--keep FOLDER] [--clamp LIMIT] [SCENE ...]
 How far denoised pictures of many seeds are from the truth, and how often the stated intervals hold it. Prints rows of docs/denoise.md's table.
 
-What was rendered is kept in FOLDER, as slices: after a change of host/denoise they are merged and judged anew, and no path is traced. With --minutes
-no seed is begun once they are over, and all scenes have as many. The truth of a seed's picture is the mean of all other seeds' pictures, whose own
+What was rendered is kept in FOLDER, as slices: after a change of host/denoise they are merged and judged anew, and no path is traced. Ctrl-C
+while it renders ends with the seeds that all scenes have. The truth of a seed's picture is the mean of all other seeds' pictures, whose own
 variance is taken off: each square error is without bias."""
 import argparse
 import json
@@ -10,7 +10,6 @@ import math
 import os
 import sys
 import tempfile
-import time
 from array import array
 
 import denoiser
@@ -54,7 +53,9 @@ class Seeds:
     def slice(self, seed, first, end):
         path = f"{self.stem}-{seed}-{first}-{end}.exr"
         if not os.path.exists(path):  # --denoise: first hits of 64 samples
-            run("render", self.path, *self.options, "--seed", str(seed), "--samples", f"{first}:{end}", "--denoise=atrous", "-q", "-o", path)
+            part = os.path.join(self.folder, "part.exr")
+            run("render", self.path, *self.options, "--seed", str(seed), "--samples", f"{first}:{end}", "--denoise=atrous", "-q", "-o", part)
+            os.rename(part, path)
         return path
 
     def picture(self, seed, spp):
@@ -134,15 +135,15 @@ def measure(folder, scene, seeds, options=(), budgets=tuple(BUDGETS)):
     return cells
 
 
-def fill(folder, scenes, seeds, options, minutes):
-    """Renders seed by seed what is to be judged; how many seeds all scenes have."""
-    until = time.monotonic() + 60 * minutes
+def fill(folder, scenes, seeds, options):
+    """Renders seed by seed what is to be judged; how many seeds all scenes have. Ctrl-C: no more than that."""
     for seed in range(1, seeds + 1):
-        if time.monotonic() > until:
+        try:
+            for scene in scenes:
+                for part in SLICES:
+                    Seeds(folder, scene, options).slice(seed, *part)
+        except KeyboardInterrupt:
             return seed - 1
-        for scene in scenes:
-            for part in SLICES:
-                Seeds(folder, scene, options).slice(seed, *part)
     return seeds
 
 
@@ -154,7 +155,6 @@ def show(cells):
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("--seeds", type=int, default=SEEDS)
-    parser.add_argument("--minutes", type=float, default=math.inf)
     parser.add_argument("--keep")
     parser.add_argument("--clamp")
     parser.add_argument("scenes", nargs="*", default=SCENES)
@@ -162,7 +162,7 @@ def main():
     options = ["--clamp", args.clamp] if args.clamp else []
     with tempfile.TemporaryDirectory() as passing:
         folder = args.keep or passing
-        seeds = fill(folder, args.scenes, args.seeds, options, args.minutes)
+        seeds = fill(folder, args.scenes, args.seeds, options)
         for scene in args.scenes:
             show(measure(folder, scene, seeds, options))
 

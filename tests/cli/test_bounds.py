@@ -100,11 +100,13 @@ class Bounds(Case):
             with self.subTest(seed=seed):
                 self.assertIsNotNone(bound)
 
+    @full
     def test_lamp_behind_a_small_hole_is_found(self):
         # a quarter of a per mille of the floor is lit, and brings 15 % of the light
         self.assertGreater(self.unmet(lamp_room(self.path("hole.gltf"), "hole")), 0.05)
         self.assertEqual(self.unmet(lamp_room(self.path("sealed.gltf"), "sealed")), 0)
 
+    @full
     def test_hole_is_found_in_a_scene_of_many_triangles(self):
         # of 60 000 edges 8 192 are tried: taken evenly they passed by those of the hole
         self.assertGreater(self.unmet(sun_room(self.path("hole.gltf"), "hole", rug=100)), 0.1)

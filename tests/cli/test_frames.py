@@ -262,6 +262,7 @@ class Going(FramesCase):
                 file.write(whole)
         self.assertEqual(self.frames("-o", "f.%d.png", scene=scene)[1]["skipped"], 4)
 
+    @full
     def test_damaged_frames_are_rendered_again(self):
         scene, outputs = self.sliding(), ["-o", "f.%d.png"]
         hashes = [row["image_sha256"] for row in self.frames(*outputs, scene=scene)[0]]
@@ -388,6 +389,7 @@ class Sharing(FramesCase):
         alone = json.loads(self.render(scene, "--at", "0.5", *command[:-2], "-o", "alone.exr").stdout)
         self.assertEqual(read_exr(self.path("x.2.exr"))[0]["eclat.imageSha256"], alone["image_sha256"])
 
+    @full
     def test_meshes_that_stand_in_many_places_are_built_once(self):
         b = Builder()
         mesh = b.add(GREY, translation=[-1, 0, 0])
@@ -401,6 +403,7 @@ class Sharing(FramesCase):
         for row in rest:
             self.assertEqual((row["meshes_built"], row["meshes_kept"]), (0, 1))
 
+    @full
     def test_other_effects_build_other_programs_and_only_then(self):
         """The lamp goes out between frame 1 and 2: kernels for what the scene calls for are others from then on."""
         b = Builder()

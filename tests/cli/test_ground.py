@@ -64,6 +64,7 @@ class Ground(Case):
         self.assertGreater(1.6, report["shadow_stderr"] / spread)
         self.assertEqual({v for c in "RGB" for v in seen[c]}, {0.0})  # nothing but the shadow
 
+    @full
     def test_no_shadow_where_nothing_is_in_the_way(self):
         """To the bit: both pictures have the same samples. The sun is straight above, so that the shadow is the square itself."""
         self.document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3}]}}
@@ -77,6 +78,7 @@ class Ground(Case):
             self.assertEqual(set(seen["A"]) & {0.0, 1.0}, {0.0, 1.0})
             self.assertLess(sum(0 < x < 1 for x in seen["A"]), N ** 2 / 4)
 
+    @full
     def test_it_stays_while_things_move(self):
         """In all frames under the lowest point that there is at any time: of a square that falls from y = 3 to 1 within a second, and a camera 5 over y = 1. Frames of a range of
         their own have the same bits; the box is 2 x 2 x 2."""

@@ -20,6 +20,7 @@ class Guiding(OtherWay):
         """A ring's caustic, which paths from the camera seldom find by the surface's own directions."""
         self.assert_same_picture([RING, "--size", "32x32"], 128, fewer=3)
 
+    @full
     def test_with_light_paths(self):
         self.assert_same_picture([RING, "--size", "32x32"], 128, fewer=6, extra=["--light-paths", "0.25"])
 
@@ -32,6 +33,7 @@ class Guiding(OtherWay):
     def test_more_bits(self):
         self.assert_same_bits(JOB, [["--lanes", "8"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]])
 
+    @full
     def test_slices_and_resume(self):
         self.assert_slices_and_resume(JOB)
 

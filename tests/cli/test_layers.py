@@ -81,6 +81,7 @@ class Light(Layers):
                 _, same = self.render("c.exr", *groups, *other, scene=LAMPS)
                 self.assertTrue(all(planes[name] == same[name] for name in planes))
 
+    @full
     def test_several_devices_and_an_adaptive_render(self):
         job = ["--light-groups", "all", "--channels", "default,direct,indirect", "--adaptive"]
         _, one = self.render("a.exr", *job, spp="64")
@@ -91,6 +92,7 @@ class Light(Layers):
             self.assertEqual(add_up(one, ["direct", "indirect"], c), one[c])
             self.assertEqual(one["light.lamp." + c], one[c])
 
+    @full
     def test_a_group_is_the_picture_by_its_light_alone(self):
         """Point lights and an environment, each in a render of its own: the sum of pixels within 4 standard errors, their differences
         within 3 of theirs in the mean square."""

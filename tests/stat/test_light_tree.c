@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, full */
 /* Lamps chosen by the tree light the same picture as those chosen by power, whichever way they are found, with less noise. */
 #include "support/lantern_hall.h"
 
@@ -43,7 +43,8 @@ static void check_furnace(void)
 
 int main(void)
 {
-    check_furnace();
+    if (test_tier("quick")) check_furnace();
+    if (!test_tier("full")) TEST_END();
     ec_scene *scene = lantern_hall(4, 12);
     ec_render_options o = options(EC_LIGHTS_BY_POWER, EC_SAMPLE_MIS, 1024, 1);
     case_image power = case_render(scene, &o);
