@@ -13,7 +13,7 @@ typedef struct ec_scene_buffer {
     uint64_t bytes;   /* 0: not allocated */
 } ec_scene_buffer;
 
-enum { EC_SCENE_BUFFERS = 21 };
+enum { EC_SCENE_BUFFERS = 22 };
 
 typedef struct ec_render_effects {
     ec_effects called;   /* by the scene and the options */

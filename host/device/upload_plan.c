@@ -36,6 +36,8 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_EMISSION, pack->emission, 0, {"lights of light paths", EC_FEATURES_FROM_LIGHTS, pack->emission_words * sizeof *pack->emission}},
         {EC_ARG_LIGHT_TRAILS, pack->light_of_prim, 0,
          {"trails of lamps", EC_FEATURE_LIGHT_TREE, pack->light_node_count ? (uint64_t)pack->prim_count * sizeof *pack->light_of_prim : 0}},
+        {EC_ARG_LIGHT_TRAILS, pack->pair_of_prim, 0, /* never both */
+         {"pairs of lamps", EC_FEATURE_LAMP_PAIRS, pack->pair_of_prim ? (uint64_t)pack->prim_count * sizeof *pack->pair_of_prim : 0}},
     };
     const uint32_t count = sizeof all / sizeof *all;
     effects->buffer_count = count;

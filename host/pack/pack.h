@@ -49,6 +49,8 @@ typedef struct ec_pack {
     uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */
     uint32_t light_node_count;     /* 0: lights are chosen by power alone */
     ec_light_node *light_tree;
+    uint32_t lamp_pair_count;      /* of lamps that face opposite ways; 0 with a tree */
+    uint32_t *pair_of_prim;        /* a triangle's partner's place in lights, or EC_NO_ID; NULL: there are no pairs */
     uint32_t lamp_node_count;      /* 0: no lamp is in parts */
     ec_lamp_node *lamp_nodes;      /* of lamps whose texture varies (lamp_parts.h) */
     float lamp_share;              /* lamps' part of all lights' power */

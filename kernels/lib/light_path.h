@@ -210,6 +210,12 @@ EC_FN lane_f light_path_joined_pdf(const lights *l, const geometry *g, lane_i m,
             hit_point h = hit_point_make(g, is ? one.prim : U(0), b1, b2);
             v3 way = v3_sub(p, source), n = v3_normalize(v3_cross(v3_sub(h.p1, h.p0), v3_sub(h.p2, h.p0)));
             h.light_pdf_a *= chance;
+            lane_i paired = is & ((one.kind & EC_LIGHT_PAIRED) != 0u);
+            if (HAS(LAMP_PAIRS) && any_lane(paired)) {
+                light_record other = light_load(l, paired ? pair_partner(one.kind, id) : U(0));
+                lane_f own = pair_chance(one.a, one.b, one.c, one.pdf_a, one.pmf, &other, p);
+                h.light_pdf_a *= paired ? own : F(1.0f);
+            }
             lane_f found = light_found_pdf(g, &h, is, p, v3_dot(way, way), fabs(v3_dot(n, d)));
             pdf = is ? found : pdf;
         }

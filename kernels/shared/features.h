@@ -55,6 +55,7 @@
 #define EC_FEATURE_LAMP_PARTS EC_FEATURE_BIT(44)
 #define EC_FEATURE_LIGHT_PATHS EC_FEATURE_BIT(45)
 #define EC_FEATURE_GUIDING EC_FEATURE_BIT(46)
+#define EC_FEATURE_LAMP_PAIRS EC_FEATURE_BIT(47)
 #define EC_FEATURE_MOTION EC_FEATURE_BIT(49)
 #define EC_FEATURE_INSTANCES EC_FEATURE_BIT(48)
 #define EC_FEATURE_MATCHED EC_FEATURE_BIT(51)
@@ -109,6 +110,7 @@
     X(ENVIRONMENT_TURN, "environment-rotation")                                                    \
     X(LIGHT_TREE, "light-tree")                                                                    \
     X(LAMP_PARTS, "lamp-parts")                                                                    \
+    X(LAMP_PAIRS, "lamp-pairs")                                                                    \
     X(LIGHT_PATHS, "light-paths")                                                                  \
     X(GUIDING, "path-guiding")                                                                     \
     X(MOTION, "motion-blur")                                                                       \

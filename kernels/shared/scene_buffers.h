@@ -131,7 +131,9 @@ EC_ASSERT_SIZE(ec_light_data, 64);
                               and in ec_prim: the area is that at the path's time */
 #define EC_LIGHT_COATED 64u /* dimmed by a clear coat, which goes by the angle */
 #define EC_LIGHT_OPEN 128u  /* coverage leaves some of it open */
-#define EC_LIGHT_PARTS 8u   /* shift: as EC_PRIM_PARTS */
+#define EC_LIGHT_PAIR_FIRST 256u  /* the next light is a triangle that faces the opposite way … */
+#define EC_LIGHT_PAIR_SECOND 512u /* … and the last one is: whichever of both faces the point is chosen */
+#define EC_LIGHT_PARTS 10u  /* shift: first node of its parts, or 0 */
 
 /* A triangle in four: three at its corners, and between them the fourth, turned by half a turn. Of 2^32 numbers each has those from its first
  * one to the next one's; the last one's end where its parent's do. Node 0 is nobody's. */

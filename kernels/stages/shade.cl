@@ -154,6 +154,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                 h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source,
                                                 params->light_tree_numbers, gather_u(light_trails, lamp));
             }
+            if (HAS(LAMP_PAIRS) && light_trails && !light_tree)
+                h.light_pdf_a *= pair_found_chance(&light, light_trails, &h, m & (path_pdf >= 0.0f) & !h.placed, prim, source);
             lane_f pdf = light_found_pdf(&g, &h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = coat_emission(&g, &h, m, wo, surface_emission(&g, &h, m, emission));
             lane_f share = F(0.0f);

@@ -43,6 +43,41 @@ static void check_random_triangles(void)
     }
 }
 
+/* A bulb of eight triangles, of which those that face away are never sampled: beside the point, over it, and so near that some of it is under the
+ * horizon of others. One side is bright. */
+static void check_bulb(int i)
+{
+    static const double middles[3][3] = {{0.4, 1.2, -0.3}, {0, 0.7, 0}, {0.9, 0.35, 0.2}};
+    const double r = 0.3, *middle = middles[i];
+    gltf_writer *w = floor_scene(0.2);
+    const int materials[2] = {gltf_lambert(w, 0, 2), gltf_lambert(w, 0, 5)};
+    double expected = 0;
+    for (int side = 0; side < 8; side++) {
+        double p[3][3];
+        float positions[9];
+        const int sign[3] = {side & 1 ? 1 : -1, side & 2 ? 1 : -1, side & 4 ? 1 : -1}, is_odd = sign[0] * sign[1] * sign[2] < 0;
+        for (int v = 0; v < 3; v++)
+            for (int k = 0; k < 3; k++) p[v][k] = middle[k] + (k == (is_odd ? 2 - v : v) ? sign[k] * r : 0);
+        for (int v = 0; v < 9; v++) positions[v] = (float)p[v / 3][v % 3];
+        gltf_triangles(w, materials[side == 7], &(gltf_mesh){3, positions, NULL, NULL, NULL});
+        double facing = 0; /* the plane's side of the origin */
+        for (int k = 0; k < 3; k++) facing += sign[k] * (middle[k] + sign[k] * r / 3);
+        if (facing < 0) expected += 0.6 * (side == 7 ? 5 : 2) / PI * lambert((const double(*)[3])p, 3, up);
+    }
+    char name[64];
+    snprintf(name, sizeof name, "direct-bulb-%d", i);
+    const char *path = gltf_write(w, name);
+    check_point(path, NULL, expected, SKILLED, 8192, 5e-3);
+    ec_scene *scene = case_load(path, NULL);
+    ec_render_options o = case_options(8, 8, 16);
+    o.max_depth = 2;
+    case_image image = case_render(scene, &o);
+    CHECK(strstr(case_effects(&image), "lamp-pairs"));
+    case_free(&image);
+    ec_scene_free(scene);
+    free(w);
+}
+
 /* KHR_lights_punctual, 1 cd = 1 W/sr: albedo / pi times I cos / d^2, exactly. */
 static void check_punctual(void)
 {
@@ -161,8 +196,11 @@ int main(void)
         check_polylum();
         check_punctual();
         check_constant_environment();
+        check_bulb(0);
     }
     if (!test_tier("full")) TEST_END();
+    check_bulb(1);
+    check_bulb(2);
     check_random_triangles();
     check_single_sided();
     check_hot_texel(20, 6, 0.1f);

@@ -21,7 +21,7 @@ enum { EF_MATERIALS = 7 };
 /* Not a scene's to call for. */
 #define EF_NEVER                                                                                                      \
     (EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LIGHT_TREE | EC_FEATURE_LAMP_PARTS | \
-     EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_MULTISCATTER | EC_FEATURE_FOG)
+     EC_FEATURE_LAMP_PAIRS | EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_MULTISCATTER | EC_FEATURE_FOG)
 
 typedef enum effect_run { EF_SHARED, EF_EXACT } effect_run;
 
