@@ -14,9 +14,8 @@ static uint64_t never_built(const ec_render_options *o, uint64_t without)
 
 static void call_light_paths(const ec_render_options *o, const ec_pack *pack, ec_effects *called)
 {
-    if (!pack->caster_count || !(o->light_paths > 0)) return;
-    if (o->integrator == EC_INTEGRATOR_LIGHT) ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--integrator light");
-    else if (!(called->bits & EC_FEATURE_SCATTERING)) /* which they do not follow */
+    if (o->integrator == EC_INTEGRATOR_LIGHT) ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--integrator light"); /* camera paths ask, too */
+    else if (pack->caster_count && o->light_paths > 0 && !(called->bits & EC_FEATURE_SCATTERING)) /* which they do not follow */
         ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--light-paths %g, aimed at %u bodies that bend or mirror light", o->light_paths,
                         pack->caster_count);
 }
