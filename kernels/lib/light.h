@@ -312,19 +312,18 @@ EC_FN light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
     return s;
 }
 
-/* What a triangle's middle sends to p, for an emission of 1 and as often as it is chosen by power: 0 behind it. */
-EC_FN lane_f pair_weight(v3 a, v3 b, v3 c, lane_f pdf_a, v3 p)
+/* Does a triangle's front look at p? By a point in its middle, so that all who ask get one answer. */
+EC_FN lane_i pair_faces(v3 a, v3 b, v3 c, v3 p)
 {
-    v3 n = v3_cross(v3_sub(b, a), v3_sub(c, a)), way = v3_sub(p, v3_scale(v3_add(a, v3_add(b, c)), F(1.0f / 3.0f)));
-    lane_f d2 = v3_dot(way, way), facing = v3_dot(n, way);
-    return facing > 0.0f ? pdf_a * facing / (d2 * sqrt(d2)) : F(0.0f);
+    v3 way = v3_sub(p, v3_scale(v3_add(a, v3_add(b, c)), F(1.0f / 3.0f)));
+    return v3_dot(v3_cross(v3_sub(b, a), v3_sub(c, a)), way) > 0.0f;
 }
 
-/* How often a triangle is chosen for p, over how often by power: one of a pair shares both's chances by what they send to p. */
-EC_FN lane_f pair_chance(v3 a, v3 b, v3 c, lane_f pdf_a, lane_f pmf, const light_record *other, v3 p)
+/* How often a triangle is chosen for p, over how often by power: where one of a pair looks at p and the other does not, it has both's chances. */
+EC_FN lane_f pair_chance(v3 a, v3 b, v3 c, lane_f pmf, const light_record *other, v3 p)
 {
-    lane_f own = pair_weight(a, b, c, pdf_a, p), both = own + pair_weight(other->a, other->b, other->c, other->pdf_a, p);
-    return both > 0.0f ? (pmf + other->pmf) / pmf * (own / both) : F(1.0f);
+    lane_i own = pair_faces(a, b, c, p), their = pair_faces(other->a, other->b, other->c, p);
+    return own == their ? F(1.0f) : own ? (pmf + other->pmf) / pmf : F(0.0f);
 }
 
 EC_FN lane_u pair_partner(lane_u kind, lane_u id) { return (kind & EC_LIGHT_PAIR_FIRST) != 0u ? id + 1u : id - 1u; }
@@ -339,7 +338,7 @@ EC_FN lane_f pair_found_chance(const lights *l, global const uint *pairs, const 
     light_record other = light_load(l, paired ? partner : U(0));
     v3 n = v3_cross(v3_sub(h->p1, h->p0), v3_sub(h->p2, h->p0));
     lane_f pmf = h->light_pdf_a * 0.5f * sqrt(v3_dot(n, n));
-    return paired ? pair_chance(h->p0, h->p1, h->p2, h->light_pdf_a, pmf, &other, p) : F(1.0f);
+    return paired ? pair_chance(h->p0, h->p1, h->p2, pmf, &other, p) : F(1.0f);
 }
 
 EC_FN light_record light_record_select(lane_i m, light_record a, light_record b)
@@ -349,26 +348,21 @@ EC_FN light_record light_record_select(lane_i m, light_record a, light_record b)
     return r;
 }
 
-/* Takes of a pair the one that faces p: the number that has chosen between both by power does so again, and goes on as u1. */
+/* Takes of a pair the one that looks at p; where both do or none does, the one that was chosen. The number goes on across the whole pair. */
 EC_FN void light_choose_of_pair(const lights *l, lane_i m, v3 p, light_record *one, lane_u *id, lane_f *u1)
 {
     lane_i paired = m & ((one->kind & EC_LIGHT_PAIRED) != 0u), second = (one->kind & EC_LIGHT_PAIR_SECOND) != 0u;
     if (!any_lane(paired)) return;
     lane_u partner = paired ? pair_partner(one->kind, *id) : *id;
     light_record other = light_load(l, partner);
-    lane_f own = pair_chance(one->a, one->b, one->c, one->pdf_a, one->pmf, &other, p);
-    lane_f both = one->pmf + other.pmf, chance = own * one->pmf / both; /* of `one` */
-    lane_f at = (*u1 * one->pmf + (second ? other.pmf : F(0.0f))) / both; /* the first one's part before the other's */
-    lane_f before = second ? 1.0f - chance : chance; /* the first one's new part */
-    lane_i is_first = at < before, stays = is_first != second;
-    lane_f left = is_first ? at / before : (at - before) / (1.0f - before);
-    lane_f scale = both * (stays ? chance : 1.0f - chance);
-    light_record chosen = light_record_select(stays, *one, other);
-    chosen.pdf_a *= scale / chosen.pmf;
-    chosen.pmf = scale;
-    *one = light_record_select(paired, chosen, *one);
-    *id = (paired & !stays) ? partner : *id;
-    *u1 = paired ? clamp(left, F(0.0f), F(0x1.fffffep-1f)) : *u1;
+    lane_i own = pair_faces(one->a, one->b, one->c, p), their = pair_faces(other.a, other.b, other.c, p);
+    lane_i alone = paired & (own != their), leaves = alone & their;
+    lane_f both = one->pmf + other.pmf, at = (*u1 * one->pmf + (second ? other.pmf : F(0.0f))) / both;
+    *one = light_record_select(leaves, other, *one);
+    *id = leaves ? partner : *id;
+    *u1 = alone ? min(at, F(0x1.fffffep-1f)) : *u1;
+    one->pdf_a *= alone ? both / one->pmf : F(1.0f);
+    one->pmf = alone ? both : one->pmf;
 }
 
 /* One light for a point p, and a point or direction on it, by r1 and r2: random 32-bit numbers. */

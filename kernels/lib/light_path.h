@@ -213,7 +213,7 @@ EC_FN lane_f light_path_joined_pdf(const lights *l, const geometry *g, lane_i m,
             lane_i paired = is & ((one.kind & EC_LIGHT_PAIRED) != 0u);
             if (HAS(LAMP_PAIRS) && any_lane(paired)) {
                 light_record other = light_load(l, paired ? pair_partner(one.kind, id) : U(0));
-                lane_f own = pair_chance(one.a, one.b, one.c, one.pdf_a, one.pmf, &other, p);
+                lane_f own = pair_chance(one.a, one.b, one.c, one.pmf, &other, p);
                 h.light_pdf_a *= paired ? own : F(1.0f);
             }
             lane_f found = light_found_pdf(g, &h, is, p, v3_dot(way, way), fabs(v3_dot(n, d)));
