@@ -66,7 +66,7 @@ class NoDenoiser(Case):
             self.assertNotIn("denoise", [rung["id"] for rung in json.load(file)["rungs"]])
 
 
-@full
+@long
 class Caustics(Case):
     def test_light_paths_are_traced(self):
         """In a ring, most of whose noise is a caustic: they take noise away and no light."""

@@ -1,11 +1,11 @@
-# tiers: quick, full
+# tiers: quick, full, long
 """Launches of kernels that are cut into pieces, so that none takes long: on cards, and where ECLAT_LAUNCH_SECONDS says so."""
 import json
 import os
 import unittest
 
 from support import CORNELL, SOURCE, Case, eclat, read_exr
-from tiers import full
+from tiers import full, long
 
 LAMPS = os.path.join(SOURCE, "scenes", "lamps", "lamps.gltf")
 SHORT = {"ECLAT_LAUNCH_SECONDS": "1e-6"}
@@ -61,7 +61,7 @@ class Launches(Case):
             with self.subTest(more=more):
                 self.assert_cut(*size, *more, scene=LAMPS, ECLAT_DEVICE_TYPE="gpu")
 
-    @full
+    @long
     def test_lanes_and_structures(self):
         for more in (["--accel", "bvh2"], ["--accel", "bvh8"], ["--accel", "grid"], ["--accel", "kdtree"]):
             with self.subTest(more=more):

@@ -1,4 +1,4 @@
-# tiers: quick, full
+# tiers: quick, full, long
 """--integrator light: paths from the lights alone make the path tracer's picture of what is matt, whatever shines; mirrors and glass stay black, and a
 note says so."""
 import json
@@ -6,7 +6,7 @@ import struct
 
 from other_way import OtherWay, scene
 from support import CORNELL, data_uri, eclat, read_exr, write_gltf
-from tiers import full
+from tiers import full, long
 
 LAMPS = {"rectangle": (0, "lamp"), "point": (1, {"type": "point", "intensity": 3}), "range": (1, {"type": "point", "intensity": 3, "range": 1.6}),
          "spot": (1, {"type": "spot", "intensity": 9, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}}),
@@ -72,13 +72,17 @@ class LightTracing(OtherWay):
         with self.subTest(lamp="environment"):
             self.assert_lit_alike(None, "--env", "1,0.8,0.5")
 
-    @full
+    @long
     def test_looks(self):
-        """Lens, filter, a depth, roulette, another projection; a pane between the camera and the wall, and light through it; a translucent plate."""
+        """Lens, filter, a depth, roulette, another projection."""
         for options in (["--fstop", "0.5", "--focus", "3"], ["--filter", "blackman-harris"], ["--max-depth", "2"], ["--rr", "0.7"],
                         ["--screen-window", "-0.5,1,-0.3,0.8"], ["--sampler", "independent"]):
             with self.subTest(options=options):
                 self.assert_lit_alike("rectangle", *options)
+
+    @full
+    def test_plates(self):
+        """A pane between the camera and the wall, and light through it; a translucent plate."""
         for name, factor in (("KHR_materials_transmission", {"transmissionFactor": 0.9}), ("KHR_materials_diffuse_transmission", {"diffuseTransmissionFactor": 0.7})):
             with self.subTest(material=name):
                 smooth = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}} if "diffuse" not in name else {}
