@@ -81,7 +81,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
     lights light = {light_table, light_shares, {params, environment_texels, environment_table}, light_tree, emission_table};
     const bool by_light = HAS(LIGHT_PATHS) && params->light_paths > 0.0f && params->sample == EC_SAMPLE_MIS;
-    const bool only_seen = HAS(LIGHT_PATHS) && params->sample == EC_SAMPLE_LIGHT_PATHS; /* paths go on through panes alone */
+    bool only_seen = false; /* paths go on through panes alone */
+    if (HAS(LIGHT_PATHS)) only_seen = params->sample == EC_SAMPLE_LIGHT_PATHS;
 
     lane_i active = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
