@@ -125,7 +125,7 @@ class Clamp(Case):
         for more in [["--lanes", "1"], ["--lanes", "16"], ["--wave", "777"], ["--accel", "bvh2"]]:
             self.assert_same(whole, self.render(*job, "--effects", "needed", *more))
 
-    @full
+    @long
     def test_slices(self):
         _, attributes, _ = self.render("--spp", "101", "--clamp", "1", "--channels", "all", name="whole.exr")
         for i, part in enumerate(["0:26", "26:64", "64:101"]):
@@ -162,7 +162,7 @@ class Clamp(Case):
         spread = math.hypot(uniform["missing_stderr"], whole[0]["clamp"]["missing_stderr"])
         self.assertLess(abs(whole[0]["clamp"]["missing"] - uniform["missing"]), 5 * spread)
 
-    @full
+    @long
     def test_devices(self):
         """Two of PoCL's single-threaded driver, where there is that."""
         whole = self.render("--spp", "101", "--clamp", "1")
@@ -173,7 +173,7 @@ class Clamp(Case):
         self.assert_same(whole, (report, *read_exr(self.path("b.exr"))))
 
     @unittest.skipIf(without_mpi(), "no MPI")
-    @full
+    @long
     def test_ranks(self):
         for job in [["--spp", "101", "--clamp", "1"], ["--spp", "200", "--adaptive", "--clamp", "1"]]:
             whole = self.render(*job)

@@ -118,7 +118,7 @@ class VolumeScatter(Case):
             scene = self.scene_of(material).add(positions, 0, indices=indices, streams=[("NORMAL", 3, normals)])
             self.assert_seen(scene.write(self.path("a.gltf")), [1, 1, 1], "--size", "24x24", "--spp", "128", accuracy=2e-4)
 
-    @full
+    @long
     def test_half_space(self):
         path = self.scene_of(body(ALBEDO, [1, 1, 1])).add(block(3000, 0, -60)).write(self.path("a.gltf"))
         for eye, cosine in ("0,0,9", 1), ("8.660254,0,5", 0.5):
@@ -147,7 +147,7 @@ class VolumeScatter(Case):
     def test_sun_through_the_wall(self):
         self.assert_sun_scattered_once(0.3, spp="64")
 
-    @full
+    @long
     def test_sun_through_the_wall_precisely(self):
         for g in -0.4, 0.7:
             self.assert_sun_scattered_once(g, spp="4096")
@@ -185,7 +185,7 @@ class VolumeScatter(Case):
         ways = [], ["--lanes", "1"], ["--lanes", "8"], ["--effects", "all"], ["--accel", "kdtree"], ["--wave", "4096"]
         self.assertEqual(len({self.render(path, "--size", "32x24", "--spp", "8", *way)["image_sha256"] for way in ways}), 1)
 
-    @full
+    @long
     def test_white_fog_in_white_light(self):
         """Around a white ball and one of glass, which the fog is not in."""
         positions, normals, indices = ball(24, 0, 0.5)

@@ -1,4 +1,4 @@
-# tiers: quick, full
+# tiers: quick, full, long
 """Several devices on one picture: the bits of one device, whatever each of them took; a device that fails loses nothing, a slow one holds
 nobody up. Two or three devices of PoCL's single-threaded driver, which is one more device for each word in POCL_DEVICES, and PoCL beside
 Intel's runtime where tools/test --all-devices has installed that."""
@@ -14,7 +14,7 @@ import unittest
 from faults import SHIM, FaultCase
 from polling import poll_until, poll_writes
 from support import CORNELL, ECLAT, ENVIRONMENT, RING, SOURCE, Case, eclat, read_exr
-from tiers import full
+from tiers import full, long
 
 sys.path.insert(0, os.path.join(SOURCE, "tools"))
 import opencl_devices
@@ -86,7 +86,7 @@ class Several(Case):
         self.render(CORNELL, *SIZE, "--spp", "97", device="1")
         self.assertEqual(read_exr(self.path("a.exr"))[1]["R"], read_exr(self.path("all.exr"))[1]["R"])
 
-    @full
+    @long
     def test_other_integrators_and_lanes(self):
         for options in [["--integrator", "whitted"], ["--integrator", "raster"], ["--lanes", "1", "--accel", "grid"]]:
             with self.subTest(options):
@@ -101,7 +101,7 @@ class Several(Case):
             again = self.render("--resume", kept, "--spp", "96")
             self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
 
-    @full
+    @long
     def test_going_on_within_a_batch_of_one_device(self):
         """Its waves end anywhere in a row of tiles, pieces of several devices at their ends."""
         kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "2048", "--replicates", "1", "--wave", "16384"]  # batches of 32 samples from 256 on, of 64 from 512
