@@ -51,7 +51,7 @@ class Guiding(OtherWay):
     @full
     def test_with_other_options(self):
         """Clamp and adaptive sampling know it, since each sample is a camera path's."""
-        self.assert_same_picture([RING, "--size", "32x32", "--adaptive"], 128, fewer=3)
+        self.assert_same_picture([RING, "--size", "32x32", "--adaptive"], 512, fewer=3)  # with 128 the noise without guiding is not normal yet
         loss = self.render(RING, "--size", "32x32", "--spp", "64", "--guiding", "--clamp", "100")["clamp"]
         self.assertIsNotNone(loss)
 
