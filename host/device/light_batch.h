@@ -7,7 +7,7 @@
 /* Asked between waves; false: stop. */
 typedef bool ec_light_go_on(void *user);
 
-/* What is asked for each pixel, rounded so that a picture has a whole number of paths; at least one. */
+/* Light paths a pixel: as many as asked for, but that a picture of this size has a whole number of them, one at least. */
 float ec_light_paths_a_pixel(double asked, uint32_t width, uint32_t height);
 
 /* Traces params.batch light paths for each of those that a round of samples has, and leaves their light in the splats. *complete: false if

@@ -5,6 +5,7 @@
 
 #include "coat.h"
 #include "environment.h"
+#include "lamp_pairs.h"
 #include "lamp_parts.h"
 #include "light_tree.h"
 #include "spherical_triangle.h"
@@ -12,15 +13,6 @@
 
 #define EC_LIGHTS_FEW 8u     /* so many entries are looked through */
 #define EC_LIGHT_NEAR 0.25f /* squares of two edges over that of the distance */
-
-typedef struct lights {
-    global const float *table; /* ec_light_data by word */
-    global const uint *shares; /* ec_distribution_entry by word: of the table's lights in its order; with a tree of those that are infinitely
-                                  far, which come first, and of all others together */
-    environment env;
-    global const float *tree;  /* ec_light_node by word; NULL: by power alone */
-    global const uint *emission; /* with LIGHT_PATHS: which light sends them (light_path.h) */
-} lights;
 
 typedef struct light_sample {
     v3 wi;           /* unit, towards the light */
@@ -36,49 +28,6 @@ typedef struct light_sample {
     lane_u id;       /* with LIGHT_PATHS or LAYERS: which light; with the first, of a triangle 1 / area */
     lane_f per_area;
 } light_sample;
-
-/* One light's 16 words. */
-typedef struct light_record {
-    v3 a, b, c, emission;
-    lane_u kind, prim;
-    lane_f pmf, pdf_a;
-} light_record;
-
-EC_FN light_record light_load(const lights *l, lane_u id)
-{
-    lane_u at = id * EC_LIGHT_WORDS;
-    quad q0 = gather_quad(l->table, at), q1 = gather_quad(l->table, at + 4u), q2 = gather_quad(l->table, at + 8u),
-         q3 = gather_quad(l->table, at + 12u);
-    light_record r = {v3_make(q0.a, q0.b, q0.c), v3_make(q0.d, q1.a, q1.b), v3_make(q1.c, q1.d, q2.a),
-                      v3_make(q2.b, q2.c, q2.d), as_lane_u(q3.a), as_lane_u(q3.b), q3.c, q3.d};
-    return r;
-}
-
-/* To where it is at the paths' time. Those that do not move are at key 0 of nothing that is used. */
-EC_FN void light_move(const geometry *g, light_record *l)
-{
-    lane_u type = l->kind & EC_LIGHT_KIND_MASK;
-    lane_i moves = (l->kind & EC_LIGHT_MOVES) != 0u, punctual = moves & (type != EC_KIND_TRIANGLE), triangle = moves & !punctual;
-    if (HAS(AREA_LIGHTS) && any_lane(triangle)) {
-        motion_corners(g->motion, g->time, triangle, l->prim, &l->a, &l->b, &l->c);
-        l->pdf_a = triangle ? l->pdf_a * motion_per_area(l->a, l->b, l->c) : l->pdf_a;
-    }
-    if (HAS(PUNCTUAL_LIGHTS) && any_lane(punctual)) {
-        moment t = moment_of(g->motion, g->time);
-        lane_u light = punctual ? l->prim * 2u : U(0);
-        l->a = v3_select(punctual, motion_point(g->motion, EC_MOTION_LIGHTS, light, t), l->a);
-        l->b = v3_select(punctual, v3_normalize(motion_point(g->motion, EC_MOTION_LIGHTS, light + 1u, t)), l->b);
-    }
-}
-
-/* Loads one light for all lanes. */
-EC_FN light_record light_load_one(global const float *table, uint id)
-{
-    global const float *p = table + id * EC_LIGHT_WORDS;
-    light_record r = {v3_make(F(p[0]), F(p[1]), F(p[2])), v3_make(F(p[3]), F(p[4]), F(p[5])), v3_make(F(p[6]), F(p[7]), F(p[8])),
-                      v3_make(F(p[9]), F(p[10]), F(p[11])), U(as_uint(p[12])), U(as_uint(p[13])), F(p[14]), F(p[15])};
-    return r;
-}
 
 /* By how much a traversal may misplace, along each axis, the point that a ray meets on a triangle: u of `reach`, the vertices' ways from
  * the ray's origin, weighted as the point, for each rounding of an edge function and what goes into it, and along the ray those of the
@@ -253,7 +202,7 @@ EC_FN lane_f light_falloff(const light_record *l, lane_f cosine)
     return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT ? cone * cone : F(1.0f);
 }
 
-/* What is left at a squared distance of the light of a range. */
+/* The factor by which a range dims its light at a squared distance: 1 near the light, 0 from the range on. */
 EC_FN lane_f light_range_window(const light_record *l, lane_f d2)
 {
     lane_f inverse_range = l->c.z;
@@ -310,59 +259,6 @@ EC_FN light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
     s.end_normal = v3_select(m, a.end_normal, b.end_normal);
     s.valid = m ? a.valid : b.valid;
     return s;
-}
-
-/* Does a triangle's front look at p? By a point in its middle, so that all who ask get one answer. */
-EC_FN lane_i pair_faces(v3 a, v3 b, v3 c, v3 p)
-{
-    v3 way = v3_sub(p, v3_scale(v3_add(a, v3_add(b, c)), F(1.0f / 3.0f)));
-    return v3_dot(v3_cross(v3_sub(b, a), v3_sub(c, a)), way) > 0.0f;
-}
-
-/* How often a triangle is chosen for p, over how often by power: where one of a pair looks at p and the other does not, it has both's chances. */
-EC_FN lane_f pair_chance(v3 a, v3 b, v3 c, lane_f pmf, const light_record *other, v3 p)
-{
-    lane_i own = pair_faces(a, b, c, p), their = pair_faces(other->a, other->b, other->c, p);
-    return own == their ? F(1.0f) : own ? (pmf + other->pmf) / pmf : F(0.0f);
-}
-
-EC_FN lane_u pair_partner(lane_u kind, lane_u id) { return (kind & EC_LIGHT_PAIR_FIRST) != 0u ? id + 1u : id - 1u; }
-#define EC_LIGHT_PAIRED (EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND)
-
-/* The chance of triangle h, met from p, over that by power; pairs: its partner's place in the table, by triangle. */
-EC_FN lane_f pair_found_chance(const lights *l, global const uint *pairs, const hit_point *h, lane_i m, lane_u prim, v3 p)
-{
-    lane_u partner = gather_u(pairs, m ? prim : U(0));
-    lane_i paired = m & (partner != EC_NO_ID) & (h->light_pdf_a > 0.0f);
-    if (!any_lane(paired)) return F(1.0f);
-    light_record other = light_load(l, paired ? partner : U(0));
-    v3 n = v3_cross(v3_sub(h->p1, h->p0), v3_sub(h->p2, h->p0));
-    lane_f pmf = h->light_pdf_a * 0.5f * sqrt(v3_dot(n, n));
-    return paired ? pair_chance(h->p0, h->p1, h->p2, pmf, &other, p) : F(1.0f);
-}
-
-EC_FN light_record light_record_select(lane_i m, light_record a, light_record b)
-{
-    light_record r = {v3_select(m, a.a, b.a), v3_select(m, a.b, b.b), v3_select(m, a.c, b.c), v3_select(m, a.emission, b.emission),
-                      m ? a.kind : b.kind, m ? a.prim : b.prim, m ? a.pmf : b.pmf, m ? a.pdf_a : b.pdf_a};
-    return r;
-}
-
-/* Takes of a pair the one that looks at p; where both do or none does, the one that was chosen. The number goes on across the whole pair. */
-EC_FN void light_choose_of_pair(const lights *l, lane_i m, v3 p, light_record *one, lane_u *id, lane_f *u1)
-{
-    lane_i paired = m & ((one->kind & EC_LIGHT_PAIRED) != 0u), second = (one->kind & EC_LIGHT_PAIR_SECOND) != 0u;
-    if (!any_lane(paired)) return;
-    lane_u partner = paired ? pair_partner(one->kind, *id) : *id;
-    light_record other = light_load(l, partner);
-    lane_i own = pair_faces(one->a, one->b, one->c, p), their = pair_faces(other.a, other.b, other.c, p);
-    lane_i alone = paired & (own != their), leaves = alone & their;
-    lane_f both = one->pmf + other.pmf, at = (*u1 * one->pmf + (second ? other.pmf : F(0.0f))) / both;
-    *one = light_record_select(leaves, other, *one);
-    *id = leaves ? partner : *id;
-    *u1 = alone ? min(at, F(0x1.fffffep-1f)) : *u1;
-    one->pdf_a *= alone ? both / one->pmf : F(1.0f);
-    one->pmf = alone ? both : one->pmf;
 }
 
 /* One light for a point p, and a point or direction on it, by r1 and r2: random 32-bit numbers. */
