@@ -17,22 +17,30 @@
 #define WORTH_SPLITTING 0.7 /* two spheres for one, where they are so much smaller together */
 
 /* Panes bend none, nor do bodies of index 1. */
+bool ec_material_bends(const ec_material *m) { return ec_refracts(m) && m->ior != 1.0f && m->transmission > 0.1f; }
+
 bool ec_material_casts(const ec_scene *scene, const ec_material *m)
 {
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
     if (m->unlit || m->roughness * least > SHARP_ROUGHNESS) return false;
-    return (ec_refracts(m) && m->ior != 1.0f && m->transmission > 0.1f) || m->metallic > 0.5f;
+    return ec_material_bends(m) || m->metallic > 0.5f;
+}
+
+bool *ec_scene_casters(const ec_scene *scene)
+{
+    bool *casts = calloc(scene->material_count + (size_t)1, sizeof *casts), any = false;
+    for (uint32_t m = 0; m < scene->material_count; m++) any |= ec_material_casts(scene, &scene->materials[m]);
+    if (!casts || !any) return casts;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) casts[scene->triangle_material[t]] = true;
+    for (uint32_t m = 0; m < scene->material_count; m++) casts[m] = casts[m] && ec_material_casts(scene, &scene->materials[m]);
+    return casts;
 }
 
 bool ec_scene_casts(const ec_scene *scene)
 {
-    for (uint32_t m = 0; m < scene->material_count; m++) {
-        if (!ec_material_casts(scene, &scene->materials[m])) continue;
-        for (uint32_t t = 0; t < scene->triangle_count; t++)
-            if (scene->triangle_material[t] == m) return true;
-    }
-    return false;
+    EC_FREED bool *casts = ec_scene_casters(scene);
+    return casts && memchr(casts, true, scene->material_count);
 }
 
 typedef struct box {

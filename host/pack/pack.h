@@ -49,7 +49,7 @@ typedef struct ec_pack {
     uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */
     uint32_t light_node_count;     /* 0: lights are chosen by power alone */
     ec_light_node *light_tree;
-    uint32_t lamp_pair_count;      /* of lamps that face opposite ways; 0 with a tree */
+    uint32_t lamp_pair_count;      /* of lamps that face opposite ways: lamp_pairs.h */
     uint32_t *pair_of_prim;        /* a triangle's partner's place in lights, or EC_NO_ID; NULL: there are no pairs */
     uint32_t lamp_node_count;      /* 0: no lamp is in parts */
     ec_lamp_node *lamp_nodes;      /* of lamps whose texture varies (lamp_parts.h) */
@@ -125,6 +125,10 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 /* Does a material, or anything, bend light, or mirror most of it, within a narrow lobe? */
 bool ec_material_casts(const ec_scene *scene, const ec_material *material);
 bool ec_scene_casts(const ec_scene *scene);
+/* Of what casts: does it bend light, rather than mirror it? */
+bool ec_material_bends(const ec_material *material);
+/* By material: does a surface of it cast? To be freed; NULL without memory. */
+bool *ec_scene_casters(const ec_scene *scene);
 /* What light paths are aimed at. */
 typedef enum ec_aim {
     EC_AIM_CASTERS,

@@ -1,6 +1,5 @@
 /* What light paths would be aimed at, in a scene's report. */
 #include <stdbool.h>
-#include <stdlib.h>
 
 #include "base/freed.h"
 #include "base/text.h"
@@ -9,24 +8,13 @@
 
 enum { NAMED = 3 };
 
-/* By material: does a surface of it cast? NULL without memory. */
-static bool *find_casters(const ec_scene *scene)
-{
-    bool *casts = calloc(scene->material_count + (size_t)1, sizeof *casts);
-    for (uint32_t t = 0; casts && t < scene->triangle_count; t++) casts[scene->triangle_material[t]] = true;
-    for (uint32_t m = 0; casts && m < scene->material_count; m++) casts[m] = casts[m] && ec_material_casts(scene, &scene->materials[m]);
-    return casts;
-}
-
-static bool bends(const ec_material *m) { return ec_refracts(m) && m->ior != 1.0f; }
-
 /* "bent by material 1 "glass" and 2 more"; how many there are. */
 static uint32_t print_casters(const ec_scene *scene, const bool *casts, bool bent, const char *before, FILE *to)
 {
     uint32_t count = 0;
     for (uint32_t m = 0; m < scene->material_count; m++) {
         const ec_material *material = &scene->materials[m];
-        if (!casts[m] || bends(material) != bent || count++ >= NAMED) continue;
+        if (!casts[m] || ec_material_bends(material) != bent || count++ >= NAMED) continue;
         fprintf(to, "%s%u", count == 1 ? before : ", ", m);
         if (material->name) fprintf(to, " \"%.*s\"", EC_CUT(material->name, 36));
     }
@@ -36,7 +24,7 @@ static uint32_t print_casters(const ec_scene *scene, const bool *casts, bool ben
 
 void ec_caustics_text(const ec_scene_report *report, FILE *to)
 {
-    EC_FREED bool *casts = find_casters(report->scene);
+    EC_FREED bool *casts = ec_scene_casters(report->scene);
     if (!casts) return;
     const uint32_t bent = print_casters(report->scene, casts, true, "caustics    light is bent by material ", to);
     const uint32_t mirrored = print_casters(report->scene, casts, false, bent ? "; mirrored by material " : "caustics    light is mirrored by material ", to);
@@ -48,10 +36,10 @@ void ec_caustics_text(const ec_scene_report *report, FILE *to)
 void ec_caustics_json(const ec_scene_report *report, cJSON *root)
 {
     const ec_scene *scene = report->scene;
-    EC_FREED bool *casts = find_casters(scene);
+    EC_FREED bool *casts = ec_scene_casters(scene);
     cJSON *list = cJSON_AddArrayToObject(root, "caustics");
     for (uint32_t m = 0; casts && m < scene->material_count; m++)
         if (casts[m])
             EC_JSON(ec_json_object(list, NULL), EC_WHOLE("material", m), EC_STRING("name", scene->materials[m].name),
-                    EC_STRING("light", bends(&scene->materials[m]) ? "bent" : "mirrored"));
+                    EC_STRING("light", ec_material_bends(&scene->materials[m]) ? "bent" : "mirrored"));
 }
