@@ -11,6 +11,7 @@
 #include "device/light_batch.h"
 #include "device/pipeline.h"
 #include "device/pixel_filter.h"
+#include "pack/lamp_pairs.h"
 
 static void add_accel_buffers(ec_cargo *cargo, uint32_t which, const ec_accel *accel, bool owned)
 {
@@ -114,10 +115,15 @@ static ec_result add_parts(ec_cargo *cargo, const ec_scene *scene, const ec_rend
     return EC_OK;
 }
 
+/* Do paths look for lamps that stand still? Bounds and sides of others would hold for one moment only. */
+static bool joins_still_lamps(const ec_render_options *o, const ec_pack *pack)
+{
+    return o->integrator == EC_INTEGRATOR_PATH && ec_pipeline_joins(o, pack) && !pack->lamps_move;
+}
+
 static bool wants_light_tree(const ec_render_options *o, const ec_pack *pack)
 {
-    if (!ec_pipeline_joins(o, pack) || o->integrator != EC_INTEGRATOR_PATH || o->light_choice == EC_LIGHTS_BY_POWER) return false;
-    if (pack->lamps_move) return false; /* a tree's bounds would hold for one moment only */
+    if (!joins_still_lamps(o, pack) || o->light_choice == EC_LIGHTS_BY_POWER) return false;
     return o->light_choice != EC_LIGHTS_AUTO || ec_pack_wants_light_tree(pack);
 }
 
@@ -134,6 +140,7 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
         pack->effects.bits &= ~EC_FEATURE_INSTANCES;
         ec_effects_add(&pack->effects, &here);
     }
+    if (joins_still_lamps(o, pack) && !wants_light_tree(o, pack)) EC_TRY(ec_pack_lamp_pairs(pack, err));
     const ec_aim aim = o->integrator == EC_INTEGRATOR_LIGHT ? EC_AIM_SCENE : o->guiding ? EC_AIM_CASTERS_AND_SCENE : EC_AIM_CASTERS;
     if (o->light_paths > 0 || o->guiding) EC_TRY(ec_pack_casters(pack, aim, err));
     if (!ec_traces_paths(o->integrator)) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));

@@ -10,6 +10,8 @@
 
 #include "base/freed.h"
 #include "base/vec3.h"
+#include "pack/distribution.h"
+#include "pack/light_order.h"
 
 #define MOST 8192      /* lamps: each is compared with each */
 #define OPPOSITE -0.7  /* cosine of the normals of a pair */
@@ -50,53 +52,77 @@ static uint32_t find_partner(const ec_light_data *lights, const facing *all, con
     return best;
 }
 
-static void put(ec_light_data *lights, double *power, uint32_t *source, uint32_t at, const ec_light_data *light, double its_power, uint32_t its_source)
+/* By place: its partner's place, or NONE. */
+static uint32_t find_pairs(const ec_light_data *lights, uint32_t count, facing *all, uint32_t *partner)
 {
-    lights[at] = *light;
-    power[at] = its_power;
-    source[at] = its_source;
-}
-
-/* Each pair to where its first one stands. */
-static void move(const ec_light_data *old, const double *old_power, const uint32_t *old_source, const uint32_t *partner, uint32_t count,
-                 ec_light_data *lights, double *power, uint32_t *source)
-{
-    uint32_t at = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t other = partner[i];
-        if (other != NONE && other < i) continue;
-        put(lights, power, source, at, &old[i], old_power[i], old_source[i]);
-        if (other != NONE) {
-            lights[at].kind |= EC_LIGHT_PAIR_FIRST;
-            put(lights, power, source, ++at, &old[other], old_power[other], old_source[other]);
-            lights[at].kind |= EC_LIGHT_PAIR_SECOND;
-        }
-        at++;
-    }
-}
-
-ec_result ec_lamp_pairs_find(ec_light_data *lights, double *power, uint32_t *source, uint32_t count, uint32_t *pairs, ec_error *err)
-{
-    *pairs = 0;
-    if (count < 2 || count > MOST) return EC_OK;
-    EC_FREED facing *all = malloc(count * sizeof *all);
-    EC_FREED uint32_t *partner = malloc(count * sizeof *partner);
-    EC_FREED ec_light_data *old = malloc(count * sizeof *old);
-    EC_FREED double *old_power = malloc(count * sizeof *old_power);
-    EC_FREED uint32_t *old_source = malloc(count * sizeof *old_source);
-    if (!all || !partner || !old || !old_power || !old_source) return ec_fail(err, "out of memory for %u lights", count);
+    uint32_t pairs = 0;
     for (uint32_t i = 0; i < count; i++) all[i] = facing_of(&lights[i]), partner[i] = NONE;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t j = all[i].may && partner[i] == NONE ? find_partner(lights, all, partner, i, count) : NONE;
         if (j == NONE) continue;
         partner[i] = j;
         partner[j] = i;
-        ++*pairs;
+        pairs++;
     }
-    if (!*pairs) return EC_OK;
-    memcpy(old, lights, count * sizeof *old);
-    memcpy(old_power, power, count * sizeof *old_power);
-    memcpy(old_source, source, count * sizeof *old_source);
-    move(old, old_power, old_source, partner, count, lights, power, source);
+    return pairs;
+}
+
+/* Each pair stands where its first one did. order: which light comes to each place. */
+static void find_order(ec_light_data *lights, uint32_t count, const uint32_t *partner, uint32_t *order)
+{
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t other = partner[i];
+        if (other != NONE && other < i) continue;
+        order[at++] = i;
+        if (other == NONE) continue;
+        order[at++] = other;
+        lights[i].kind |= EC_LIGHT_PAIR_FIRST;
+        lights[other].kind |= EC_LIGHT_PAIR_SECOND;
+    }
+}
+
+/* Each light keeps as many numbers as it had. */
+static ec_result move_shares(ec_pack *pack, const uint32_t *order, ec_error *err)
+{
+    const uint32_t count = pack->light_count;
+    EC_FREED uint32_t *numbers = malloc(count * sizeof *numbers);
+    if (!numbers) return ec_fail(err, "out of memory for %u lights", count);
+    for (uint32_t i = 0; i < count; i++) /* the last one's end at 2^32 */
+        numbers[i] = (i + 1 < count ? pack->light_shares[i + 1].first : 0) - pack->light_shares[i].first;
+    for (uint32_t i = 0, first = 0; i < count; first += numbers[order[i++]]) pack->light_shares[i].first = first;
+    ec_distribution_guide(count, pack->light_shares);
     return EC_OK;
+}
+
+/* What knows lights by their places. */
+static ec_result move_prims(ec_pack *pack, const uint32_t *order, uint32_t *place, ec_error *err)
+{
+    for (uint32_t i = 0; i < pack->light_count; i++) place[order[i]] = i;
+    pack->pair_of_prim = malloc((pack->prim_count + (size_t)1) * sizeof *pack->pair_of_prim);
+    if (!pack->pair_of_prim) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
+    for (uint32_t p = 0; p < pack->prim_count; p++) {
+        uint32_t *light = &pack->light_of_prim[p];
+        if (*light != EC_NO_ID) *light = place[*light];
+        const bool is = *light != EC_NO_ID && (pack->lights[*light].kind & (EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND));
+        pack->pair_of_prim[p] = is ? ec_lamp_partner(pack->lights, *light) : EC_NO_ID;
+    }
+    return EC_OK;
+}
+
+ec_result ec_pack_lamp_pairs(ec_pack *pack, ec_error *err)
+{
+    const uint32_t count = pack->light_count;
+    if (count < 2 || count > MOST) return EC_OK;
+    EC_FREED facing *all = malloc(count * sizeof *all);
+    EC_FREED uint32_t *partner = malloc(count * sizeof *partner);
+    EC_FREED uint32_t *order = malloc(count * sizeof *order);
+    if (!all || !partner || !order) return ec_fail(err, "out of memory for %u lights", count);
+    pack->lamp_pair_count = find_pairs(pack->lights, count, all, partner);
+    if (!pack->lamp_pair_count) return EC_OK;
+    find_order(pack->lights, count, partner, order);
+    EC_TRY(ec_light_rearrange(pack->lights, sizeof *pack->lights, order, count, err));
+    EC_TRY(ec_light_rearrange(pack->light_source, sizeof *pack->light_source, order, count, err));
+    EC_TRY(move_shares(pack, order, err));
+    return move_prims(pack, order, partner, err);
 }

@@ -2,12 +2,11 @@
 #ifndef EC_PACK_LAMP_PAIRS_H
 #define EC_PACK_LAMP_PAIRS_H
 
-#include "base/error.h"
-#include "shared/scene_buffers.h"
+#include "pack/pack.h"
 
-/* Puts triangles of one emission that face opposite ways beside each other, marks them in `kind`, and moves power and source along. *pairs: how
- * many there are. Lights are in the order of light_order.h, which each pair's first keeps. */
-ec_result ec_lamp_pairs_find(ec_light_data *lights, double *power, uint32_t *source, uint32_t count, uint32_t *pairs, ec_error *err);
+/* Puts triangles of one emission that face opposite ways beside each other in the table, and marks them in `kind`; chances stay. Where lamps
+ * stand still and no tree is made, which knows by itself what faces a point. Before there are casters. */
+ec_result ec_pack_lamp_pairs(ec_pack *pack, ec_error *err);
 
 /* The place of the other one of a pair. */
 static inline uint32_t ec_lamp_partner(const ec_light_data *lights, uint32_t i) { return lights[i].kind & EC_LIGHT_PAIR_FIRST ? i + 1 : i - 1; }

@@ -77,15 +77,6 @@ static void share_out(ec_pack *pack)
     }
 }
 
-/* A tree knows by itself which lamps face a point. */
-static void forget_pairs(ec_pack *pack)
-{
-    for (uint32_t i = 0; i < pack->light_count; i++) pack->lights[i].kind &= ~(EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND);
-    free(pack->pair_of_prim);
-    pack->pair_of_prim = NULL;
-    pack->lamp_pair_count = 0;
-}
-
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
 {
     uint32_t lamps = lamp_count(pack), n = 0;
@@ -103,7 +94,6 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
     }
     EC_TRY(ec_light_tree_build(bounds, ids, lamps, pack->light_tree, trails, err));
     share_out(pack);
-    forget_pairs(pack);
     pack->light_node_count = 2 * lamps - 1;
     for (uint32_t i = 0; i < lamps; i++) trail_of[ids[i]] = trails[i];
     if (pack->emission) memcpy(pack->emission + ec_emission_trails(pack->light_count), trail_of, pack->light_count * sizeof *trail_of);

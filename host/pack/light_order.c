@@ -55,22 +55,24 @@ static void find_keys(const ec_light_data *lights, uint32_t count, place *places
     }
 }
 
+ec_result ec_light_rearrange(void *items, size_t size, const uint32_t *order, uint32_t count, ec_error *err)
+{
+    EC_FREED char *old = malloc((count + (size_t)1) * size);
+    if (!old) return ec_fail(err, "out of memory for %u lights", count);
+    memcpy(old, items, count * size);
+    for (uint32_t i = 0; i < count; i++) memcpy((char *)items + i * size, old + order[i] * size, size);
+    return EC_OK;
+}
+
 ec_result ec_light_order(ec_light_data *lights, double *power, uint32_t *source, uint32_t count, ec_error *err)
 {
-    EC_FREED place *places = malloc((count + 1) * sizeof *places);
-    EC_FREED ec_light_data *sorted = malloc((count + 1) * sizeof *sorted);
-    EC_FREED double *sorted_power = malloc((count + 1) * sizeof *sorted_power);
-    EC_FREED uint32_t *sorted_source = malloc((count + 1) * sizeof *sorted_source);
-    if (!places || !sorted || !sorted_power || !sorted_source) return ec_fail(err, "out of memory for %u lights", count);
+    EC_FREED place *places = malloc((count + (size_t)1) * sizeof *places);
+    EC_FREED uint32_t *order = malloc((count + (size_t)1) * sizeof *order);
+    if (!places || !order) return ec_fail(err, "out of memory for %u lights", count);
     find_keys(lights, count, places);
     qsort(places, count, sizeof *places, compare);
-    for (uint32_t i = 0; i < count; i++) {
-        sorted[i] = lights[places[i].light];
-        sorted_power[i] = power[places[i].light];
-        sorted_source[i] = source[places[i].light];
-    }
-    memcpy(lights, sorted, count * sizeof *lights);
-    memcpy(power, sorted_power, count * sizeof *power);
-    memcpy(source, sorted_source, count * sizeof *source);
-    return EC_OK;
+    for (uint32_t i = 0; i < count; i++) order[i] = places[i].light;
+    EC_TRY(ec_light_rearrange(lights, sizeof *lights, order, count, err));
+    EC_TRY(ec_light_rearrange(power, sizeof *power, order, count, err));
+    return ec_light_rearrange(source, sizeof *source, order, count, err);
 }

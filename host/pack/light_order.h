@@ -4,12 +4,16 @@
 #define EC_PACK_LIGHT_ORDER_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/error.h"
 #include "shared/scene_buffers.h"
 
 /* The environment or a directional light: no lamp. */
 bool ec_light_is_far(const ec_light_data *light);
+
+/* Puts items[order[i]] in place i, of items of so many bytes. Fails without memory. */
+ec_result ec_light_rearrange(void *items, size_t size, const uint32_t *order, uint32_t count, ec_error *err);
 
 /* Sorts count lights, their powers, and where they come from. Fails without memory. */
 ec_result ec_light_order(ec_light_data *lights, double *power, uint32_t *source, uint32_t count, ec_error *err);

@@ -8,7 +8,6 @@
 #include "base/vec3.h"
 #include "pack/coincident.h"
 #include "pack/distribution.h"
-#include "pack/lamp_pairs.h"
 #include "pack/lamp_parts.h"
 #include "pack/light_order.h"
 #include "pack/pack.h"
@@ -128,11 +127,9 @@ static void balance(light_list *list, ec_pack *pack)
     for (uint32_t i = 0; i < list->count; i++) list->power[i] /= sum[ec_light_is_far(&list->lights[i])];
 }
 
-/* has_pairs: they are looked for. */
-static ec_result finish_table(ec_pack *pack, light_list *list, bool has_pairs, ec_error *err)
+static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
 {
     EC_TRY(ec_light_order(list->lights, list->power, list->source, list->count, err));
-    if (has_pairs) EC_TRY(ec_lamp_pairs_find(list->lights, list->power, list->source, list->count, &pack->lamp_pair_count, err));
     balance(list, pack);
     EC_FREED double *pmf = malloc((list->count + 1) * sizeof *pmf);
     pack->light_shares = malloc((list->count + 1) * sizeof *pack->light_shares);
@@ -179,19 +176,6 @@ static ec_result note_prims(ec_pack *pack, const light_list *list, const bool *e
     return EC_OK;
 }
 
-static ec_result note_pairs(ec_pack *pack, ec_error *err)
-{
-    if (!pack->lamp_pair_count) return EC_OK;
-    pack->pair_of_prim = malloc((pack->prim_count + (size_t)1) * sizeof *pack->pair_of_prim);
-    if (!pack->pair_of_prim) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
-    for (uint32_t p = 0; p < pack->prim_count; p++) {
-        const uint32_t light = pack->light_of_prim[p];
-        const bool is = light != EC_NO_ID && (pack->lights[light].kind & (EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND));
-        pack->pair_of_prim[p] = is ? ec_lamp_partner(pack->lights, light) : EC_NO_ID;
-    }
-    return EC_OK;
-}
-
 static ec_result fill_table(const ec_scene *scene, ec_pack *pack, const bool *emits, const ec_texture_mean *whole, double environment_luminance,
                             light_list *list, ec_error *err)
 {
@@ -206,12 +190,11 @@ static ec_result fill_table(const ec_scene *scene, ec_pack *pack, const bool *em
         list->lights[list->count] = (ec_light_data){.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID};
         list->power[list->count++] = 4.0 * PI * PI * r * r * environment_luminance;
     }
-    EC_TRY(finish_table(pack, list, !scene->motion.segments, err));
+    EC_TRY(finish_table(pack, list, err));
     mark_moving(scene, pack, list);
     for (uint32_t p = 0; p < pack->prim_count; p++)
         if (emits[pack->prims[p].material]) pack->prims[p].light_pdf_a = pack->prims[first[p]].light_pdf_a;
-    EC_TRY(note_prims(pack, list, emits, first, err));
-    return note_pairs(pack, err);
+    return note_prims(pack, list, emits, first, err);
 }
 
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)

@@ -20,8 +20,8 @@ def png(*texels):
 
 
 class Info(Case):
-    def info(self, path):
-        run = self.assert_ok(eclat("info", "--json", path))
+    def info(self, path, *options):
+        run = self.assert_ok(eclat("info", "--json", path, *options))
         return json.loads(run.stdout)
 
     def test_quad(self):
@@ -353,6 +353,11 @@ class Info(Case):
         for word in ["geometry", "triangles", "materials", "lights", "cameras", "extensions", "unsupported", "kernels", "effects",
                      "memory", "BVH"]:
             self.assertRegex(run.stdout, rf"(?m)^{word} ")
+
+    def test_pairs_of_lamps_where_there_is_no_tree(self):
+        for choice, expected in (("power", {"lamp-pairs"}), ("tree", {"light-tree"})):
+            with self.subTest(choice=choice):
+                self.assertEqual({"lamp-pairs", "light-tree"} & set(self.info(RING, "--light-choice", choice)["effects"]), expected)
 
     def test_what_casts_caustics(self):
         found = self.assert_ok(eclat("info", RING)).stdout

@@ -3,22 +3,7 @@
  * each one's power. */
 #include "pack/lamp_pairs.h"
 
-#include "gltf/reader.h"
-#include "pack/pack.h"
-#include "support/gltf_writer.h"
-#include "support/test.h"
-
-static ec_pack pack_of(gltf_writer *w, const char *name)
-{
-    ec_scene *scene;
-    ec_pack pack = {0};
-    ec_error err = {0};
-    CHECK_OK(ec_scene_load(gltf_write(w, name), &scene, NULL, &err), err);
-    CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
-    ec_scene_free(scene);
-    free(w);
-    return pack;
-}
+#include "support/pack_case.h"
 
 static void normal_of(const ec_light_data *l, double n[3])
 {
@@ -50,6 +35,10 @@ static void check_boxes(void)
     gltf_box(w, both, (double[3]){0, 5, 0}, (double[3]){1, 6, 1});
     gltf_quad(w, dim, (double[3]){0, 9, 0}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1});
     ec_pack pack = pack_of(w, "lamp-pairs");
+    ec_error err = {0};
+    CHECK(!pack.lamp_pair_count && !pack.pair_of_prim);
+    for (uint32_t i = 0; i < pack.light_count; i++) CHECK(!(pack.lights[i].kind & (EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND)));
+    CHECK_OK(ec_pack_lamp_pairs(&pack, &err), err);
     uint32_t firsts = 0, alone = 0;
     double sum = 0;
     for (uint32_t i = 0; i < pack.light_count; i++) {
@@ -60,13 +49,12 @@ static void check_boxes(void)
         if (l->kind & EC_LIGHT_PAIR_FIRST) check_pair(&pack, i);
         if (l->kind & EC_LIGHT_TWO_SIDED) CHECK(!(l->kind & EC_LIGHT_PAIR_FIRST) && pack.pair_of_prim[l->prim] == EC_NO_ID);
         CHECK_NEAR((double)l->pdf_a, (double)pack.prims[l->prim].light_pdf_a, 0);
+        const uint32_t end = i + 1 < pack.light_count ? pack.light_shares[i + 1].first : 0;
+        CHECK(pack.light_of_prim[l->prim] == i);
+        CHECK_NEAR((end - pack.light_shares[i].first) * 0x1p-32, (double)l->pmf, 1e-8); /* a float */
     }
     CHECK_MSG(pack.light_count == 38 && firsts == 12 && pack.lamp_pair_count == 12 && alone == 14, "%u lights, %u pairs, %u alone", pack.light_count, firsts, alone);
     CHECK_NEAR(sum, 1, 1e-6);
-    ec_error err = {0};
-    CHECK_OK(ec_pack_light_tree(&pack, &err), err);
-    CHECK(!pack.lamp_pair_count && !pack.pair_of_prim);
-    for (uint32_t i = 0; i < pack.light_count; i++) CHECK(!(pack.lights[i].kind & (EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND)));
     ec_pack_free(&pack);
 }
 
@@ -75,6 +63,8 @@ static void check_panel(void)
     gltf_writer *w = gltf_new();
     gltf_quad(w, gltf_lambert(w, 0, 2), (double[3]){0, 0, 0}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1});
     ec_pack pack = pack_of(w, "lamp-panel");
+    ec_error err = {0};
+    CHECK_OK(ec_pack_lamp_pairs(&pack, &err), err);
     CHECK(pack.light_count == 2 && !pack.lamp_pair_count && !pack.pair_of_prim);
     ec_pack_free(&pack);
 }

@@ -1,21 +1,8 @@
 /* tier: quick */
 /* Lamps that are cut by their textures: the parts tile the lamp, their shares are what their light says, a bright texel is reached, and the power
  * of each lamp is its own. What is even, or lies on another lamp, stays in one piece. */
-#include "gltf/reader.h"
-#include "pack/pack.h"
+#include "support/pack_case.h"
 #include "support/texel_lamp.h"
-
-static ec_pack pack_of(gltf_writer *w, const char *name)
-{
-    ec_scene *scene;
-    ec_pack pack = {0};
-    ec_error err = {0};
-    CHECK_OK(ec_scene_load(gltf_write(w, name), &scene, NULL, &err), err);
-    CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
-    ec_scene_free(scene);
-    free(w);
-    return pack;
-}
 
 static ec_pack pack_lamp(const char *name, int dark, int bright)
 {
