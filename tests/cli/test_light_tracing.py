@@ -109,6 +109,16 @@ class LightTracing(OtherWay):
         self.assertEqual(green[6 * 32 + 16], 0)   # the ring's far side
         self.assertGreater(green[15 * 32 + 20], 0)  # in the ring
 
+    def test_bodies_that_scatter(self):
+        """No light path scatters inside, so no kernel does, not even one of all effects, and a note says what bodies do instead."""
+        for effects, options in (("called", []), ("all", ["--effects", "all"])):
+            with self.subTest(effects=effects):
+                run = self.assert_ok(eclat("info", scene("wax"), "--integrator", "light", *options, "--json"))
+                row = next(row for row in json.loads(run.stdout)["effect_list"] if row["name"] == "volume-scattering")
+                self.assertEqual((row["called_for"], row["kernels"]), (True, []))
+        run = self.assert_ok(eclat("render", scene("wax"), "--integrator", "light", "--size", "8x8", "--spp", "1", "-o", self.path("w.exr")))
+        self.assertIn("bodies absorb here what they would scatter", run.stderr)
+
     def test_refused(self):
         self.assert_refused([(["--adaptive"], "--adaptive"), (["--light-paths", "0"], "--light-paths 0")])
         line = self.assert_one_error(eclat("render", CORNELL, "--integrator", "light", "--guiding", "-o", self.path("a.exr")), 2)
