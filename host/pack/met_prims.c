@@ -1,6 +1,7 @@
 /* Corners are those that scene/write_out.c writes, but that triangles which rounding has made lines keep theirs: nothing lies on them anyway. */
 #include "pack/met_prims.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static void place_prim(const ec_placed *placed, const ec_prim *from, ec_prim *to)
