@@ -143,6 +143,7 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
     if (joins_still_lamps(o, pack) && !wants_light_tree(o, pack)) EC_TRY(ec_pack_lamp_pairs(pack, err));
     const ec_aim aim = o->integrator == EC_INTEGRATOR_LIGHT ? EC_AIM_SCENE : o->guiding ? EC_AIM_CASTERS_AND_SCENE : EC_AIM_CASTERS;
     if (o->light_paths > 0 || o->guiding) EC_TRY(ec_pack_casters(pack, aim, err));
+    if (o->light_paths == EC_LIGHT_PATHS_AUTO) EC_TRY(ec_pack_caster_flux(pack, err));
     if (!ec_traces_paths(o->integrator)) EC_TRY(ec_pack_light_centres(&pack->plain.scene, pack, err));
     return EC_OK;
 }

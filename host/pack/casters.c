@@ -72,15 +72,26 @@ static void add_triangle(const ec_scene *s, uint32_t t, const ec_placed *placed,
     }
 }
 
+static size_t count_casting(const ec_scene *s, uint32_t first, uint32_t count, const bool *is)
+{
+    size_t sum = 0;
+    for (uint32_t t = first; t < first + count; t++) sum += is[s->triangle_material[t]];
+    return sum;
+}
+
 /* Boxes of triangles that cast; those of a mesh that is kept once in each of its places. */
 static ec_result find_boxes(const ec_scene *s, boxes *all, ec_error *err)
 {
     EC_FREED bool *is = calloc(s->material_count + 1, sizeof *is);
-    size_t most = ec_scene_flat_count(s);
-    for (uint32_t i = 0; i < s->placed_count; i++) most += s->shapes[s->placed[i].shape].count;
-    all->list = malloc((most + 1) * sizeof *all->list);
-    if (!is || !all->list) return ec_fail(err, "out of memory for %zu triangles", most);
+    if (!is) return ec_fail(err, "out of memory for %u materials", s->material_count);
     for (uint32_t m = 0; m < s->material_count; m++) is[m] = ec_material_casts(s, &s->materials[m]);
+    size_t most = count_casting(s, 0, ec_scene_flat_count(s), is);
+    for (uint32_t i = 0; i < s->placed_count; i++) {
+        const ec_shape *shape = &s->shapes[s->placed[i].shape];
+        most += count_casting(s, shape->first, shape->count, is);
+    }
+    all->list = malloc((most + 1) * sizeof *all->list);
+    if (!all->list) return ec_fail(err, "out of memory for %zu triangles", most);
     for (uint32_t t = 0; t < ec_scene_flat_count(s); t++)
         if (is[s->triangle_material[t]]) add_triangle(s, t, NULL, all);
     for (uint32_t i = 0; i < s->placed_count; i++) {
@@ -203,6 +214,45 @@ static ec_result find_clusters(const ec_scene *scene, uint32_t most, cluster *cl
     return result;
 }
 
+/* W of luminance that lamps of pmf 1 would have. */
+static double power_of_lamps(const ec_pack *pack)
+{
+    double pmf = 0;
+    for (uint32_t i = 0; i < pack->light_count; i++) pmf += ec_light_is_far(&pack->lights[i]) ? 0 : pack->lights[i].pmf;
+    return pmf > 0 ? pack->lamp_power / pmf : 0;
+}
+
+/* Sets each sphere's share to what lights send there, W, and adds it to weights, by light. Returns the sum. */
+static double add_fluxes(const ec_pack *pack, cluster *clusters, uint32_t count, double *weights)
+{
+    const double power = power_of_lamps(pack);
+    double sum = 0;
+    for (uint32_t j = 0; j < count; j++) {
+        double own = 0;
+        for (uint32_t i = 0; i < pack->light_count; i++) {
+            const double w = flux(pack, &pack->lights[i], power, &clusters[j].sphere);
+            weights[i] += w;
+            own += w;
+        }
+        clusters[j].sphere.share = (float)own;
+        sum += own;
+    }
+    return sum;
+}
+
+ec_result ec_pack_caster_flux(ec_pack *pack, ec_error *err)
+{
+    cluster clusters[EC_CASTERS_MOST];
+    uint32_t count = 0;
+    pack->caster_flux = 0;
+    if (!pack->light_count || !ec_scene_casts(&pack->plain.scene)) return EC_OK;
+    EC_TRY(find_clusters(&pack->plain.scene, EC_CASTERS_MOST, clusters, &count, err));
+    EC_FREED double *weights = calloc(pack->light_count, sizeof *weights);
+    if (!weights) return ec_fail(err, "out of memory for %u lights", pack->light_count);
+    pack->caster_flux = add_fluxes(pack, clusters, count, weights);
+    return EC_OK;
+}
+
 ec_result ec_pack_casters(ec_pack *pack, ec_aim aim, ec_error *err)
 {
     const uint32_t n = pack->light_count;
@@ -214,20 +264,8 @@ ec_result ec_pack_casters(ec_pack *pack, ec_aim aim, ec_error *err)
     if (aim != EC_AIM_SCENE) EC_TRY(find_clusters(&pack->plain.scene, EC_CASTERS_MOST - with_scene, clusters, &count, err));
     EC_FREED double *weights = calloc(n, sizeof *weights);
     if (!weights) return ec_fail(err, "out of memory for %u lights", n);
-    double lamps = 0, sum = 0, shares = 0, emitted = 0;
-    for (uint32_t i = 0; i < n; i++) lamps += ec_light_is_far(&pack->lights[i]) ? 0 : pack->lights[i].pmf;
-    const double power = lamps > 0 ? pack->lamp_power / lamps : 0;
-    for (uint32_t j = 0; j < count; j++) {
-        ec_caster *c = &clusters[j].sphere;
-        double own = 0;
-        for (uint32_t i = 0; i < n; i++) {
-            const double w = flux(pack, &pack->lights[i], power, c);
-            weights[i] += w;
-            own += w;
-        }
-        c->share = (float)own;
-        sum += own;
-    }
+    const double power = power_of_lamps(pack), sum = add_fluxes(pack, clusters, count, weights);
+    double shares = 0, emitted = 0;
     if (!(sum > 0) || !isfinite(sum)) return EC_OK;
     for (uint32_t j = 0; j < count; j++) {
         pack->casters[j] = clusters[j].sphere;

@@ -58,6 +58,7 @@ typedef struct ec_pack {
     uint32_t light_tree_numbers;   /* of 2^31 numbers those by which light sampling goes to the tree */
     uint32_t caster_count;         /* 0: nothing for light paths to be aimed at, or nobody asked */
     ec_caster casters[EC_CASTERS_MOST];
+    double caster_flux;            /* W of luminance that lights send to what bends or mirrors it sharply, about; 0: nothing does, or nobody asked */
     size_t emission_words;
     uint32_t *emission;            /* as kernels/lib/light_path.h has it */
     double mean_radiance;          /* of luminance, about, if all that lights emit went through the scene's sphere */
@@ -135,6 +136,9 @@ typedef enum ec_aim {
     EC_AIM_CASTERS_AND_SCENE, /* a sphere about the scene is one too, if there are others */
     EC_AIM_SCENE              /* that alone */
 } ec_aim;
+/* Finds caster_flux alone; before there is a light tree. */
+ec_result ec_pack_caster_flux(ec_pack *pack, ec_error *err);
+
 /* Finds casters, and which lights shine on them; before there is a light tree. */
 ec_result ec_pack_casters(ec_pack *pack, ec_aim aim, ec_error *err);
 

@@ -11,6 +11,7 @@
 
 enum { LANES_MOST = 64 }; /* more than any work-item has */
 enum { WIDE = 1, WIDE_AT_FIRST = 2 };
+#define CHAINS_EACH 8 /* of a path, in the mean, at most */
 #define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
 
 /* The paths of a wave, as the host sees them between two kernels. */
@@ -24,6 +25,7 @@ typedef struct tracer {
     int64_t *last;                /* by slot: its chain that waits to know where it ended, or -1 */
     uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp, and the first one so? */
     uint32_t stride;              /* entries of the queue that this wave's paths can be in */
+    ec_joined *joined;
     float *queue, *hits;          /* fields of the device's, `stride` entries each */
     cl_mem pixels;
 } tracer;
@@ -54,13 +56,18 @@ static bool is_chain(const ec_params *params, float pdf)
     return pdf < 0 || pdf > EC_CHAIN_SHARP;
 }
 
+static float beta_of(const tracer *t, uint32_t entry)
+{
+    return (float)ec_luminance((double[3]){word(t, t->queue, EC_PATH_BR, entry), word(t, t->queue, EC_PATH_BG, entry), word(t, t->queue, EC_PATH_BB, entry)});
+}
+
 static void set_segment(const tracer *t, uint32_t slot, uint32_t entry, uint32_t segment, ec_chain *c)
 {
     for (int k = 0; k < 3; k++) {
         c->origin[k] = word(t, t->queue, EC_PATH_OX + k, entry);
         c->direction[k] = word(t, t->queue, EC_PATH_DX + k, entry);
     }
-    c->beta = (float)ec_luminance((double[3]){word(t, t->queue, EC_PATH_BR, entry), word(t, t->queue, EC_PATH_BG, entry), word(t, t->queue, EC_PATH_BB, entry)});
+    c->beta = beta_of(t, entry);
     c->prim = word_u(t, t->queue, EC_PATH_PRIM, entry);
     c->hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
     c->reach = c->hit == EC_NO_ID ? INFINITY : NAN;
@@ -82,6 +89,8 @@ static float pdf_of(const tracer *t, uint32_t entry)
     return pdf > 0 ? (float)fmax((pdf - share * guided) / (1 - share), FLT_MIN) : pdf;
 }
 
+static bool casts(const tracer *t, uint32_t prim) { return prim != EC_NO_ID && t->lights->casts[ec_rare_material_of(t->lights, prim)]; }
+
 static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
 {
     const float pdf = pdf_of(t, entry);
@@ -92,7 +101,18 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segmen
     set_segment(t, slot, entry, segment, c);
     c->pdf = pdf > EC_CHAIN_SHARP ? pdf : INFINITY;
     c->is_direct = is_direct;
-    c->is_caustic = (t->wide[slot] & WIDE_AT_FIRST) && segment > 1 && t->lights->casts[ec_rare_material_of(t->lights, c->prim)];
+    c->is_caustic = (t->wide[slot] & WIDE_AT_FIRST) && segment > 1 && casts(t, c->prim);
+}
+
+/* A path that is seen where it first meets a surface, if that is not sharp: light paths that casters send there can be joined to it. */
+static void note_joined(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
+{
+    ec_joined_path *path = &t->joined->paths[t->first + slot];
+    const bool is_joined = segment && (t->wide[slot] & WIDE_AT_FIRST);
+    const float p[3] = {word(t, t->queue, EC_PATH_OX, entry), word(t, t->queue, EC_PATH_OY, entry), word(t, t->queue, EC_PATH_OZ, entry)};
+    if (segment == 1) ec_joined_first(t->joined, t->first + slot, &t->p->params, p, beta_of(t, entry));
+    path->by_segment = is_joined && segment > 1 && casts(t, word_u(t, t->queue, EC_PATH_PRIM, entry));
+    path->by_vertex = is_joined && casts(t, word_u(t, t->hits, EC_HIT_PRIM, entry));
 }
 
 /* Where a surface has one direction, no light is sampled. */
@@ -124,6 +144,7 @@ static void look(tracer *t, uint32_t segment)
         if (entry == UINT32_MAX) continue;
         if (t->found->vertices && segment < EC_CHAIN_VERTICES) note_vertex(t, slot, entry, segment);
         note_chain(t, slot, entry, segment);
+        if (t->joined->paths) note_joined(t, slot, entry, segment);
         const uint32_t hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
         if (hit != EC_NO_ID) t->found->visits[ec_rare_material_of(t->lights, hit)]++;
     }
@@ -156,6 +177,9 @@ static ec_result bounce(tracer *t, uint32_t *scalars, uint32_t number, ec_error 
     find_paths(t, counters->rays[0]);
     look(t, number);
     EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
+    EC_TRY(ec_joined_gather(t->joined, p, t->first, t->count, number, true, err));
+    if (t->joined->paths && p->params.light_count) EC_TRY(ec_pipeline_launch_trace(p, 1, accel_of(p), scalars, err));
+    EC_TRY(ec_joined_gather(t->joined, p, t->first, t->count, number, false, err));
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     memcpy(counters->rays[0], counters->rays[1], sizeof counters->rays[0]);
     return EC_OK;
@@ -224,22 +248,25 @@ static ec_result trace_apart(tracer *t, ec_error *err)
     return result;
 }
 
-/* Evenly over the numbers of pixels, which lie tile by tile; the next round over them takes their next samples. */
-static void list_paths(uint64_t pixels, uint64_t paths, uint32_t *list)
+/* Evenly over the numbers of pixels, which lie tile by tile, `each` samples of a pixel; the next round over them takes their next samples. */
+static void list_paths(uint64_t pixels, uint64_t paths, uint32_t each, uint32_t *list)
 {
-    for (uint64_t i = 0; i < paths; i++) {
-        list[EC_LIST_WORDS * i] = (uint32_t)(pixels < paths ? i % pixels : i * pixels / paths);
-        list[EC_LIST_WORDS * i + 1] = (uint32_t)(pixels < paths ? i / pixels : 0);
+    const uint64_t places = paths / each;
+    for (uint64_t i = 0, at = 0; i < paths; at = ++i / each) {
+        list[EC_LIST_WORDS * i] = (uint32_t)(pixels < places ? at % pixels : at * pixels / places);
+        list[EC_LIST_WORDS * i + 1] = (uint32_t)((pixels < places ? at / pixels * each : 0) + i % each);
     }
 }
 
-ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err)
+/* most: paths; each: chains of one that there is room for. */
+static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32_t most, uint32_t each, bool has_vertices, ec_chains *chains, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    const uint32_t paths = (uint32_t)(pixels * EC_CHAIN_PIXEL < EC_CHAIN_PATHS ? pixels * EC_CHAIN_PIXEL : EC_CHAIN_PATHS);
+    const uint32_t paths = (uint32_t)(pixels * EC_CHAIN_PIXEL < most ? pixels * EC_CHAIN_PIXEL : most);
     const uint32_t wave = p->wave < paths ? p->wave : paths;
-    tracer t = {.p = p, .lights = lights, .found = chains, .room = 8 * paths};
-    *chains = (ec_chains){.paths = paths, .chains = malloc(t.room * sizeof *chains->chains),
+    ec_joined joined;
+    tracer t = {.p = p, .lights = lights, .found = chains, .room = each * paths, .joined = &joined};
+    *chains = (ec_chains){.paths = paths, .chains = malloc((t.room + (size_t)1) * sizeof *chains->chains),
                           .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
     if (has_vertices) chains->vertices = malloc((size_t)EC_CHAIN_VERTICES * paths * sizeof *chains->vertices);
     t.list = malloc(4ull * EC_LIST_WORDS * paths);
@@ -248,19 +275,35 @@ ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, bool has
     t.wide = malloc(wave);
     t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
     t.hits = malloc(4ull * (wave + p->params.part));
-    ec_result result = EC_OK;
-    if (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits)
+    ec_result result = ec_joined_open(&joined, lights->flux, paths, err);
+    if (result == EC_OK && (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits))
         result = ec_fail(err, "out of memory for %u paths", paths);
     if (result == EC_OK) {
-        list_paths(pixels, paths, t.list);
+        list_paths(pixels, paths, joined.paths ? 2 : 1, t.list);
         result = trace_apart(&t, err);
     }
+    if (result == EC_OK) chains->joined = ec_joined_share_of(&joined, paths);
+    ec_joined_close(&joined);
     free(t.list);
     free(t.at);
     free(t.last);
     free(t.wide);
     free(t.queue);
     free(t.hits);
+    return result;
+}
+
+ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err)
+{
+    return trace_some(p, lights, EC_CHAIN_PATHS, CHAINS_EACH, has_vertices, chains, err);
+}
+
+ec_result ec_chains_join(ec_pipeline *p, const ec_rare_lights *lights, ec_joined_share *joined, ec_error *err)
+{
+    ec_chains chains = {0};
+    const ec_result result = trace_some(p, lights, EC_JOINED_PATHS, 0, false, &chains, err);
+    *joined = chains.joined;
+    ec_chains_free(&chains);
     return result;
 }
 

@@ -3,9 +3,10 @@
 #define EC_RARE_CHAINS_H
 
 #include "device/pipeline.h"
+#include "rare/joined.h"
 #include "rare/lights.h"
 
-enum { EC_CHAIN_PATHS = 1 << 13, EC_CHAIN_PIXEL = 64 /* paths of a pixel, in pictures of few */, EC_CHAIN_BOUNCES = 12, EC_CHAIN_VERTICES = 4 };
+enum { EC_CHAIN_PATHS = 1 << 13, EC_JOINED_PATHS = 1 << 16, EC_CHAIN_PIXEL = 64 /* paths of a pixel, in pictures of few */, EC_CHAIN_BOUNCES = 12, EC_CHAIN_VERTICES = 4 };
 #define EC_CHAIN_SHARP 32.0f /* 1/sr: directions of less density are no narrower than light sampling copes with */
 
 /* A path's segment. */
@@ -28,11 +29,15 @@ typedef struct ec_chains {
     uint32_t *visits;              /* by material: how often a path met it */
     ec_chain *vertices;            /* of the first EC_CHAIN_VERTICES bounces, segments that left a surface whose light is sampled; owned */
     uint32_t vertex_count;
+    ec_joined_share joined;        /* 0 where the lights' flux is not known */
 } ec_chains;
 
 /* EC_CHAIN_PATHS paths, or EC_CHAIN_PIXEL a pixel where that is less, spread over the picture, with random numbers of their own: the same
  * whatever the wave. Nothing else on the device changes; no film is touched. has_vertices: are they asked for? */
 ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err);
+
+/* What light paths would take away, by so many more paths that a few strong ones do not decide. */
+ec_result ec_chains_join(ec_pipeline *pipeline, const ec_rare_lights *lights, ec_joined_share *joined, ec_error *err);
 void ec_chains_free(ec_chains *chains);
 
 /* Sets the hit of each ray, which has origin, direction and prim, to what it meets first. */

@@ -279,6 +279,7 @@ ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error
     ec_result result = copy_materials(&pack->plain.scene, all, err);
     all->radius = pack->scene_radius;
     all->power = power_of_others(pack);
+    all->flux = pack->caster_flux;
     for (uint32_t m = 0; result == EC_OK && m < all->material_count && m < pack->material_count; m++) all->sharp[m] = sharp_share(&pack->materials[m]);
     if (result == EC_OK) result = find_in_environment(pack, all, err);
     if (result == EC_OK) result = find_lamps(pack, all, err);

@@ -42,6 +42,7 @@ typedef struct ec_rare_sun {
 typedef struct ec_rare_lights {
     uint32_t count;
     double power;                    /* of all lights of the scene */
+    double flux;                     /* W of what they send to what casts; 0: nobody asks */
     float radius;                    /* of a sphere around the scene */
     float *sharp;                    /* by material: share of light that it sends on in a narrow lobe, head-on, if its factors say so */
     bool *casts;                     /* by material: are light paths aimed at it, where they are traced? */

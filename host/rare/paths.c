@@ -17,6 +17,7 @@
 #define FEW 16              /* fewer chains say nothing of where they go: anywhere */
 #define AROUND 0.35         /* length of the nearest ones' mean offset, over its root mean square: beyond, all lie to one side … */
 #define AROUND_CHANCE 1.0   /* … but for what chance makes of it, this over the root of their number */
+#define JOINED_LEAST 0.25   /* share of indirect light's variance that light paths take away: else there is no second look */
 #define COMMON 0.02         /* chance beyond which every picture meets its light */
 
 /* A chain beside a light. */
@@ -303,6 +304,8 @@ ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, e
     ec_result result = ec_rare_openings_find(lights, p, &openings, err);
     if (result == EC_OK) result = ec_chains_trace(p, lights, openings.count > 0, &chains, err);
     if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, p, rare, err);
+    if (result == EC_OK && chains.joined.of_indirect >= JOINED_LEAST) result = ec_chains_join(p, lights, &chains.joined, err);
+    if (result == EC_OK) rare->joined = chains.joined.of_all;
     if (result == EC_OK) result = ec_rare_blind_find(lights, &chains, p, rare, err);
     if (result == EC_OK) ec_rare_openings_judge(&openings, lights, &chains, rare);
     ec_rare_openings_free(&openings);

@@ -1,15 +1,16 @@
 /* --light-paths auto: is so much of the picture's noise that of caustics that light paths pay?
  *
- * The first look at the picture's paths (rare/paths.h) foretells how often they meet light by way of what bends or mirrors it, and what that
- * brings: the variance of a sample, over the square of the mean luminance that a pilot finds. Both are the same whoever renders a part of a
- * job, with however many devices, and no clock has a say. */
+ * The first look at the picture's paths (rare/paths.h) foretells two things. What paths have met, it has the share of that light paths would take
+ * away (rare/joined.h). What they hardly ever meet, it foretells the chance and the light of: the variance of a sample, over the square of the mean
+ * luminance that a pilot finds. All are the same whoever renders a part of a job, with however many devices, and no clock has a say. */
 #include <float.h>
 #include <math.h>
 
 #include "pack/pack.h"
 #include "render/render_state.h"
 
-#define PAYS 4.0             /* variance of a sample over the square of the mean: 25 % of noise at 64 samples a pixel */
+#define RARE_PAYS 4.0        /* variance of a sample over the square of the mean: 25 % of noise at 64 samples a pixel */
+#define JOINED_PAYS 0.3      /* of the noise that light paths take away: with as many as EC_LIGHT_PATHS_FEW a sample takes a third longer */
 #define PILOT 8192u          /* samples */
 
 bool ec_render_may_have_caustics(const ec_render_options *o, const ec_scene *scene)
@@ -25,7 +26,13 @@ static double least_mean(const ec_rare *rare)
     return fmax(sum, DBL_MIN);
 }
 
-static void note(const ec_rare_kind *most, double variance, const ec_log *log)
+static void note_common(double share, const ec_log *log)
+{
+    ec_note(log, "caustics: light paths are traced too, one for %.0f from the camera, since they take about %.0f %% of the variance away (--light-paths 0: none)",
+            1 / EC_LIGHT_PATHS_FEW, 100 * share);
+}
+
+static void note_rare(const ec_rare_kind *most, double variance, const ec_log *log)
 {
     char way[EC_RARE_WAY];
     ec_rare_way(most->through, most->light, way, sizeof way);
@@ -33,20 +40,30 @@ static void note(const ec_rare_kind *most, double variance, const ec_log *log)
                  "camera, and guide directions (--light-paths 0: none)", way, 12.5 * sqrt(variance), 1 / EC_LIGHT_PATHS_FEW);
 }
 
-ec_result ec_render_judge_caustics(ec_render_state *r, bool *pays, const ec_log *log, ec_error *err)
+/* Are there caustics that paths have hardly ever met? */
+static ec_result judge_rare(ec_render_state *r, bool *pays, const ec_log *log, ec_error *err)
 {
     const ec_render_options *o = r->options;
     const uint32_t fits = o->width < PILOT ? PILOT / o->width : 1, rows = fits < o->height ? fits : o->height;
     const ec_rare_kind *most;
     double mean;
     *pays = false;
-    EC_TRY(ec_render_foretell(r, err));
-    if (ec_rare_caustics(&r->rare, least_mean(&r->rare), &most) < PAYS) return EC_OK;
+    if (ec_rare_caustics(&r->rare, least_mean(&r->rare), &most) < RARE_PAYS) return EC_OK;
     EC_TRY(r->source->turn_to(r->source, 0, rows, err));
     EC_TRY(ec_render_pilot_mean(r, PILOT, rows, &mean, err));
     if (!(mean > 0)) return EC_OK;
     const double variance = ec_rare_caustics(&r->rare, mean, &most);
-    *pays = variance >= PAYS;
-    if (*pays) note(most, variance, log);
+    *pays = variance >= RARE_PAYS;
+    if (*pays) note_rare(most, variance, log);
+    return EC_OK;
+}
+
+ec_result ec_render_judge_caustics(ec_render_state *r, ec_caustics *caustics, const ec_log *log, ec_error *err)
+{
+    bool rare;
+    EC_TRY(ec_render_foretell(r, err));
+    EC_TRY(judge_rare(r, &rare, log, err));
+    *caustics = rare ? EC_CAUSTICS_RARE : r->rare.joined >= JOINED_PAYS ? EC_CAUSTICS_COMMON : EC_CAUSTICS_NONE;
+    if (*caustics == EC_CAUSTICS_COMMON) note_common(r->rare.joined, log);
     return EC_OK;
 }

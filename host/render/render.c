@@ -138,12 +138,13 @@ static void begin_again(ec_render_state *r)
     count_from(r, r->course->past);
 }
 
-/* With light paths all pixels are due as many samples. What they cannot be joined to, caustics in mirrors and glass, is what guiding finds. */
-static void choose_light_paths(ec_render_state *r)
+/* With light paths all pixels are due as many samples. What they cannot be joined to, caustics in mirrors and glass, is what guiding
+ * finds, where these are rare. */
+static void choose_light_paths(ec_render_state *r, ec_caustics caustics)
 {
     r->chosen = *r->options;
     r->chosen.light_paths = EC_LIGHT_PATHS_FEW;
-    r->chosen.guiding = true;
+    r->chosen.guiding |= caustics == EC_CAUSTICS_RARE;
     r->chosen.adaptive = false;
     r->options = &r->chosen;
 }
@@ -155,15 +156,15 @@ static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const 
     const ec_peers *peers = r->course->peers;
     const bool is_judged = ec_render_may_have_caustics(r->options, scene), is_alone = count == 1 && !peers;
     const uint32_t first = is_judged ? 1 : count;
-    bool pays = false;
+    ec_caustics caustics = EC_CAUSTICS_NONE;
     EC_TRY(ec_sources_pack(devices, first, peers != NULL && !is_judged, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
     r->params = r->sources.cargo.head.params;
     EC_TRY(admit(r, log, err));
     const bool follow = !(r->sources.cargo.head.effects.called.bits & EC_FEATURE_SCATTERING); /* light paths do not scatter on their way */
     EC_TRY(open_sources(r, is_judged ? NULL : peers, log, err));
-    if (is_judged && follow) EC_TRY(ec_render_judge_caustics(r, &pays, log, err));
-    if (pays) choose_light_paths(r);
-    if (is_judged && (pays || !is_alone)) {
+    if (is_judged && follow) EC_TRY(ec_render_judge_caustics(r, &caustics, log, err));
+    if (caustics) choose_light_paths(r, caustics);
+    if (is_judged && (caustics || !is_alone)) {
         const ec_render_stats before = *r->stats;
         begin_again(r);
         EC_TRY(ec_sources_pack(devices, count, peers != NULL, scene, r->options, largest_batch(r), &r->sources, r->stats, err));

@@ -78,8 +78,13 @@ uint64_t ec_render_order_samples(const ec_render_state *r); /* of each position 
 ec_result ec_render_film(ec_render_state *r, const ec_log *log, ec_error *err);
 
 /* caustics.c: do light paths pay, where the options leave it open and the scene may call for them? On the only source, before the first sample. */
+typedef enum ec_caustics {
+    EC_CAUSTICS_NONE,   /* that would pay */
+    EC_CAUSTICS_COMMON, /* paths meet them often enough to make noise: light paths pay */
+    EC_CAUSTICS_RARE    /* paths hardly ever meet them: guides pay, too */
+} ec_caustics;
 bool ec_render_may_have_caustics(const ec_render_options *options, const ec_scene *scene);
-ec_result ec_render_judge_caustics(ec_render_state *r, bool *pays, const ec_log *log, ec_error *err);
+ec_result ec_render_judge_caustics(ec_render_state *r, ec_caustics *caustics, const ec_log *log, ec_error *err);
 
 /* limit.c: the picture's mean luminance, by so many samples of its own, a multiple of 32; the source has been turned to these rows. The limit: once,
  * before the first sample of a render that has a clamp. */

@@ -3,6 +3,7 @@
 anything that bends light nothing changes."""
 import json
 import os
+import re
 import shutil
 import struct
 import unittest
@@ -56,8 +57,27 @@ class LightPaths(OtherWay):
             with self.subTest(other=other):
                 self.assertIsNone(self.render(*job, *other)["light_paths"])
 
+    def test_auto_common(self):
+        """Caustics that paths from the camera meet, but as noise: light paths are traced, and nothing is guided."""
+        job = [LADDER, "--size", "96x96", "--spp", "8"]
+        run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
+        chosen = json.loads(run.stdout)
+        self.assertRegex(run.stderr, r"note: caustics: light paths are traced too, one for 16 from the camera, .* about \d+ % of the variance .*--light-paths 0")
+        self.assertEqual((chosen["light_paths"], chosen.get("guiding")), (0.0625, None))
+        self.assertEqual(chosen["image_sha256"], self.render(*job, "--light-paths", "0.0625")["image_sha256"])
+
+    @full
+    def test_auto_foretells(self):
+        """How much of the variance light paths take away is foretold about right."""
+        job = [LADDER, "--size", "96x96", "--spp", "64"]
+        run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
+        foretold = float(re.search(r"about (\d+) % of the variance", run.stderr)[1]) / 100
+        taken = 1 - (json.loads(run.stdout)["error"] / self.render(*job, "--light-paths", "0", "--adaptive=off")["error"]) ** 2
+        self.assertAlmostEqual(foretold, taken, delta=0.2)
+
     def test_auto_not_called_for(self):
-        for of in (CORNELL, scene("brushed-metal")):
+        """Nothing casts light; or light paths would find what paths from the camera find, too: a large lamp."""
+        for of in (CORNELL, scene("brushed-metal"), scene("glass")):
             with self.subTest(scene=of):
                 job = [of, "--size", "20x18", "--spp", "8", *QUICK]
                 run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))

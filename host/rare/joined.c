@@ -1,0 +1,77 @@
+/* A light path reaches a point that the camera sees from some direction with a density in proportion to the radiance there: radiance times cosine
+ * over the flux of all light paths. A path from the camera goes there with the cosine over pi. So light paths, N for each camera path, find it
+ * r = N A pi radiance / flux times as densely, A the area of the whole picture at the point, and leave 1 / (1 + r) of the variance. */
+#include "rare/joined.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/luminance.h"
+
+#define PI 3.14159265358979323846
+#define DIRECT_LEFT 0.25 /* of direct light's variance where samples are in order, about */
+
+ec_result ec_joined_open(ec_joined *j, double flux, uint32_t paths, ec_error *err)
+{
+    *j = (ec_joined){.flux = flux};
+    if (!(flux > 0)) return EC_OK;
+    j->radiance = malloc(3 * sizeof *j->radiance * paths);
+    j->paths = calloc(paths, sizeof *j->paths);
+    return j->radiance && j->paths ? EC_OK : ec_fail(err, "out of memory for %u paths", paths);
+}
+
+void ec_joined_close(ec_joined *j)
+{
+    free(j->radiance);
+    free(j->paths);
+    *j = (ec_joined){0};
+}
+
+void ec_joined_first(ec_joined *j, uint32_t path, const ec_params *params, const float p[3], float beta)
+{
+    double way2 = 0, depth = 0;
+    for (int k = 0; k < 3; k++) {
+        const double way = (double)p[k] - params->camera_origin[k];
+        way2 += way * way;
+        depth += way * params->camera_forward[k];
+    }
+    const double cosine = depth / sqrt(way2);
+    j->paths[path].area = (float)(params->orthographic ? params->film_area : params->film_area * way2 * cosine * cosine * cosine);
+    j->paths[path].beta = beta;
+}
+
+static void add(ec_joined *j, ec_joined_path *path, float light, bool is_joined)
+{
+    path->indirect += light;
+    if (!is_joined || !(light > 0) || !(path->beta > 0)) return;
+    const double r = EC_LIGHT_PATHS_FEW * path->area * PI * light / path->beta / j->flux;
+    path->saved += light * (float)sqrt(r / (1 + r));
+}
+
+ec_result ec_joined_gather(ec_joined *j, ec_pipeline *p, uint32_t first, uint32_t count, uint32_t bounce, bool by_segment, ec_error *err)
+{
+    const bool is_direct = bounce + !by_segment < EC_DIRECT_SEGMENTS;
+    if (!j->paths) return EC_OK;
+    EC_TRY(ec_buffer_read_rows(p->cl, p->buffers[EC_ARG_RADIANCE], 4ull * p->wave, 4ull * count, 3, j->radiance, err));
+    for (uint32_t i = 0; i < count; i++) {
+        ec_joined_path *path = &j->paths[first + i];
+        const double rgb[3] = {j->radiance[i], j->radiance[count + i], j->radiance[2 * (size_t)count + i]};
+        const float radiance = (float)ec_luminance(rgb), light = radiance - path->radiance;
+        path->radiance = radiance;
+        if (!is_direct) add(j, path, light, by_segment ? path->by_segment : path->by_vertex);
+    }
+    return EC_OK;
+}
+
+ec_joined_share ec_joined_share_of(const ec_joined *j, uint32_t paths)
+{
+    double saved = 0, indirect = 0, all = 0;
+    for (uint32_t i = 0; j->paths && i + 1 < paths; i += 2) {
+        const ec_joined_path *a = &j->paths[i], *b = a + 1;
+        saved += (double)a->saved * a->saved + (double)b->saved * b->saved;
+        indirect += pow((double)a->indirect - b->indirect, 2);
+        all += pow((double)a->radiance - b->radiance, 2);
+    }
+    const double noise = indirect + DIRECT_LEFT * fmax(all - indirect, 0);
+    return (ec_joined_share){.of_indirect = indirect > 0 ? fmin(saved / indirect, 1) : 0, .of_all = noise > 0 ? fmin(saved / noise, 1) : 0};
+}

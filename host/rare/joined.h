@@ -1,0 +1,41 @@
+/* How much of a picture's noise light paths would take away: what the first look's paths gather of light that bends or is mirrored sharply on its
+ * way to what they see. */
+#ifndef EC_RARE_JOINED_H
+#define EC_RARE_JOINED_H
+
+#include "device/pipeline.h"
+
+/* What one path has gathered, of luminance. */
+typedef struct ec_joined_path {
+    float radiance, indirect;
+    float saved; /* its square is what light paths would take of that of the indirect light */
+    float area;  /* of the picture where it first meets a surface, across the ray */
+    float beta;  /* past that surface */
+    bool by_segment, by_vertex; /* is light that its segment meets, or that its vertex samples, such light? */
+} ec_joined_path;
+
+typedef struct ec_joined {
+    double flux;           /* W, of luminance, that lights send to what bends or mirrors it sharply */
+    float *radiance;       /* of a wave's slots, as the device has it; owned, as the next one */
+    ec_joined_path *paths; /* NULL: nobody asks */
+} ec_joined;
+
+/* Of so many paths, two of each pixel in turn. flux: 0 where nobody asks. */
+ec_result ec_joined_open(ec_joined *j, double flux, uint32_t paths, ec_error *err);
+void ec_joined_close(ec_joined *j); /* zero-initialised or closed is fine */
+
+/* Where a path, which leaves p with beta, first met a surface. */
+void ec_joined_first(ec_joined *j, uint32_t path, const ec_params *params, const float p[3], float beta);
+
+/* What the wave's paths, from `first` on, have gathered since it was last called: by the segments that bounce `bounce` traced, or else by light sampled
+ * where these end. */
+ec_result ec_joined_gather(ec_joined *j, ec_pipeline *pipeline, uint32_t first, uint32_t count, uint32_t bounce, bool by_segment, ec_error *err);
+
+/* The share of variance that EC_LIGHT_PATHS_FEW light paths for each camera path would take away: of indirect light, and of all light where direct
+ * light's samples are in order. */
+typedef struct ec_joined_share {
+    double of_indirect, of_all;
+} ec_joined_share;
+ec_joined_share ec_joined_share_of(const ec_joined *j, uint32_t paths);
+
+#endif
