@@ -180,7 +180,7 @@ ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *
  * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
 static void set_roulette(double survival, ec_params *params)
 {
-    params->first_roulette = survival == 0.0 ? 5 : survival < 1.0 ? 1 : UINT32_MAX;
+    params->first_roulette = survival == 0.0 ? EC_ROULETTE_FIRST : survival < 1.0 ? 1 : UINT32_MAX;
     params->survival = survival == 0.0 ? 0.0f : (float)ldexp(fmax(floor(ldexp(survival, 24)), 1.0), -24);
 }
 

@@ -47,7 +47,7 @@ typedef struct ec_params {
     ec_float scene_radius;        /* of a sphere around the recentred origin that holds the scene */
     ec_float scene_max;           /* largest |coordinate| of the scene */
     ec_float scene_centre[3];     /* of the world, which the recentred frame has its origin in */
-    ec_uint first_roulette;       /* path segments that are never cut short */
+    ec_uint first_roulette;       /* path segments that are never cut short (lib/roulette.h) */
     ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
     ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
     ec_float lens_nearness;       /* 1 / distance of the plane in focus */
@@ -84,6 +84,8 @@ EC_ASSERT_SIZE(ec_params, 560);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u
+
+#define EC_ROULETTE_FIRST 3u /* first_roulette of --rr auto */
 
 /* What a batch tells of a pixel, floats: mean radiance R, G, B of its samples; of the samples' luminance the largest, and the sums of
  * its squares and fourth powers in units of that (1 to m, 0 where all are black). Where there is a limit: in place of these two the sums of

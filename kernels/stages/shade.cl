@@ -205,7 +205,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     uint pair = EC_PAIR_BOUNCE(bounce);
     lane_u r1, r2;
     lane_f u_survives = F(0.0f), u_pass = F(0.0f);
-    bool roulette = bounce + 1 >= params->first_roulette;
+    bool roulette = roulette_plays(params, bounce + 1, false);
     if (HAS(TRANSMISSION)) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass);
     if (HAS(DISPERSION)) disperse(&g, &h, scatters, &u_pass, &s, &beta);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo), params->multiple != 0u);
@@ -287,7 +287,8 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     alive = alive & finite & (brightest > 0.0f);
     if (roulette) {
         if (!HAS(TRANSMISSION)) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass); /* no sooner: registers are scarce above */
-        lane_f survival = roulette_survival(brightest * roulette_scale, params->survival);
+        lane_f survival = roulette_survival(sqrt(brightest * roulette_scale), params->survival);
+        if (!roulette_plays(params, bounce + 1, true)) survival = next_way.pdf < 0.0f ? F(1.0f) : survival;
         if (HAS(SCATTERING) && params->survival == 0.0f) /* hundreds of events in a dense body need not lose light */
             survival = (strewn & (brightest >= EC_SURVIVAL_MOST)) ? F(1.0f) : survival;
         alive = alive & (u_survives < survival);

@@ -191,7 +191,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
         uint bad = mask_bits(alive & !finite);
         if (bad) atomic_add(invalid + EC_STAGE_SHADE, popcount(bad));
         alive = alive & finite & (v3_max_component(beta_c) > 0.0f);
-        if (vertex + 1 >= params->first_roulette) {
+        if (roulette_plays(params, vertex + 1, true)) {
             lane_f survival = roulette_survival(min(v3_max_component(beta_c) / v3_max_component(before), F(1.0f)), params->survival);
             alive = alive & (u_survives < survival);
             beta_c = v3_scale(beta_c, 1.0f / survival);
