@@ -39,7 +39,6 @@ typedef struct ec_rare {
     uint32_t count;
     uint32_t width, height; /* of the picture */
     uint32_t row;           /* the picture's that a film of some of its rows begins with */
-    double joined;          /* share of the picture's noise that light paths would take away; 0: not asked for */
     ec_rare_kind kinds[EC_RARE_KINDS];
 } ec_rare;
 

@@ -228,7 +228,7 @@ const ec_option ec_render_rows[] = {
     {.name = "light-paths", .metavar = "N", .set = ec_set_light_paths, .group = EC_GROUP_TRANSPORT, .integrators = PATHS_OR_LIGHT,
      .uses = EC_OPTION_INFO,
      .help = "trace N paths from the lights for each path from the camera, towards what bends or mirrors light sharply, and weigh what both find: caustics "
-             "converge many times sooner; auto traces 1/16 where a first look foretells that this pays, with --guiding where caustics are hardly ever met, else "
+             "converge many times sooner; auto traces as many as a first look foretells to pay, with --guiding where caustics are hardly ever met, or "
              "none. Only with --sample mis, and without --adaptive and --clamp",
      .otherwise = "auto; with --integrator light 1"},
     {.name = "guiding", EC_STORED(FLAG, options.guiding), .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,

@@ -259,7 +259,8 @@ static void list_paths(uint64_t pixels, uint64_t paths, uint32_t each, uint32_t 
 }
 
 /* most: paths; each: chains of one that there is room for. */
-static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32_t most, uint32_t each, bool has_vertices, ec_chains *chains, ec_error *err)
+static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32_t most, uint32_t each, bool has_vertices, ec_chains *chains,
+                            ec_joined_choice *choice, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
     const uint32_t paths = (uint32_t)(pixels * EC_CHAIN_PIXEL < most ? pixels * EC_CHAIN_PIXEL : most);
@@ -282,7 +283,7 @@ static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32
         list_paths(pixels, paths, joined.paths ? 2 : 1, t.list);
         result = trace_apart(&t, err);
     }
-    if (result == EC_OK) chains->joined = ec_joined_share_of(&joined, paths);
+    if (result == EC_OK) *choice = ec_joined_choose(&joined, paths);
     ec_joined_close(&joined);
     free(t.list);
     free(t.at);
@@ -295,14 +296,16 @@ static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32
 
 ec_result ec_chains_trace(ec_pipeline *p, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err)
 {
-    return trace_some(p, lights, EC_CHAIN_PATHS, CHAINS_EACH, has_vertices, chains, err);
+    ec_joined_choice first = {0};
+    const ec_result result = trace_some(p, lights, EC_CHAIN_PATHS, CHAINS_EACH, has_vertices, chains, &first, err);
+    chains->may_join = first.may;
+    return result;
 }
 
-ec_result ec_chains_join(ec_pipeline *p, const ec_rare_lights *lights, ec_joined_share *joined, ec_error *err)
+ec_result ec_chains_join(ec_pipeline *p, const ec_rare_lights *lights, ec_joined_choice *joined, ec_error *err)
 {
     ec_chains chains = {0};
-    const ec_result result = trace_some(p, lights, EC_JOINED_PATHS, 0, false, &chains, err);
-    *joined = chains.joined;
+    const ec_result result = trace_some(p, lights, EC_JOINED_PATHS, 0, false, &chains, joined, err);
     ec_chains_free(&chains);
     return result;
 }

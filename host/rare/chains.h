@@ -29,15 +29,15 @@ typedef struct ec_chains {
     uint32_t *visits;              /* by material: how often a path met it */
     ec_chain *vertices;            /* of the first EC_CHAIN_VERTICES bounces, segments that left a surface whose light is sampled; owned */
     uint32_t vertex_count;
-    ec_joined_share joined;        /* 0 where the lights' flux is not known */
+    bool may_join;                 /* may light paths pay? False where the lights' flux is not known */
 } ec_chains;
 
 /* EC_CHAIN_PATHS paths, or EC_CHAIN_PIXEL a pixel where that is less, spread over the picture, with random numbers of their own: the same
  * whatever the wave. Nothing else on the device changes; no film is touched. has_vertices: are they asked for? */
 ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err);
 
-/* What light paths would take away, by so many more paths that a few strong ones do not decide. */
-ec_result ec_chains_join(ec_pipeline *pipeline, const ec_rare_lights *lights, ec_joined_share *joined, ec_error *err);
+/* How many light paths pay, by so many more paths that a few strong ones do not decide. */
+ec_result ec_chains_join(ec_pipeline *pipeline, const ec_rare_lights *lights, ec_joined_choice *joined, ec_error *err);
 void ec_chains_free(ec_chains *chains);
 
 /* Sets the hit of each ray, which has origin, direction and prim, to what it meets first. */

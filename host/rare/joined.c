@@ -11,6 +11,12 @@
 #define PI 3.14159265358979323846
 #define DIRECT_LEFT 0.25 /* of direct light's variance where samples are in order, about */
 
+/* Time of a sample, over that of one without light paths: shading weighs one more way, and a light path takes as long as some camera paths. */
+#define TIME_WITH 1.25
+#define TIME_EACH 2.2
+
+static const double numbers[EC_JOINED_NUMBERS] = {1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2};
+
 ec_result ec_joined_open(ec_joined *j, double flux, uint32_t paths, ec_error *err)
 {
     *j = (ec_joined){.flux = flux};
@@ -44,8 +50,10 @@ static void add(ec_joined *j, ec_joined_path *path, float light, bool is_joined)
 {
     path->indirect += light;
     if (!is_joined || !(light > 0) || !(path->beta > 0)) return;
-    const double r = EC_LIGHT_PATHS_FEW * path->area * PI * light / path->beta / j->flux;
-    path->saved += light * (float)sqrt(r / (1 + r));
+    for (int k = 0; k < EC_JOINED_NUMBERS; k++) {
+        const double r = numbers[k] * path->area * PI * light / path->beta / j->flux;
+        path->saved[k] += light * (float)sqrt(r / (1 + r));
+    }
 }
 
 ec_result ec_joined_gather(ec_joined *j, ec_pipeline *p, uint32_t first, uint32_t count, uint32_t bounce, bool by_segment, ec_error *err)
@@ -63,15 +71,28 @@ ec_result ec_joined_gather(ec_joined *j, ec_pipeline *p, uint32_t first, uint32_
     return EC_OK;
 }
 
-ec_joined_share ec_joined_share_of(const ec_joined *j, uint32_t paths)
+/* In time to an error, where so much of a variance is taken away. */
+static double gain_of(double saved, double variance, double number)
 {
-    double saved = 0, indirect = 0, all = 0;
+    return 1 / ((1 - fmin(saved / variance, 0.99)) * (TIME_WITH + TIME_EACH * number));
+}
+
+ec_joined_choice ec_joined_choose(const ec_joined *j, uint32_t paths)
+{
+    ec_joined_choice best = {.gain = 1};
+    double saved[EC_JOINED_NUMBERS] = {0}, indirect = 0, all = 0;
+    for (uint32_t i = 0; j->paths && i < paths; i++)
+        for (int k = 0; k < EC_JOINED_NUMBERS; k++) saved[k] += (double)j->paths[i].saved[k] * j->paths[i].saved[k];
     for (uint32_t i = 0; j->paths && i + 1 < paths; i += 2) {
         const ec_joined_path *a = &j->paths[i], *b = a + 1;
-        saved += (double)a->saved * a->saved + (double)b->saved * b->saved;
         indirect += pow((double)a->indirect - b->indirect, 2);
         all += pow((double)a->radiance - b->radiance, 2);
     }
     const double noise = indirect + DIRECT_LEFT * fmax(all - indirect, 0);
-    return (ec_joined_share){.of_indirect = indirect > 0 ? fmin(saved / indirect, 1) : 0, .of_all = noise > 0 ? fmin(saved / noise, 1) : 0};
+    for (int k = 0; noise > 0 && k < EC_JOINED_NUMBERS; k++) {
+        const double gain = gain_of(saved[k], noise, numbers[k]);
+        best.may |= indirect > 0 && gain_of(saved[k], indirect, numbers[k]) >= EC_JOINED_GAIN;
+        if (gain > best.gain) best.gain = gain, best.number = numbers[k], best.share = fmin(saved[k] / noise, 1);
+    }
+    return best;
 }

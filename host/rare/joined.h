@@ -1,14 +1,16 @@
-/* How much of a picture's noise light paths would take away: what the first look's paths gather of light that bends or is mirrored sharply on its
- * way to what they see. */
+/* How many light paths pay: by what the first look's paths gather of light that bends or is mirrored sharply on its way to what they see. */
 #ifndef EC_RARE_JOINED_H
 #define EC_RARE_JOINED_H
 
 #include "device/pipeline.h"
 
+enum { EC_JOINED_NUMBERS = 6 };
+#define EC_JOINED_GAIN 1.1 /* in time to an error: less does not pay for the kernels that have to be built */
+
 /* What one path has gathered, of luminance. */
 typedef struct ec_joined_path {
     float radiance, indirect;
-    float saved; /* its square is what light paths would take of that of the indirect light */
+    float saved[EC_JOINED_NUMBERS]; /* their squares are what so many light paths would take of that of the indirect light */
     float area;  /* of the picture where it first meets a surface, across the ray */
     float beta;  /* past that surface */
     bool by_segment, by_vertex; /* is light that its segment meets, or that its vertex samples, such light? */
@@ -31,11 +33,13 @@ void ec_joined_first(ec_joined *j, uint32_t path, const ec_params *params, const
  * where these end. */
 ec_result ec_joined_gather(ec_joined *j, ec_pipeline *pipeline, uint32_t first, uint32_t count, uint32_t bounce, bool by_segment, ec_error *err);
 
-/* The share of variance that EC_LIGHT_PATHS_FEW light paths for each camera path would take away: of indirect light, and of all light where direct
- * light's samples are in order. */
-typedef struct ec_joined_share {
-    double of_indirect, of_all;
-} ec_joined_share;
-ec_joined_share ec_joined_share_of(const ec_joined *j, uint32_t paths);
+/* How many light paths for each camera path have the least error for the time. */
+typedef struct ec_joined_choice {
+    double number; /* 0: none */
+    double gain;   /* variance times time without them, over that with them */
+    double share;  /* of the variance, that they take away */
+    bool may;      /* would it pay if there were indirect light alone? Then more paths should tell */
+} ec_joined_choice;
+ec_joined_choice ec_joined_choose(const ec_joined *j, uint32_t paths);
 
 #endif

@@ -17,7 +17,6 @@
 #define FEW 16              /* fewer chains say nothing of where they go: anywhere */
 #define AROUND 0.35         /* length of the nearest ones' mean offset, over its root mean square: beyond, all lie to one side … */
 #define AROUND_CHANCE 1.0   /* … but for what chance makes of it, this over the root of their number */
-#define JOINED_LEAST 0.25   /* share of indirect light's variance that light paths take away: else there is no second look */
 #define COMMON 0.02         /* chance beyond which every picture meets its light */
 
 /* A chain beside a light. */
@@ -294,18 +293,18 @@ ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, e
     return result;
 }
 
-ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, ec_rare *rare, ec_error *err)
+ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, ec_rare *rare, ec_joined_choice *joined, ec_error *err)
 {
     ec_chains chains = {0};
     ec_rare_openings openings = {0};
     *rare = (ec_rare){0};
+    if (joined) *joined = (ec_joined_choice){0};
     if (!lights->count && !lights->sun_count) return EC_OK;
     if (p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
     ec_result result = ec_rare_openings_find(lights, p, &openings, err);
     if (result == EC_OK) result = ec_chains_trace(p, lights, openings.count > 0, &chains, err);
     if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, p, rare, err);
-    if (result == EC_OK && chains.joined.of_indirect >= JOINED_LEAST) result = ec_chains_join(p, lights, &chains.joined, err);
-    if (result == EC_OK) rare->joined = chains.joined.of_all;
+    if (result == EC_OK && joined && chains.may_join) result = ec_chains_join(p, lights, joined, err);
     if (result == EC_OK) result = ec_rare_blind_find(lights, &chains, p, rare, err);
     if (result == EC_OK) ec_rare_openings_judge(&openings, lights, &chains, rare);
     ec_rare_openings_free(&openings);

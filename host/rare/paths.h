@@ -11,7 +11,8 @@
  * rare: as film/rare.h has it, the kinds that matter most; empty where there is none. */
 ec_result ec_rare_paths_of(const ec_rare_lights *lights, const ec_chains *chains, ec_pipeline *pipeline, ec_rare *rare, ec_error *err);
 
-/* The whole of it, on a device that is loaded and has no work under way: traces the chains of the picture that its parameters are of. */
-ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *pipeline, ec_rare *rare, ec_error *err);
+/* The whole of it, on a device that is loaded and has no work under way: traces the chains of the picture that its parameters are of. joined: how
+ * many light paths pay; NULL where nobody asks. */
+ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *pipeline, ec_rare *rare, ec_joined_choice *joined, ec_error *err);
 
 #endif

@@ -1,7 +1,7 @@
 /* --light-paths auto: is so much of the picture's noise that of caustics that light paths pay?
  *
- * The first look at the picture's paths (rare/paths.h) foretells two things. What paths have met, it has the share of that light paths would take
- * away (rare/joined.h). What they hardly ever meet, it foretells the chance and the light of: the variance of a sample, over the square of the mean
+ * The first look at the picture's paths (rare/paths.h) foretells two things. Of what paths have met, how many light paths
+ * would pay (rare/joined.h). Of what they hardly ever meet, the chance and the light: the variance of a sample, over the square of the mean
  * luminance that a pilot finds. All are the same whoever renders a part of a job, with however many devices, and no clock has a say. */
 #include <float.h>
 #include <math.h>
@@ -10,7 +10,6 @@
 #include "render/render_state.h"
 
 #define RARE_PAYS 4.0        /* variance of a sample over the square of the mean: 25 % of noise at 64 samples a pixel */
-#define JOINED_PAYS 0.3      /* of the noise that light paths take away: with as many as EC_LIGHT_PATHS_FEW a sample takes a third longer */
 #define PILOT 8192u          /* samples */
 
 bool ec_render_may_have_caustics(const ec_render_options *o, const ec_scene *scene)
@@ -26,10 +25,10 @@ static double least_mean(const ec_rare *rare)
     return fmax(sum, DBL_MIN);
 }
 
-static void note_common(double share, const ec_log *log)
+static void note_common(const ec_joined_choice *joined, const ec_log *log)
 {
     ec_note(log, "caustics: light paths are traced too, one for %.0f from the camera, since they take about %.0f %% of the variance away (--light-paths 0: none)",
-            1 / EC_LIGHT_PATHS_FEW, 100 * share);
+            1 / joined->number, 100 * joined->share);
 }
 
 static void note_rare(const ec_rare_kind *most, double variance, const ec_log *log)
@@ -63,7 +62,7 @@ ec_result ec_render_judge_caustics(ec_render_state *r, ec_caustics *caustics, co
     bool rare;
     EC_TRY(ec_render_foretell(r, err));
     EC_TRY(judge_rare(r, &rare, log, err));
-    *caustics = rare ? EC_CAUSTICS_RARE : r->rare.joined >= JOINED_PAYS ? EC_CAUSTICS_COMMON : EC_CAUSTICS_NONE;
-    if (*caustics == EC_CAUSTICS_COMMON) note_common(r->rare.joined, log);
+    *caustics = rare ? EC_CAUSTICS_RARE : r->joined.gain >= EC_JOINED_GAIN ? EC_CAUSTICS_COMMON : EC_CAUSTICS_NONE;
+    if (*caustics == EC_CAUSTICS_COMMON) note_common(&r->joined, log);
     return EC_OK;
 }

@@ -11,7 +11,7 @@ static ec_result foretell(ec_render_state *r, ec_error *err)
         ec_error why = {0};
         ec_pipeline *p = ec_sources_pipeline(&r->sources, i % count, i >= count);
         if (!p) continue;
-        if (ec_rare_paths_foretell(&r->lights, p, &r->rare, &why) == EC_OK) return EC_OK;
+        if (ec_rare_paths_foretell(&r->lights, p, &r->rare, &r->joined, &why) == EC_OK) return EC_OK;
         if (!r->sources.team) {
             if (err) *err = why;
             return EC_FAILED;

@@ -3,6 +3,7 @@
 #ifndef EC_RENDER_RENDER_STATE_H
 #define EC_RENDER_RENDER_STATE_H
 
+#include "rare/joined.h"
 #include "rare/lights.h"
 #include "render/course.h"
 #include "render/goal.h"
@@ -32,6 +33,7 @@ typedef struct ec_render_state {
     bool was_narrow;           /* the last batch ended with the kernels of the beginning (device/tiers.h) */
     ec_rare_lights lights;     /* until it is foretold what they do; owned */
     ec_rare rare;              /* what is foretold of them */
+    ec_joined_choice joined;   /* and how many light paths pay */
     bool is_foretold;
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */

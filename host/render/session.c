@@ -82,7 +82,7 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
 
 ec_result ec_session_foretell(ec_session *s, ec_rare *rare, ec_error *err)
 {
-    return ec_rare_paths_foretell(&s->lights, &s->pipeline, rare, err);
+    return ec_rare_paths_foretell(&s->lights, &s->pipeline, rare, NULL, err);
 }
 
 static ec_result set_batch(ec_pipeline *p, const ec_session_batch *batch, ec_error *err)

@@ -288,7 +288,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
     if (roulette) {
         if (!HAS(TRANSMISSION)) sample_pair(random, pair + EC_PAIR_ROULETTE, &u_survives, &u_pass); /* no sooner: registers are scarce above */
         lane_f survival = roulette_survival(sqrt(brightest * roulette_scale), params->survival);
-        if (!roulette_plays(params, bounce + 1, true)) survival = next_way.pdf < 0.0f ? F(1.0f) : survival;
+        if (HAS(SMOOTH) && !roulette_plays(params, bounce + 1, true)) survival = next_way.pdf < 0.0f ? F(1.0f) : survival;
         if (HAS(SCATTERING) && params->survival == 0.0f) /* hundreds of events in a dense body need not lose light */
             survival = (strewn & (brightest >= EC_SURVIVAL_MOST)) ? F(1.0f) : survival;
         alive = alive & (u_survives < survival);

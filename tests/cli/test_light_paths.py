@@ -57,6 +57,7 @@ class LightPaths(OtherWay):
             with self.subTest(other=other):
                 self.assertIsNone(self.render(*job, *other)["light_paths"])
 
+    @full
     def test_auto_common(self):
         """Caustics that paths from the camera meet, but as noise: light paths are traced, and nothing is guided."""
         job = [LADDER, "--size", "96x96", "--spp", "8"]
@@ -75,14 +76,21 @@ class LightPaths(OtherWay):
         taken = 1 - (json.loads(run.stdout)["error"] / self.render(*job, "--light-paths", "0", "--adaptive=off")["error"]) ** 2
         self.assertAlmostEqual(foretold, taken, delta=0.2)
 
+    def assert_none(self, of):
+        job = [of, "--size", "20x18", "--spp", "8", *QUICK]
+        run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
+        self.assertNotIn("caustics", run.stderr)
+        self.assertEqual(json.loads(run.stdout)["image_sha256"], self.render(*job, "--light-paths", "0")["image_sha256"])
+
     def test_auto_not_called_for(self):
-        """Nothing casts light; or light paths would find what paths from the camera find, too: a large lamp."""
-        for of in (CORNELL, scene("brushed-metal"), scene("glass")):
+        self.assert_none(CORNELL)
+
+    @full
+    def test_auto_does_not_pay(self):
+        """Light paths would find what paths from the camera find, too: the light of large lamps."""
+        for of in (scene("brushed-metal"), scene("glass")):
             with self.subTest(scene=of):
-                job = [of, "--size", "20x18", "--spp", "8", *QUICK]
-                run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
-                self.assertNotIn("caustics", run.stderr)
-                self.assertEqual(json.loads(run.stdout)["image_sha256"], self.render(*job, "--light-paths", "0")["image_sha256"])
+                self.assert_none(of)
 
     def test_auto_in_a_mirror(self):
         """What is seen in a mirror no light path can be joined to: none is traced. The mirror hangs over the ring, and faces down."""

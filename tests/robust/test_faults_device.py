@@ -144,7 +144,7 @@ class Memory(FaultCase):
                     self.assertLessEqual(small["wave"], plain["wave"] / 2)
                     self.check_files(folder)
         run, _ = self.run_with("told", *self.big, quiet=False, call="clCreateBuffer", memory=int(limit))
-        self.assertRegex(run.stderr, r"(?m)^eclat: note: the device had memory for a wave of \d+ paths, not of 147456; --wave sets it$")
+        self.assertRegex(run.stderr, rf"(?m)^eclat: note: the device had memory for a wave of \d+ paths, not of {plain['wave']}; --wave sets it$")
 
     def test_what_does_not_fit_at_all_names_bytes_and_remedy(self):
         run, folder = self.run_with("none", *self.big, call="clCreateBuffer", code=-4, memory=200000)

@@ -141,7 +141,7 @@ static void check_invalid_counts(void)
     CHECK_OK(ec_rare_lights_find(&cargo.pack, &lights, &err), err);
     CHECK_OK(ec_pipeline_create(case_cl(), &cargo, NULL, &p, &stats, &err), err);
     CHECK_OK(ec_buffer_write(p.cl, p.buffers[EC_ARG_INVALID], 0, sizeof wanted, wanted, &err), err);
-    CHECK_OK(ec_rare_paths_foretell(&lights, &p, &rare, &err), err);
+    CHECK_OK(ec_rare_paths_foretell(&lights, &p, &rare, NULL, &err), err);
     CHECK_OK(ec_pipeline_read_invalid(&p, found, &err), err);
     CHECK(rare.count > 0 && !memcmp(found, wanted, sizeof found));
     ec_pipeline_destroy(&p);
