@@ -111,6 +111,7 @@ class Bounds(Case):
         # of 60 000 edges 8 192 are tried: taken evenly they passed by those of the hole
         self.assertGreater(self.unmet(sun_room(self.path("hole.gltf"), "hole", rug=100)), 0.1)
 
+    @full
     def test_lamp_that_light_paths_find_has_a_bound(self):
         # a screen hides it from the camera, whose paths end where a guided direction leads into a wall: of those nobody knows how far they would have gone
         bound, _ = self.render(PINLAMP, "--spp", "64")

@@ -16,6 +16,7 @@ SUN = os.path.join(SHARED, "assets", "env", "polyhaven", "qwantani_afternoon_pur
 class Guiding(OtherWay):
     WAY = ["--guiding"]
 
+    @full
     def test_ring(self):
         """A ring's caustic, which paths from the camera seldom find by the surface's own directions."""
         self.assert_same_picture([RING, "--size", "32x32"], 128, fewer=3)

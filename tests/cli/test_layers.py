@@ -123,6 +123,7 @@ class Light(Layers):
 class Kept(Layers):
     LAYERS = ["--channels", "direct,indirect", "--light-groups", "ceiling=ceiling-panel+cove,bulb-over-table"]
 
+    @full
     def test_a_resumed_render_has_the_bits_of_one_run(self):
         self.assert_resumed()
 
@@ -171,6 +172,7 @@ def far_quad():
 
 
 class FirstSurface(Layers):
+    @full
     def test_position_and_texture_coordinates(self):
         """Of pixels that see nothing but the quad: world coordinates within half a pixel of their middle, and coordinates that follow from them."""
         path, half = write_gltf(self.path("far.gltf"), far_quad()), math.tan(0.4) * 3

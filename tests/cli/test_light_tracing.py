@@ -100,6 +100,7 @@ class LightTracing(OtherWay):
     def test_slices_and_resume(self):
         self.assert_slices_and_resume([scene("ring"), "--size", "24x18", *self.WAY])
 
+    @full
     def test_caustic_and_mirror(self):
         """The ring itself is a mirror, which no light path can be joined to: black. The camera sees the caustic beside it."""
         run = self.assert_ok(eclat("render", scene("ring"), "--integrator", "light", "--size", "32x32", "--spp", "64", "--json", "-o", self.path("l.exr")))
@@ -109,6 +110,7 @@ class LightTracing(OtherWay):
         self.assertEqual(green[6 * 32 + 16], 0)   # the ring's far side
         self.assertGreater(green[15 * 32 + 20], 0)  # in the ring
 
+    @full
     def test_bodies_that_scatter(self):
         """No light path scatters inside, so no kernel does, not even one of all effects, and a note says what bodies do instead."""
         for effects, options in (("called", []), ("all", ["--effects", "all"])):

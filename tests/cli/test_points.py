@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, full
 """Points and lines are drawn as wide as --point-size says, with the same bits by every structure, alone and as frames."""
 import json
 import math
@@ -6,6 +6,7 @@ import struct
 import unittest
 
 from support import QUICK, Case, data_uri, eclat, move_node, quad_scene, read_exr, write_gltf
+from tiers import full
 
 SQUARE = 512  # pixels of the picture in which a point of one pixel is one wide
 
@@ -34,6 +35,7 @@ class Points(Case):
             share = sum(planes["A"]) / len(planes["A"])
             self.assertAlmostEqual(share * 2 * window * SQUARE / 2 / size, math.hypot(1, 1 / 3), delta=0.06)  # wider beside the axis
 
+    @full
     def test_all_structures_have_the_same_bits(self):
         scene = self.scene(3)
         options = ["--size", "48x48", "--spp", "4", "--point-size", "9"]

@@ -93,6 +93,7 @@ class Ranks(Case):
                 self.assertEqual(len(found[ranks]), reports[-1]["rendered"])
             self.assertEqual(found[1], found[3])
 
+    @full
     def test_ranks_of_several_devices(self):
         """Pieces of one batch reach the same rank one after the other."""
         job = [CORNELL, "--size", "64x64", "--spp", "512", "--wave", "4096"]
@@ -143,6 +144,7 @@ class Ranks(Case):
         whole, _ = self.render(*JOB, "--spp", str(report["samples_per_pixel"]))
         self.assertEqual(whole["image_sha256"], report["image_sha256"])
 
+    @full
     def test_what_fails_early_is_said_once(self):
         large = ["render", CORNELL, "--size", "4096x4096", "--spp", "4", "--memory", "300M", "-o", self.path("a.exr")]
         for arguments, code, says in [(large, 1, "an MPI job is for pictures that are rendered whole; start one process without mpirun, or"),

@@ -217,6 +217,7 @@ class VolumeScatter(Case):
         run = eclat("render", self.path("none.gltf"), "--fog", "1,1,0", "--integrator", "whitted", "-o", self.path("a.png"))
         self.assertIn("--fog", self.assert_one_error(run, 2))
 
+    @full
     def test_told_where_it_is_left_out(self):
         path = self.scene_of(body(ALBEDO, [9, 4, 2], ior=1.4)).add(block(1, 0, -1)).write(self.path("a.gltf"))
         for options, word in (["--integrator", "whitted"], "only --integrator path scatters light inside"), (["--light-paths", "1"], "--light-paths: none are sent"):

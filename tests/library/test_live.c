@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, full */
 /* Live sessions without a window, by the public functions alone: pictures of wishes, probes, saves that their commands repeat, files that change. */
 #include <eclat/eclat.h>
 
@@ -303,12 +303,16 @@ static void test_what_cannot_be_opened(void)
 
 int main(void)
 {
-    test_a_picture_and_what_is_known_of_it();
-    test_wishes_change_it();
-    test_a_wish_denoises();
-    test_saves_are_repeated_by_their_commands();
-    test_light_paths();
-    test_files_change();
-    test_what_cannot_be_opened();
+    if (test_tier("quick")) {
+        test_a_picture_and_what_is_known_of_it();
+        test_wishes_change_it();
+        test_files_change();
+        test_what_cannot_be_opened();
+    }
+    if (test_tier("full")) {
+        test_a_wish_denoises();
+        test_saves_are_repeated_by_their_commands();
+        test_light_paths();
+    }
     TEST_END();
 }

@@ -144,9 +144,9 @@ int main(void)
     if (test_tier("quick")) {
         check_box(OWN_SCENE("furnace/box-albedo-0.8.gltf"), 0.8);
         check_roulette();
-        check_plates();
     }
     if (test_tier("full")) {
+        check_plates();
         check_box(SHARED("assets/classic/gltf/furnace-nori/furnace-albedo-0.5.gltf"), 0.5);
         check_mixed_box();
         check_spheres();
