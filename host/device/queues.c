@@ -13,9 +13,10 @@ static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ?
  * the cache. (On two cores waves of 2^18 take 0 to 17 % longer than those of 2^16, and those of 2^14 20 % longer in a small scene.) */
 static uint64_t wanted_wave(const ec_device_info *device)
 {
+    uint64_t wave = (uint64_t)1 << 16;
     if (!(device->type & CL_DEVICE_TYPE_CPU)) return (uint64_t)1 << 20;
-    for (uint64_t wave = (uint64_t)1 << 16;; wave *= 2)
-        if (wave >= (uint64_t)EC_UNIT_PATHS * device->compute_units || wave == (uint64_t)1 << 18) return wave;
+    while (wave < (uint64_t)EC_UNIT_PATHS * device->compute_units && wave < (uint64_t)1 << 18) wave *= 2;
+    return wave;
 }
 
 static uint64_t fit_wave(const ec_pipeline *p)

@@ -19,7 +19,7 @@
 /* Panes bend none, nor do bodies of index 1. */
 bool ec_material_bends(const ec_material *m) { return ec_refracts(m) && m->ior != 1.0f && m->transmission > 0.1f; }
 
-bool ec_material_casts(const ec_scene *scene, const ec_material *m)
+static bool material_casts(const ec_scene *scene, const ec_material *m)
 {
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
@@ -30,10 +30,10 @@ bool ec_material_casts(const ec_scene *scene, const ec_material *m)
 bool *ec_scene_casters(const ec_scene *scene)
 {
     bool *casts = calloc(scene->material_count + (size_t)1, sizeof *casts), any = false;
-    for (uint32_t m = 0; m < scene->material_count; m++) any |= ec_material_casts(scene, &scene->materials[m]);
+    for (uint32_t m = 0; m < scene->material_count; m++) any |= material_casts(scene, &scene->materials[m]);
     if (!casts || !any) return casts;
     for (uint32_t t = 0; t < scene->triangle_count; t++) casts[scene->triangle_material[t]] = true;
-    for (uint32_t m = 0; m < scene->material_count; m++) casts[m] = casts[m] && ec_material_casts(scene, &scene->materials[m]);
+    for (uint32_t m = 0; m < scene->material_count; m++) casts[m] = casts[m] && material_casts(scene, &scene->materials[m]);
     return casts;
 }
 
@@ -59,10 +59,12 @@ static void add_point(box *b, const float p[3])
 
 static const box no_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-/* Triangle t, where it stands; placed: NULL in the world as it is. */
+/* Triangle t, where it stands; placed: NULL in the world as it is. It is only counted where there is no list. */
 static void add_triangle(const ec_scene *s, uint32_t t, const ec_placed *placed, boxes *all)
 {
-    box *b = &all->list[all->count++];
+    const size_t at = all->count++;
+    if (!all->list) return;
+    box *b = &all->list[at];
     *b = no_box;
     for (int v = 0; v < 3; v++) {
         const float *corner = s->positions + 3 * (size_t)s->indices[3 * (size_t)t + v];
@@ -72,33 +74,27 @@ static void add_triangle(const ec_scene *s, uint32_t t, const ec_placed *placed,
     }
 }
 
-static size_t count_casting(const ec_scene *s, uint32_t first, uint32_t count, const bool *is)
+/* Triangles that cast; those of a mesh that is kept once in each of its places. */
+static void add_casting(const ec_scene *s, const bool *casts, boxes *all)
 {
-    size_t sum = 0;
-    for (uint32_t t = first; t < first + count; t++) sum += is[s->triangle_material[t]];
-    return sum;
-}
-
-/* Boxes of triangles that cast; those of a mesh that is kept once in each of its places. */
-static ec_result find_boxes(const ec_scene *s, boxes *all, ec_error *err)
-{
-    EC_FREED bool *is = calloc(s->material_count + 1, sizeof *is);
-    if (!is) return ec_fail(err, "out of memory for %u materials", s->material_count);
-    for (uint32_t m = 0; m < s->material_count; m++) is[m] = ec_material_casts(s, &s->materials[m]);
-    size_t most = count_casting(s, 0, ec_scene_flat_count(s), is);
-    for (uint32_t i = 0; i < s->placed_count; i++) {
-        const ec_shape *shape = &s->shapes[s->placed[i].shape];
-        most += count_casting(s, shape->first, shape->count, is);
-    }
-    all->list = malloc((most + 1) * sizeof *all->list);
-    if (!all->list) return ec_fail(err, "out of memory for %zu triangles", most);
     for (uint32_t t = 0; t < ec_scene_flat_count(s); t++)
-        if (is[s->triangle_material[t]]) add_triangle(s, t, NULL, all);
+        if (casts[s->triangle_material[t]]) add_triangle(s, t, NULL, all);
     for (uint32_t i = 0; i < s->placed_count; i++) {
         const ec_shape *shape = &s->shapes[s->placed[i].shape];
         for (uint32_t t = shape->first; t < shape->first + shape->count; t++)
-            if (is[s->triangle_material[t]]) add_triangle(s, t, &s->placed[i], all);
+            if (casts[s->triangle_material[t]]) add_triangle(s, t, &s->placed[i], all);
     }
+}
+
+static ec_result find_boxes(const ec_scene *s, boxes *all, ec_error *err)
+{
+    EC_FREED bool *casts = ec_scene_casters(s);
+    if (!casts) return ec_fail(err, "out of memory for %u materials", s->material_count);
+    add_casting(s, casts, all);
+    all->list = malloc((all->count + 1) * sizeof *all->list);
+    if (!all->list) return ec_fail(err, "out of memory for %zu triangles", all->count);
+    all->count = 0;
+    add_casting(s, casts, all);
     return EC_OK;
 }
 
@@ -245,7 +241,7 @@ ec_result ec_pack_caster_flux(ec_pack *pack, ec_error *err)
     cluster clusters[EC_CASTERS_MOST];
     uint32_t count = 0;
     pack->caster_flux = 0;
-    if (!pack->light_count || !ec_scene_casts(&pack->plain.scene)) return EC_OK;
+    if (!pack->light_count) return EC_OK;
     EC_TRY(find_clusters(&pack->plain.scene, EC_CASTERS_MOST, clusters, &count, err));
     EC_FREED double *weights = calloc(pack->light_count, sizeof *weights);
     if (!weights) return ec_fail(err, "out of memory for %u lights", pack->light_count);

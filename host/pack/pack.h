@@ -123,10 +123,9 @@ bool ec_pack_wants_light_tree(const ec_pack *pack);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 
-/* Does a material, or anything, bend light, or mirror most of it, within a narrow lobe? */
-bool ec_material_casts(const ec_scene *scene, const ec_material *material);
+/* Does anything bend light, or mirror most of it, within a narrow lobe? */
 bool ec_scene_casts(const ec_scene *scene);
-/* Of what casts: does it bend light, rather than mirror it? */
+/* Does a material bend light? One that casts and does not mirrors it. */
 bool ec_material_bends(const ec_material *material);
 /* By material: does a surface of it cast? To be freed; NULL without memory. */
 bool *ec_scene_casters(const ec_scene *scene);
@@ -136,11 +135,10 @@ typedef enum ec_aim {
     EC_AIM_CASTERS_AND_SCENE, /* a sphere about the scene is one too, if there are others */
     EC_AIM_SCENE              /* that alone */
 } ec_aim;
-/* Finds caster_flux alone; before there is a light tree. */
-ec_result ec_pack_caster_flux(ec_pack *pack, ec_error *err);
-
 /* Finds casters, and which lights shine on them; before there is a light tree. */
 ec_result ec_pack_casters(ec_pack *pack, ec_aim aim, ec_error *err);
+/* Finds caster_flux alone; before there is a light tree, too. */
+ec_result ec_pack_caster_flux(ec_pack *pack, ec_error *err);
 
 /* Makes pack->lights those of integrators that sum over lights at their centres: triangles in one plane, edge to edge, as one;
  * small bodies as one point, with their radius in pdf_a; without the environment, and without those of which nothing comes. Nothing samples

@@ -25,7 +25,7 @@ typedef struct tracer {
     int64_t *last;                /* by slot: its chain that waits to know where it ended, or -1 */
     uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp, and the first one so? */
     uint32_t stride;              /* entries of the queue that this wave's paths can be in */
-    ec_joined *joined;
+    ec_joined joined;             /* what its paths gather */
     float *queue, *hits;          /* fields of the device's, `stride` entries each */
     cl_mem pixels;
 } tracer;
@@ -107,10 +107,12 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segmen
 /* A path that is seen where it first meets a surface, if that is not sharp: light paths that casters send there can be joined to it. */
 static void note_joined(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
 {
-    ec_joined_path *path = &t->joined->paths[t->first + slot];
+    ec_joined_path *path = &t->joined.paths[t->first + slot];
     const bool is_joined = segment && (t->wide[slot] & WIDE_AT_FIRST);
-    const float p[3] = {word(t, t->queue, EC_PATH_OX, entry), word(t, t->queue, EC_PATH_OY, entry), word(t, t->queue, EC_PATH_OZ, entry)};
-    if (segment == 1) ec_joined_first(t->joined, t->first + slot, &t->p->params, p, beta_of(t, entry));
+    if (segment == 1) {
+        const float p[3] = {word(t, t->queue, EC_PATH_OX, entry), word(t, t->queue, EC_PATH_OY, entry), word(t, t->queue, EC_PATH_OZ, entry)};
+        ec_joined_first(path, &t->p->params, p, beta_of(t, entry));
+    }
     path->by_segment = is_joined && segment > 1 && casts(t, word_u(t, t->queue, EC_PATH_PRIM, entry));
     path->by_vertex = is_joined && casts(t, word_u(t, t->hits, EC_HIT_PRIM, entry));
 }
@@ -144,7 +146,7 @@ static void look(tracer *t, uint32_t segment)
         if (entry == UINT32_MAX) continue;
         if (t->found->vertices && segment < EC_CHAIN_VERTICES) note_vertex(t, slot, entry, segment);
         note_chain(t, slot, entry, segment);
-        if (t->joined->paths) note_joined(t, slot, entry, segment);
+        if (t->joined.paths) note_joined(t, slot, entry, segment);
         const uint32_t hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
         if (hit != EC_NO_ID) t->found->visits[ec_rare_material_of(t->lights, hit)]++;
     }
@@ -177,9 +179,9 @@ static ec_result bounce(tracer *t, uint32_t *scalars, uint32_t number, ec_error 
     find_paths(t, counters->rays[0]);
     look(t, number);
     EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
-    EC_TRY(ec_joined_gather(t->joined, p, t->first, t->count, number, true, err));
-    if (t->joined->paths && p->params.light_count) EC_TRY(ec_pipeline_launch_trace(p, 1, accel_of(p), scalars, err));
-    EC_TRY(ec_joined_gather(t->joined, p, t->first, t->count, number, false, err));
+    EC_TRY(ec_joined_gather(&t->joined, p, t->first, t->count, number, true, err));
+    if (t->joined.paths && p->params.light_count) EC_TRY(ec_pipeline_launch_trace(p, 1, accel_of(p), scalars, err));
+    EC_TRY(ec_joined_gather(&t->joined, p, t->first, t->count, number, false, err));
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     memcpy(counters->rays[0], counters->rays[1], sizeof counters->rays[0]);
     return EC_OK;
@@ -258,15 +260,14 @@ static void list_paths(uint64_t pixels, uint64_t paths, uint32_t each, uint32_t 
     }
 }
 
-/* most: paths; each: chains of one that there is room for. */
+/* Traces up to `most` paths; there is room for `each` chains a path. */
 static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32_t most, uint32_t each, bool has_vertices, ec_chains *chains,
                             ec_joined_choice *choice, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
     const uint32_t paths = (uint32_t)(pixels * EC_CHAIN_PIXEL < most ? pixels * EC_CHAIN_PIXEL : most);
     const uint32_t wave = p->wave < paths ? p->wave : paths;
-    ec_joined joined;
-    tracer t = {.p = p, .lights = lights, .found = chains, .room = each * paths, .joined = &joined};
+    tracer t = {.p = p, .lights = lights, .found = chains, .room = each * paths};
     *chains = (ec_chains){.paths = paths, .chains = malloc((t.room + (size_t)1) * sizeof *chains->chains),
                           .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
     if (has_vertices) chains->vertices = malloc((size_t)EC_CHAIN_VERTICES * paths * sizeof *chains->vertices);
@@ -276,15 +277,15 @@ static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32
     t.wide = malloc(wave);
     t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
     t.hits = malloc(4ull * (wave + p->params.part));
-    ec_result result = ec_joined_open(&joined, lights->flux, paths, err);
+    ec_result result = ec_joined_open(&t.joined, lights->flux, paths, err);
     if (result == EC_OK && (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits))
         result = ec_fail(err, "out of memory for %u paths", paths);
     if (result == EC_OK) {
-        list_paths(pixels, paths, joined.paths ? 2 : 1, t.list);
+        list_paths(pixels, paths, t.joined.paths ? 2 : 1, t.list);
         result = trace_apart(&t, err);
     }
-    if (result == EC_OK) *choice = ec_joined_choose(&joined, paths);
-    ec_joined_close(&joined);
+    if (result == EC_OK) *choice = ec_joined_choose(&t.joined, paths);
+    ec_joined_close(&t.joined);
     free(t.list);
     free(t.at);
     free(t.last);

@@ -14,6 +14,7 @@
 /* Time of a sample, over that of one without light paths: shading weighs one more way, and a light path takes as long as some camera paths. */
 #define TIME_WITH 1.25
 #define TIME_EACH 2.2
+#define PAYS 1.1         /* gain in time to an error: less does not pay for the kernels that have to be built */
 
 static const double numbers[EC_JOINED_NUMBERS] = {1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2};
 
@@ -33,7 +34,7 @@ void ec_joined_close(ec_joined *j)
     *j = (ec_joined){0};
 }
 
-void ec_joined_first(ec_joined *j, uint32_t path, const ec_params *params, const float p[3], float beta)
+void ec_joined_first(ec_joined_path *path, const ec_params *params, const float p[3], float beta)
 {
     double way2 = 0, depth = 0;
     for (int k = 0; k < 3; k++) {
@@ -42,8 +43,8 @@ void ec_joined_first(ec_joined *j, uint32_t path, const ec_params *params, const
         depth += way * params->camera_forward[k];
     }
     const double cosine = depth / sqrt(way2);
-    j->paths[path].area = (float)(params->orthographic ? params->film_area : params->film_area * way2 * cosine * cosine * cosine);
-    j->paths[path].beta = beta;
+    path->area = (float)(params->orthographic ? params->film_area : params->film_area * way2 * cosine * cosine * cosine);
+    path->beta = beta;
 }
 
 static void add(ec_joined *j, ec_joined_path *path, float light, bool is_joined)
@@ -79,8 +80,8 @@ static double gain_of(double saved, double variance, double number)
 
 ec_joined_choice ec_joined_choose(const ec_joined *j, uint32_t paths)
 {
-    ec_joined_choice best = {.gain = 1};
-    double saved[EC_JOINED_NUMBERS] = {0}, indirect = 0, all = 0;
+    ec_joined_choice best = {.number = 0};
+    double saved[EC_JOINED_NUMBERS] = {0}, indirect = 0, all = 0, most = PAYS;
     for (uint32_t i = 0; j->paths && i < paths; i++)
         for (int k = 0; k < EC_JOINED_NUMBERS; k++) saved[k] += (double)j->paths[i].saved[k] * j->paths[i].saved[k];
     for (uint32_t i = 0; j->paths && i + 1 < paths; i += 2) {
@@ -88,11 +89,15 @@ ec_joined_choice ec_joined_choose(const ec_joined *j, uint32_t paths)
         indirect += pow((double)a->indirect - b->indirect, 2);
         all += pow((double)a->radiance - b->radiance, 2);
     }
+    if (!(indirect > 0)) return best;
     const double noise = indirect + DIRECT_LEFT * fmax(all - indirect, 0);
-    for (int k = 0; noise > 0 && k < EC_JOINED_NUMBERS; k++) {
+    for (int k = 0; k < EC_JOINED_NUMBERS; k++) {
         const double gain = gain_of(saved[k], noise, numbers[k]);
-        best.may |= indirect > 0 && gain_of(saved[k], indirect, numbers[k]) >= EC_JOINED_GAIN;
-        if (gain > best.gain) best.gain = gain, best.number = numbers[k], best.share = fmin(saved[k] / noise, 1);
+        best.may |= gain_of(saved[k], indirect, numbers[k]) >= PAYS;
+        if (gain < most) continue;
+        most = gain;
+        best.number = numbers[k];
+        best.share = fmin(saved[k] / noise, 1);
     }
     return best;
 }

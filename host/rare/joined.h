@@ -5,7 +5,6 @@
 #include "device/pipeline.h"
 
 enum { EC_JOINED_NUMBERS = 6 };
-#define EC_JOINED_GAIN 1.1 /* in time to an error: less does not pay for the kernels that have to be built */
 
 /* What one path has gathered, of luminance. */
 typedef struct ec_joined_path {
@@ -22,12 +21,12 @@ typedef struct ec_joined {
     ec_joined_path *paths; /* NULL: nobody asks */
 } ec_joined;
 
-/* Of so many paths, two of each pixel in turn. flux: 0 where nobody asks. */
+/* Room for paths that come in pairs, two of a pixel. flux: 0 where nobody asks. */
 ec_result ec_joined_open(ec_joined *j, double flux, uint32_t paths, ec_error *err);
 void ec_joined_close(ec_joined *j); /* zero-initialised or closed is fine */
 
 /* Where a path, which leaves p with beta, first met a surface. */
-void ec_joined_first(ec_joined *j, uint32_t path, const ec_params *params, const float p[3], float beta);
+void ec_joined_first(ec_joined_path *path, const ec_params *params, const float p[3], float beta);
 
 /* What the wave's paths, from `first` on, have gathered since it was last called: by the segments that bounce `bounce` traced, or else by light sampled
  * where these end. */
@@ -35,8 +34,7 @@ ec_result ec_joined_gather(ec_joined *j, ec_pipeline *pipeline, uint32_t first, 
 
 /* How many light paths for each camera path have the least error for the time. */
 typedef struct ec_joined_choice {
-    double number; /* 0: none */
-    double gain;   /* variance times time without them, over that with them */
+    double number; /* 0: none pays */
     double share;  /* of the variance, that they take away */
     bool may;      /* would it pay if there were indirect light alone? Then more paths should tell */
 } ec_joined_choice;

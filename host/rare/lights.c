@@ -261,14 +261,13 @@ static ec_result copy_materials(const ec_scene *scene, ec_rare_lights *all, ec_e
     all->placed = copy_of(scene->placed, scene->placed_count * sizeof *scene->placed);
     all->lights = calloc(EC_RARE_LIGHTS, sizeof *all->lights);
     all->sharp = calloc(scene->material_count + (size_t)1, sizeof *all->sharp);
-    all->casts = calloc(scene->material_count + (size_t)1, sizeof *all->casts);
+    all->casts = ec_scene_casters(scene);
     if (!all->triangle_material || !all->materials || !all->shapes || !all->placed || !all->lights || !all->sharp || !all->casts)
         return ec_fail(err, "out of memory for the materials of %u triangles", scene->triangle_count);
     for (uint32_t m = 0; m < scene->material_count; m++) {
         const char *name = scene->materials[m].name;
         if (name && *name) snprintf(all->materials[m], EC_RARE_NAME, "%.*s", EC_CUT(name, EC_RARE_NAME - 1));
         else snprintf(all->materials[m], EC_RARE_NAME, "material %u", m);
-        all->casts[m] = ec_material_casts(scene, &scene->materials[m]);
     }
     return EC_OK;
 }

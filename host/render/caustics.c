@@ -62,7 +62,7 @@ ec_result ec_render_judge_caustics(ec_render_state *r, ec_caustics *caustics, co
     bool rare;
     EC_TRY(ec_render_foretell(r, err));
     EC_TRY(judge_rare(r, &rare, log, err));
-    *caustics = rare ? EC_CAUSTICS_RARE : r->joined.gain >= EC_JOINED_GAIN ? EC_CAUSTICS_COMMON : EC_CAUSTICS_NONE;
+    *caustics = rare ? EC_CAUSTICS_RARE : r->joined.number > 0 ? EC_CAUSTICS_COMMON : EC_CAUSTICS_NONE;
     if (*caustics == EC_CAUSTICS_COMMON) note_common(&r->joined, log);
     return EC_OK;
 }
