@@ -102,8 +102,10 @@ class Installed(support.Case):
         self.run_tool("c++", "-std=c++11", "-pedantic-errors", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-x", "c++", header)
 
     def test_symbols_are_those_of_the_header(self):
-        with open(find(self.prefix, "eclat.h"), encoding="utf-8") as header:
-            declared = set(re.findall(r"\b(eclat_\w+)\(", header.read()))
+        declared = set()
+        for name in ("eclat.h", "live.h"):
+            with open(find(self.prefix, name), encoding="utf-8") as header:
+                declared |= set(re.findall(r"\b(eclat_\w+)\(", header.read()))
         symbols = self.run_tool("nm", "-D", "--defined-only", os.path.join(self.libraries, "libeclat.so"))
         self.assertEqual({line.split()[-1].split("@")[0] for line in symbols.splitlines()}, declared)
         self.assertIn("libeclat.so.0", self.run_tool("objdump", "-p", os.path.join(self.libraries, "libeclat.so")))
