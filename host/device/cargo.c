@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "device/ahead.h"
 #include "device/light_batch.h"
+#include "device/light_share.h"
 #include "device/pipeline.h"
 #include "device/pixel_filter.h"
 #include "pack/lamp_pairs.h"
@@ -238,6 +239,7 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->light_choices = pack->light_choices;
     params->light_tree_numbers = pack->light_tree_numbers;
     set_light_paths(o, pack, called, params);
+    if (pack->lights_are_halved) ec_light_share_set(params, o->far_share > 0 ? o->far_share : 0.5);
     params->layer_count = o->layers.count;
     for (int k = 0; k < EC_LAYER_KINDS; k++) params->layer_of[k] = ec_layers_find(&o->layers, k);
     params->layer_groups = ec_layers_groups(&o->layers);

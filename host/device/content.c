@@ -8,6 +8,7 @@
 
 #include <sha2.h>
 
+#include "device/light_share.h"
 #include "device/pipeline.h"
 
 static void add(SHA2_CTX *digests, ec_content_id id, const void *bytes, uint64_t size)
@@ -66,7 +67,8 @@ static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
 static void add_params(SHA2_CTX *digests, ec_params p)
 {
     p.batch = p.first_sample = p.wave = p.part = p.film_rows = 0;
-    p.limit = 0; /* follows from what else there is */
+    p.limit = 0; /* follows from what else there is, as this does: */
+    if (p.far_numbers) ec_light_share_set(&p, 0.5);
     TAKE(EC_CONTENT_CAMERA, camera_origin);
     TAKE(EC_CONTENT_CAMERA, camera_right);
     TAKE(EC_CONTENT_CAMERA, camera_up);

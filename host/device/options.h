@@ -71,6 +71,7 @@ typedef struct ec_render_options {
     ec_sampler_type sampler;
     ec_sample sample;           /* all converge to the same image */
     ec_light_choice light_choice;
+    double far_share;           /* of light samples, for lights at infinity where there are lamps too; 0: as many as have the least noise */
     ec_scattering scattering;
     ec_terminator terminator;   /* smooth: rays start on the smooth surface, not on its facets */
     uint64_t seed;

@@ -34,6 +34,7 @@ typedef struct ec_render_stats {
     double clamp_luminance;       /* most of a sample's indirect light; 0: no limit */
     double light_paths;           /* for each camera path: the options', or what was chosen */
     bool is_guided;               /* directions by what light paths found: the option, or what was chosen */
+    double far_share;             /* of light samples, that lights at infinity were chosen to have; 0: there are not both, these and lamps */
     double allotment_gain;        /* adaptive: error^2 over uniform sampling's, foretold; 1 where there was nothing to gain */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */

@@ -1,7 +1,7 @@
 #include "pack/distribution.h"
 
 /* Every positive weight has one number for itself, and of the others its part. */
-static void share_out(const double *weights, uint32_t n, ec_distribution_entry *table, double *pmf)
+void ec_distribution_share(const double *weights, uint32_t n, uint64_t first, uint64_t end_of_all, ec_distribution_entry *table, double *pmf)
 {
     double sum = 0.0, before = 0.0;
     uint32_t positive = 0, seen = 0;
@@ -9,12 +9,12 @@ static void share_out(const double *weights, uint32_t n, ec_distribution_entry *
         sum += weights[i];
         positive += weights[i] > 0.0;
     }
-    uint64_t first = 0, others = ((uint64_t)1 << 32) - positive;
+    const uint64_t begin = first, others = end_of_all - begin - positive;
     for (uint32_t i = 0; i < n; i++) {
         before += weights[i];
         seen += weights[i] > 0.0;
-        uint64_t end = seen + (uint64_t)(before / sum * (double)others);
-        if (seen == positive) end = (uint64_t)1 << 32;
+        uint64_t end = begin + seen + (uint64_t)(before / sum * (double)others);
+        if (seen == positive) end = end_of_all;
         table[i].first = (uint32_t)first; /* 2^32, after the last positive weight, as 0: nobody looks there */
         pmf[i] = (double)(end - first) * 0x1p-32;
         first = end;
@@ -23,7 +23,7 @@ static void share_out(const double *weights, uint32_t n, ec_distribution_entry *
 
 void ec_distribution_build(const double *weights, uint32_t n, ec_distribution_entry *table, double *pmf)
 {
-    share_out(weights, n, table, pmf);
+    ec_distribution_share(weights, n, 0, (uint64_t)1 << 32, table, pmf);
     double end = pmf[0]; /* of entry i's share; exact */
     for (uint32_t bucket = 0, i = 0; bucket < n; bucket++) {
         uint64_t last = ((((uint64_t)bucket + 1) << 32) + n - 1) / n - 1; /* number in the bucket r * n >> 32 */

@@ -10,6 +10,9 @@
  * share of the 32-bit numbers, 0 only where the weight is. Arrays hold n entries and are the caller's; pmf may be the weights. */
 void ec_distribution_build(const double *weights, uint32_t n, ec_distribution_entry *table, double *pmf);
 
+/* Fills what these entries have of a table, without guides: numbers first … end - 1. */
+void ec_distribution_share(const double *weights, uint32_t n, uint64_t first, uint64_t end, ec_distribution_entry *table, double *pmf);
+
 /* The guides of a table whose shares are changed: entry i's begins at table[i].first, and none is empty but perhaps behind the last. */
 void ec_distribution_guide(uint32_t n, ec_distribution_entry *table);
 

@@ -47,28 +47,14 @@ bool ec_pack_wants_light_tree(const ec_pack *pack)
            && (lamps >= EC_LIGHT_TREE_MANY || spread2 * power > EC_LIGHT_TREE_SIZES * EC_LIGHT_TREE_SIZES * size2);
 }
 
-/* Entry `far - 1` of the table, the last one before the lamps', has become one number longer: its light's probabilities follow. */
-static void note_longer(ec_pack *pack, uint32_t far)
-{
-    ec_light_data *l = &pack->lights[far - 1];
-    const uint32_t numbers = pack->light_shares[far].first - pack->light_shares[far - 1].first;
-    l->pmf = (float)(numbers * 0x1p-32);
-    if (l->kind != EC_KIND_ENVIRONMENT) return;
-    pack->environment_pmf = l->pmf;
-    pack->environment_stretch = ec_distribution_stretch(numbers);
-}
-
-/* The table then has those that are infinitely far and one entry for all lamps, which stand behind them: an even number of numbers, since
- * the tree takes half of each. The tree's probability has that of the entry in it: densities are those of a lamp that is chosen already. */
+/* The table then has those that are infinitely far and one entry for all lamps, which stand behind them: half of the numbers or all, of which the
+ * tree has one for two. The tree's probability has that of the entry in it: densities are those of a lamp that is chosen already. */
 static void share_out(ec_pack *pack)
 {
     uint32_t far = 0;
     while (ec_light_is_far(&pack->lights[far])) far++;
-    const uint32_t first = pack->light_shares[far].first, even = first == UINT32_MAX ? first - 1 : first + (first & 1);
-    pack->light_shares[far].first = even;
-    if (even != first) note_longer(pack, far);
     pack->light_choices = far + 1;
-    pack->light_tree_numbers = (uint32_t)((((uint64_t)1 << 32) - even) / 2);
+    pack->light_tree_numbers = (uint32_t)((((uint64_t)1 << 32) - pack->light_shares[far].first) / 2);
     ec_distribution_guide(pack->light_choices, pack->light_shares);
     for (uint32_t i = far; i < pack->light_count; i++) {
         ec_light_data *l = &pack->lights[i];

@@ -1,5 +1,6 @@
-/* The table of everything that can be sampled as light. Half of the samples go to lights at infinity, half to those in the
- * scene, and within each half by power (radiant flux, luminance-weighted). In the order of light_order.h: one number chooses and goes on. */
+/* The table of everything that can be sampled as light. Half of the numbers go to lights at infinity, half to those in the
+ * scene, and within each half by power (radiant flux, luminance-weighted): device/light_share.h tells how many samples a half has. In the order of
+ * light_order.h: one number chooses and goes on. */
 #include <math.h>
 #include <string.h>
 
@@ -117,24 +118,34 @@ static void add_punctual(const ec_light *in, uint32_t number, uint32_t moves, do
 /* The power of a sky or a sun goes with the size of the scene and says nothing of what reaches a corner that a lamp lights:
  * by power alone that lamp would be chosen so seldom that its light is fireflies. Halving costs the other side at most
  * twice the variance. */
-static void balance(light_list *list, ec_pack *pack)
+static void share_out(const light_list *list, ec_pack *pack, double *pmf)
 {
+    const uint64_t half = (uint64_t)1 << 31;
     double sum[2] = {0.0, 0.0};
-    for (uint32_t i = 0; i < list->count; i++) sum[ec_light_is_far(&list->lights[i])] += list->power[i];
+    uint32_t far = 0;
+    for (uint32_t i = 0; i < list->count; i++) {
+        sum[ec_light_is_far(&list->lights[i])] += list->power[i];
+        far += ec_light_is_far(&list->lights[i]);
+    }
     pack->lamp_share = (float)(sum[0] > 0.0 ? sum[0] / (sum[0] + sum[1]) : 0.0);
     pack->lamp_power = sum[0];
-    if (!(sum[0] > 0.0 && sum[1] > 0.0)) return;
-    for (uint32_t i = 0; i < list->count; i++) list->power[i] /= sum[ec_light_is_far(&list->lights[i])];
+    pack->lights_are_halved = sum[0] > 0.0 && sum[1] > 0.0;
+    if (!pack->lights_are_halved) {
+        ec_distribution_build(list->power, list->count, pack->light_shares, pmf);
+        return;
+    }
+    ec_distribution_share(list->power, far, 0, half, pack->light_shares, pmf);
+    ec_distribution_share(list->power + far, list->count - far, half, 2 * half, pack->light_shares + far, pmf + far);
+    ec_distribution_guide(list->count, pack->light_shares);
 }
 
 static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
 {
     EC_TRY(ec_light_order(list->lights, list->power, list->source, list->count, err));
-    balance(list, pack);
     EC_FREED double *pmf = malloc((list->count + 1) * sizeof *pmf);
     pack->light_shares = malloc((list->count + 1) * sizeof *pack->light_shares);
     if (!pmf || !pack->light_shares) return ec_fail(err, "out of memory for %u lights", list->count);
-    if (list->count) ec_distribution_build(list->power, list->count, pack->light_shares, pmf);
+    if (list->count) share_out(list, pack, pmf);
     for (uint32_t i = 0; i < list->count; i++) {
         ec_light_data *l = &list->lights[i];
         l->pmf = (float)pmf[i];
@@ -197,6 +208,20 @@ static ec_result fill_table(const ec_scene *scene, ec_pack *pack, const bool *em
     return note_prims(pack, list, emits, first, err);
 }
 
+static bool emits_light(const ec_material *m) { return ec_luminance_of_floats(m->emission) > 0.0 && !m->unlit; }
+
+bool ec_scene_mixes_lights(const ec_scene *scene)
+{
+    bool far = scene->has_environment, lamps = false;
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const bool is_far = scene->lights[i].type == EC_LIGHT_DIRECTIONAL;
+        far |= is_far;
+        lamps |= !is_far;
+    }
+    for (uint32_t m = 0; m < scene->material_count; m++) lamps |= emits_light(&scene->materials[m]);
+    return far && lamps;
+}
+
 ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     double environment_luminance;
@@ -206,7 +231,7 @@ ec_result ec_pack_lights(const ec_scene *scene, ec_pack *pack, ec_error *err)
     if (!mean || !emits) return ec_fail(err, "out of memory for %u materials", scene->material_count);
     for (uint32_t m = 0; m < scene->material_count; m++) {
         const ec_material *material = &scene->materials[m];
-        emits[m] = ec_luminance_of_floats(material->emission) > 0.0 && !material->unlit;
+        emits[m] = emits_light(material);
         if (emits[m]) mean[m] = ec_texture_whole_mean(scene, &material->textures[EC_SLOT_EMISSION]);
     }
     uint32_t most = scene->light_count + 1;

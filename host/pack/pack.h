@@ -54,6 +54,7 @@ typedef struct ec_pack {
     uint32_t lamp_node_count;      /* 0: no lamp is in parts */
     ec_lamp_node *lamp_nodes;      /* of lamps whose texture varies (lamp_parts.h) */
     float lamp_share;              /* lamps' part of all lights' power */
+    bool lights_are_halved;        /* are there both, lamps and lights at infinity, each of them chosen by half of all numbers? */
     double lamp_power;             /* W, of luminance: what is shared among lamps as their pmf has it */
     uint32_t light_tree_numbers;   /* of 2^31 numbers those by which light sampling goes to the tree */
     uint32_t caster_count;         /* 0: nothing for light paths to be aimed at, or nobody asked */
@@ -122,6 +123,9 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
 bool ec_pack_wants_light_tree(const ec_pack *pack);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
+
+/* May there be both, lights at infinity and lamps? */
+bool ec_scene_mixes_lights(const ec_scene *scene);
 
 /* Does anything bend light, or mirror most of it, within a narrow lobe? */
 bool ec_scene_casts(const ec_scene *scene);

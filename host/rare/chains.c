@@ -8,45 +8,43 @@
 #include "device/guide.h"
 #include "film/film.h"
 #include "device/adaptive.h"
+#include "rare/look.h"
 
 enum { LANES_MOST = 64 }; /* more than any work-item has */
 enum { WIDE = 1, WIDE_AT_FIRST = 2 };
 #define CHAINS_EACH 8 /* of a path, in the mean, at most */
-#define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
 
-/* The paths of a wave, as the host sees them between two kernels. */
+/* The paths of a wave. */
 typedef struct tracer {
+    ec_look look;
     ec_pipeline *p;
     const ec_rare_lights *lights;
     ec_chains *found;
-    uint32_t room, first, count;  /* chains there is room for; paths of this wave */
-    uint32_t *list;               /* of all paths, EC_LIST_WORDS each */
+    uint32_t room;                /* for so many chains */
     uint32_t *at;                 /* by slot: the path's entry in the queue, or UINT32_MAX */
     int64_t *last;                /* by slot: its chain that waits to know where it ended, or -1 */
     uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp, and the first one so? */
-    uint32_t stride;              /* entries of the queue that this wave's paths can be in */
     ec_joined joined;             /* what its paths gather */
-    float *queue, *hits;          /* fields of the device's, `stride` entries each */
-    cl_mem pixels;
+    float *queue, *hits;          /* fields of the device's */
 } tracer;
 
-static float word(const tracer *t, const float *queue, int field, uint32_t entry) { return queue[(size_t)field * t->stride + entry]; }
+static float word(const tracer *t, const float *queue, int field, uint32_t entry) { return queue[(size_t)field * t->look.stride + entry]; }
 
 static uint32_t word_u(const tracer *t, const float *queue, int field, uint32_t entry)
 {
     uint32_t value;
-    memcpy(&value, &queue[(size_t)field * t->stride + entry], sizeof value);
+    memcpy(&value, &queue[(size_t)field * t->look.stride + entry], sizeof value);
     return value;
 }
 
 /* Where each path stands in the queue, whose order is the threads'. */
 static void find_paths(tracer *t, const uint32_t *parts)
 {
-    memset(t->at, 0xff, t->count * sizeof *t->at);
+    memset(t->at, 0xff, t->look.count * sizeof *t->at);
     for (uint32_t k = 0; k < EC_PARTS; k++)
         for (uint32_t i = 0; i < parts[k * EC_PART_STRIDE]; i++) {
             const uint32_t entry = k * t->p->params.part + i, slot = word_u(t, t->queue, EC_PATH_SLOT, entry);
-            if (slot < t->count) t->at[slot] = entry;
+            if (slot < t->look.count) t->at[slot] = entry;
         }
 }
 
@@ -71,7 +69,7 @@ static void set_segment(const tracer *t, uint32_t slot, uint32_t entry, uint32_t
     c->prim = word_u(t, t->queue, EC_PATH_PRIM, entry);
     c->hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
     c->reach = c->hit == EC_NO_ID ? INFINITY : NAN;
-    c->place = ec_pixel_place(&t->p->params, t->list[EC_LIST_WORDS * (t->first + slot)]);
+    c->place = ec_pixel_place(&t->p->params, t->look.list[EC_LIST_WORDS * (t->look.first + slot)]);
     c->segment = segment;
 }
 
@@ -107,7 +105,7 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segmen
 /* A path that is seen where it first meets a surface, if that is not sharp: light paths that casters send there can be joined to it. */
 static void note_joined(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
 {
-    ec_joined_path *path = &t->joined.paths[t->first + slot];
+    ec_joined_path *path = &t->joined.paths[t->look.first + slot];
     const bool is_joined = segment && (t->wide[slot] & WIDE_AT_FIRST);
     if (segment == 1) {
         const float p[3] = {word(t, t->queue, EC_PATH_OX, entry), word(t, t->queue, EC_PATH_OY, entry), word(t, t->queue, EC_PATH_OZ, entry)};
@@ -139,7 +137,7 @@ static void end_chain(tracer *t, uint32_t slot, uint32_t entry)
 
 static void look(tracer *t, uint32_t segment)
 {
-    for (uint32_t slot = 0; slot < t->count; slot++) {
+    for (uint32_t slot = 0; slot < t->look.count; slot++) {
         const uint32_t entry = t->at[slot];
         if (entry != UINT32_MAX) end_chain(t, slot, entry);
         t->last[slot] = -1;
@@ -152,39 +150,36 @@ static void look(tracer *t, uint32_t segment)
     }
 }
 
-static uint32_t accel_of(const ec_pipeline *p)
-{
-    uint32_t accel = 0;
-    while (!(p->kernels.accels >> accel & 1)) accel++;
-    return accel;
-}
-
 static ec_result read_fields(const tracer *t, cl_mem from, uint32_t fields, float *into, ec_error *err)
 {
-    return ec_buffer_read_rows(t->p->cl, from, 4ull * t->p->wave, 4ull * t->stride, fields, into, err);
+    return ec_buffer_read_rows(t->p->cl, from, 4ull * t->p->wave, 4ull * t->look.stride, fields, into, err);
 }
 
-/* One bounce: rays[0] of the counters says what each part of the queue holds, and at the end what is left. */
-static ec_result bounce(tracer *t, uint32_t *scalars, uint32_t number, ec_error *err)
+static ec_result met(void *user, uint32_t number, ec_error *err)
 {
+    tracer *t = user;
     ec_pipeline *p = t->p;
-    ec_counters *counters = &p->counters;
-    memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
-    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    scalars[EC_ARG_BOUNCE] = number;
-    ec_pipeline_swap_queues(p, number);
-    EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
+    if (number == 0) {
+        memset(t->last, 0xff, t->look.count * sizeof *t->last);
+        memset(t->wide, 0, t->look.count);
+    }
     EC_TRY(read_fields(t, p->buffers[EC_ARG_PATHS], EC_PATH_FIELDS, t->queue, err));
     EC_TRY(read_fields(t, p->buffers[EC_ARG_HITS], EC_HIT_PRIM + 1, t->hits, err));
-    find_paths(t, counters->rays[0]);
+    find_paths(t, p->counters.rays[0]);
     look(t, number);
-    EC_TRY(ec_pipeline_launch(p, EC_SHADE, scalars, err));
-    EC_TRY(ec_joined_gather(&t->joined, p, t->first, t->count, number, true, err));
-    if (t->joined.paths && p->params.light_count) EC_TRY(ec_pipeline_launch_trace(p, 1, accel_of(p), scalars, err));
-    EC_TRY(ec_joined_gather(&t->joined, p, t->first, t->count, number, false, err));
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    memcpy(counters->rays[0], counters->rays[1], sizeof counters->rays[0]);
     return EC_OK;
+}
+
+static ec_result shaded(void *user, uint32_t number, ec_error *err)
+{
+    tracer *t = user;
+    return ec_joined_gather(&t->joined, t->p, t->look.first, t->look.count, number, true, err);
+}
+
+static ec_result lit(void *user, uint32_t number, ec_error *err)
+{
+    tracer *t = user;
+    return ec_joined_gather(&t->joined, t->p, t->look.first, t->look.count, number, false, err);
 }
 
 /* Where nothing is more than diffuse only the camera's own directions are sharp. */
@@ -195,98 +190,28 @@ static uint32_t bounces_of(const ec_pipeline *p, bool has_vertices)
     return most < p->params.max_depth ? most : p->params.max_depth;
 }
 
-static ec_result trace_wave(tracer *t, ec_error *err)
-{
-    ec_pipeline *p = t->p;
-    uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_SEED] = SEED, [EC_ARG_PATH_COUNT] = t->count, [EC_ARG_PIXEL_COUNT] = t->count,
-                                             [EC_ARG_TRIANGLE_COUNT] = p->triangle_count};
-    memset(t->last, 0xff, t->count * sizeof *t->last);
-    memset(t->wide, 0, t->count);
-    EC_TRY(ec_buffer_write(p->cl, t->pixels, 0, 4ull * EC_LIST_WORDS * t->count, t->list + (size_t)EC_LIST_WORDS * t->first, err));
-    ec_pipeline_swap_queues(p, 0);
-    EC_TRY(ec_pipeline_launch(p, EC_GENERATE, scalars, err));
-    ec_pipeline_fill_parts(p, t->count);
-    const uint32_t bounces = bounces_of(p, t->found->vertices != NULL);
-    for (uint32_t b = 0; b < bounces && ec_pipeline_total(p->counters.rays[0]); b++)
-        EC_TRY(bounce(t, scalars, b, err));
-    return EC_OK;
-}
-
-static ec_result trace_all(tracer *t, ec_error *err)
-{
-    for (t->first = 0; t->first < t->found->paths; t->first += t->count) {
-        const uint32_t left = t->found->paths - t->first;
-        t->count = left < t->p->wave ? left : t->p->wave;
-        t->stride = (t->count + t->p->params.part - 1) / t->p->params.part * t->p->params.part;
-        EC_TRY(trace_wave(t, err));
-    }
-    return EC_OK;
-}
-
-/* Paths are one sample a pixel, and no part of a batch. Shading counts what is invalid: counts are put back as they were. */
-static ec_result trace_apart(tracer *t, ec_error *err)
-{
-    ec_pipeline *p = t->p;
-    const ec_params params = p->params;
-    const cl_mem list = p->buffers[EC_ARG_PIXEL_LIST], aov = p->buffers[EC_ARG_AOV];
-    uint32_t invalid[EC_STAGE_COUNT];
-    const uint64_t bytes = 4ull * EC_LIST_WORDS * t->found->paths, slack = 64 * 4 * EC_LIST_WORDS; /* lanes past the last path look too */
-    EC_TRY(ec_pipeline_read_invalid(p, invalid, err));
-    EC_TRY(ec_buffer_create(p->cl, "pixel list", bytes + slack, NULL, &t->pixels, err));
-    p->params.batch = 1;
-    p->params.first_sample = 0;
-    p->params.film_row = 0;
-    p->buffers[EC_ARG_PIXEL_LIST] = t->pixels;
-    p->buffers[EC_ARG_AOV] = NULL;
-    ec_result result = ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
-    if (result == EC_OK) result = trace_all(t, err);
-    p->params = params;
-    p->buffers[EC_ARG_PIXEL_LIST] = list;
-    p->buffers[EC_ARG_AOV] = aov;
-    if (result == EC_OK) result = ec_buffer_write(p->cl, p->buffers[EC_ARG_INVALID], 0, sizeof invalid, invalid, err);
-    if (result == EC_OK) result = ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof params, &params, err);
-    if (result == EC_OK) result = ec_cl_finish(p->cl, err);
-    ec_buffer_release(p->cl, &t->pixels);
-    return result;
-}
-
-/* Evenly over the numbers of pixels, which lie tile by tile, `each` samples of a pixel; the next round over them takes their next samples. */
-static void list_paths(uint64_t pixels, uint64_t paths, uint32_t each, uint32_t *list)
-{
-    const uint64_t places = paths / each;
-    for (uint64_t i = 0, at = 0; i < paths; at = ++i / each) {
-        list[EC_LIST_WORDS * i] = (uint32_t)(pixels < places ? at % pixels : at * pixels / places);
-        list[EC_LIST_WORDS * i + 1] = (uint32_t)((pixels < places ? at / pixels * each : 0) + i % each);
-    }
-}
-
 /* Traces up to `most` paths; there is room for `each` chains a path. */
 static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32_t most, uint32_t each, bool has_vertices, ec_chains *chains,
                             ec_joined_choice *choice, ec_error *err)
 {
-    const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    const uint32_t paths = (uint32_t)(pixels * EC_CHAIN_PIXEL < most ? pixels * EC_CHAIN_PIXEL : most);
-    const uint32_t wave = p->wave < paths ? p->wave : paths;
+    const uint32_t paths = ec_look_paths(p, most), wave = p->wave < paths ? p->wave : paths;
     tracer t = {.p = p, .lights = lights, .found = chains, .room = each * paths};
     *chains = (ec_chains){.paths = paths, .chains = malloc((t.room + (size_t)1) * sizeof *chains->chains),
                           .visits = calloc(lights->material_count + (size_t)1, sizeof *chains->visits)};
     if (has_vertices) chains->vertices = malloc((size_t)EC_CHAIN_VERTICES * paths * sizeof *chains->vertices);
-    t.list = malloc(4ull * EC_LIST_WORDS * paths);
     t.at = malloc(4ull * wave);
     t.last = malloc(8ull * wave);
     t.wide = malloc(wave);
     t.queue = malloc(4ull * (wave + p->params.part) * EC_PATH_FIELDS);
     t.hits = malloc(4ull * (wave + p->params.part));
     ec_result result = ec_joined_open(&t.joined, lights->flux, paths, err);
-    if (result == EC_OK && (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.list || !t.at || !t.last || !t.wide || !t.queue || !t.hits))
+    if (result == EC_OK && (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.at || !t.last || !t.wide || !t.queue || !t.hits))
         result = ec_fail(err, "out of memory for %u paths", paths);
-    if (result == EC_OK) {
-        list_paths(pixels, paths, t.joined.paths ? 2 : 1, t.list);
-        result = trace_apart(&t, err);
-    }
+    t.look = (ec_look){.p = p, .paths = paths, .each = t.joined.paths ? 2 : 1, .replicates = 1, .bounces = bounces_of(p, has_vertices), .samples_light = t.joined.paths,
+                       .met = met, .shaded = shaded, .lit = lit, .user = &t};
+    if (result == EC_OK) result = ec_look_trace(&t.look, err);
     if (result == EC_OK) *choice = ec_joined_choose(&t.joined, paths);
     ec_joined_close(&t.joined);
-    free(t.list);
     free(t.at);
     free(t.last);
     free(t.wide);
@@ -340,7 +265,7 @@ static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float
         }
     EC_TRY(ec_buffer_write_rows(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave, 4ull * entries, EC_PATH_PRIM + 1, fields, err));
     if (p->buffers[EC_ARG_TIMES]) EC_TRY(ec_buffer_zero(p->cl, p->buffers[EC_ARG_TIMES], 0, 4ull * entries, err));
-    EC_TRY(ec_pipeline_launch_trace(p, 0, accel_of(p), scalars, err));
+    EC_TRY(ec_pipeline_launch_trace(p, 0, ec_look_accel(p), scalars, err));
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_HITS], 4ull * p->wave * EC_HIT_PRIM, 4ull * count, fields, err));
     for (uint32_t i = 0; i < count; i++) memcpy(&rays[i].hit, &fields[i], sizeof rays[i].hit);
     return EC_OK;

@@ -6,7 +6,7 @@
 #include "rare/joined.h"
 #include "rare/lights.h"
 
-enum { EC_CHAIN_PATHS = 1 << 13, EC_JOINED_PATHS = 1 << 16, EC_CHAIN_PIXEL = 64 /* paths of a pixel, in pictures of few */, EC_CHAIN_BOUNCES = 12, EC_CHAIN_VERTICES = 4 };
+enum { EC_CHAIN_PATHS = 1 << 13, EC_JOINED_PATHS = 1 << 16, EC_CHAIN_BOUNCES = 12, EC_CHAIN_VERTICES = 4 };
 #define EC_CHAIN_SHARP 32.0f /* 1/sr: directions of less density are no narrower than light sampling copes with */
 
 /* A path's segment. */
@@ -32,7 +32,7 @@ typedef struct ec_chains {
     bool may_join;                 /* may light paths pay? False where the lights' flux is not known */
 } ec_chains;
 
-/* EC_CHAIN_PATHS paths, or EC_CHAIN_PIXEL a pixel where that is less, spread over the picture, with random numbers of their own: the same
+/* EC_CHAIN_PATHS paths, or EC_LOOK_PIXEL a pixel where that is less, spread over the picture, with random numbers of their own: the same
  * whatever the wave. Nothing else on the device changes; no film is touched. has_vertices: are they asked for? */
 ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err);
 

@@ -7,6 +7,8 @@
 #include "base/clock.h"
 #include "device/adaptive.h"
 #include "film/layer_films.h"
+#include "pack/pack.h"
+#include "rare/light_share.h"
 #include "render/render_state.h"
 
 /* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
@@ -127,6 +129,9 @@ static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
     return past && past->allotment.weight ? ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err) : EC_OK;
 }
 
+/* Are there lights at infinity, and others, between which light samples are shared? */
+static bool mixes_lights(const ec_render_options *o, const ec_scene *scene) { return o->integrator == EC_INTEGRATOR_PATH && ec_scene_mixes_lights(scene); }
+
 /* What was loaded to judge by is given up. */
 static void begin_again(ec_render_state *r)
 {
@@ -142,28 +147,38 @@ static void begin_again(ec_render_state *r)
  * finds, where these are rare. */
 static void choose_light_paths(ec_render_state *r, ec_caustics caustics)
 {
-    r->chosen = *r->options;
+    if (!caustics) return;
     r->chosen.light_paths = caustics == EC_CAUSTICS_RARE ? EC_LIGHT_PATHS_FEW : r->joined.number;
     r->chosen.guiding |= caustics == EC_CAUSTICS_RARE;
     r->chosen.adaptive = false;
-    r->options = &r->chosen;
 }
 
-/* The first device alone judges whether light paths pay, where that is open, and goes on with what is loaded where it renders alone and nothing
- * changes. Several begin to work as they are loaded: their look is before that. */
+/* What the options leave open, by the only source before the first sample. Light paths do not scatter on their way. */
+static ec_result choose_open(ec_render_state *r, const ec_scene *scene, ec_caustics *caustics, const ec_log *log, ec_error *err)
+{
+    const bool follow = !(r->sources.cargo.head.effects.called.bits & EC_FEATURE_SCATTERING);
+    ec_pipeline *p = ec_sources_pipeline(&r->sources, 0, false);
+    *caustics = EC_CAUSTICS_NONE;
+    if (follow && ec_render_may_have_caustics(r->options, scene)) EC_TRY(ec_render_judge_caustics(r, caustics, log, err));
+    r->chosen = *r->options;
+    r->options = &r->chosen;
+    choose_light_paths(r, *caustics);
+    return r->chosen.far_share > 0 ? EC_OK : ec_light_share_choose(p, &r->chosen.far_share, err);
+}
+
+/* The first device alone judges what is open, and goes on with what is loaded where it renders alone and no other kernels are called for. Several begin
+ * to work as they are loaded: their look is before that. */
 static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const ec_scene *scene, const ec_log *log, ec_error *err)
 {
     const ec_peers *peers = r->course->peers;
-    const bool is_judged = ec_render_may_have_caustics(r->options, scene), is_alone = count == 1 && !peers;
+    const bool is_judged = ec_render_may_have_caustics(r->options, scene) || mixes_lights(r->options, scene), is_alone = count == 1 && !peers;
     const uint32_t first = is_judged ? 1 : count;
     ec_caustics caustics = EC_CAUSTICS_NONE;
     EC_TRY(ec_sources_pack(devices, first, peers != NULL && !is_judged, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
     r->params = r->sources.cargo.head.params;
     EC_TRY(admit(r, log, err));
-    const bool follow = !(r->sources.cargo.head.effects.called.bits & EC_FEATURE_SCATTERING); /* light paths do not scatter on their way */
     EC_TRY(open_sources(r, is_judged ? NULL : peers, log, err));
-    if (is_judged && follow) EC_TRY(ec_render_judge_caustics(r, &caustics, log, err));
-    if (caustics) choose_light_paths(r, caustics);
+    if (is_judged) EC_TRY(choose_open(r, scene, &caustics, log, err));
     if (is_judged && (caustics || !is_alone)) {
         const ec_render_stats before = *r->stats;
         begin_again(r);
@@ -184,6 +199,7 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     EC_TRY(load(r, devices, device_count, scene, log, err));
     r->stats->light_paths = fmax(r->options->light_paths, 0);
     r->stats->is_guided = r->options->guiding;
+    r->stats->far_share = r->options->far_share;
     if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);
     EC_TRY(choose_film(r, log, err));
     if (past) r->limit = r->film->limit;

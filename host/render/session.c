@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "device/light_batch.h"
 #include "device/tiers.h"
+#include "rare/light_share.h"
 #include "rare/paths.h"
 
 struct ec_session {
@@ -28,6 +29,7 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     *stats = (ec_render_stats){0};
     if (!s) return ec_fail(err, "out of memory for a pipeline");
     ec_cargo cargo;
+    double share;
     ec_result result = ec_cargo_make(scene, options, largest, 1u << ec_device_kind_of(&cl->info), cl, &cargo, stats, err);
     s->insides = cargo.insides;
     cargo.insides = (ec_insides){0};
@@ -40,6 +42,7 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     s->options = *options;
     s->environment.turned = params->environment_turned;
     for (int k = 0; k < 9; k++) s->environment.turn[k] = params->environment_turn[k / 3 * 4 + k % 3];
+    if (result == EC_OK && !(options->far_share > 0)) result = ec_light_share_choose(&s->pipeline, &share, err);
     stats->device_bytes = cl->peak_allocated_bytes;
     if (result == EC_OK) return EC_OK;
     ec_session_close(s);

@@ -116,6 +116,7 @@ ec_result ec_render_report_json(const ec_render_report *report, FILE *to, ec_err
     ec_clamp_json(root, report->options->clamp, stats->clamp_luminance, &report->clamp);
     ec_denoised_json(root, report->denoised);
     add_forecast(root, &stats->forecast);
+    if (stats->far_share > 0) ec_json_real(root, "environment_share", stats->far_share);
     ec_json_real(root, "allotment_gain", stats->allotment_gain);
     add_cost(root, report);
     add_launches(root, stats);

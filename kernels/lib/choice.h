@@ -42,11 +42,11 @@ EC_FN lane_f choice_rest(lane_u rest, lane_u all, lane_u r)
     return min((to_lane_f(rest) + to_unit(hash_u(r))) / whole, F(EC_LAST_UNIT));
 }
 
-/* Number `rest` of `all` as one of 2^32, for choices to come. stretch: floor(2^64 / all) as two words, the high one first, the same for
- * all lanes; digits below those of rest come from r. floor((rest + fill) stretch / 2^32), fill in [0, 1). */
-EC_FN lane_u choice_stretch(lane_u rest, constant uint *stretch, lane_u r)
+/* Number `rest` of `all` as one of 2^32, for choices to come. high, low: words of floor(2^64 / all); digits below those of rest come from r.
+ * floor((rest + fill) stretch / 2^32), fill in [0, 1). */
+EC_FN lane_u choice_stretch(lane_u rest, lane_u high, lane_u low, lane_u r)
 {
-    lane_u high = U(stretch[0]), low = U(stretch[1]), fill = hash_u(r);
+    lane_u fill = hash_u(r);
     lane_u a = rest * low, b = fill * high, ab = a + b, c = mul_hi(fill, low), abc = ab + c;
     lane_u carry = (ab < a ? U(1) : U(0)) + (abc < c ? U(1) : U(0));
     return rest * high + mul_hi(rest, low) + mul_hi(fill, high) + carry;

@@ -7,6 +7,7 @@
 #include "environment.h"
 #include "lamp_pairs.h"
 #include "lamp_parts.h"
+#include "light_share.h"
 #include "light_tree.h"
 #include "spherical_triangle.h"
 #include "surface.h"
@@ -267,6 +268,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     constant ec_params *params = l->env.params;
     uint count = params->light_choices;
     lane_u first = U(0), share = U(0), id = U(0);
+    r1 = light_share_number(params, r1);
     if (count > EC_LIGHTS_FEW) id = distribution_pick(l->shares, U(0), count, r1, &first, &share);
     else id = distribution_pick_few(l->shares, count, r1, &first, &share);
     lane_u rest = r1 - first;
@@ -285,6 +287,8 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     one.pmf *= chance;
     one.pdf_a *= chance;
     if (HAS(LAMP_PAIRS)) light_choose_of_pair(l, m, p, &one, &id, &u1);
+    one.pmf *= light_share_scale(params, one.kind);
+    one.pdf_a *= light_share_of_lamp(params);
     if (HAS(MOTION) && g->motion) light_move(g, &one);
     lane_u type = one.kind & EC_LIGHT_KIND_MASK;
 
@@ -298,7 +302,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     }
     if (HAS(ENVIRONMENT)) {
         lane_i is = type == EC_KIND_ENVIRONMENT;
-        lane_u stretched = count > 1u ? choice_stretch(rest, params->environment_stretch, r1) : r1; /* its share is the first */
+        lane_u stretched = count > 1u ? choice_stretch(rest, U(params->environment_stretch[0]), U(params->environment_stretch[1]), r1) : r1; /* its share is the first */
         light_sample other = light_sample_environment(l, m & is, stretched, r2, params->scene_radius);
         s = HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS) ? light_sample_select(is, other, s) : other;
     }

@@ -203,6 +203,7 @@ EC_FN lane_f light_path_joined_pdf(const lights *l, const geometry *g, lane_i m,
             chance = near ? pmf : chance;
         }
     }
+    chance *= light_share_scale(params, one.kind);
     lane_f pdf = one.pmf * chance;
     if (HAS(AREA_LIGHTS)) {
         lane_i is = m & (type == EC_KIND_TRIANGLE);

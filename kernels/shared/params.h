@@ -62,6 +62,9 @@ typedef struct ec_params {
     ec_uint multiple;             /* do facets scatter more than once (lib/multiscatter.h)? */
     ec_uint light_choices;        /* entries of the table by which a light is chosen */
     ec_uint environment_stretch[2]; /* floor(2^64 / numbers that choose the environment), the high word first (lib/choice.h) */
+    ec_uint far_numbers;          /* of 2^32 random numbers those by which light sampling goes to lights at infinity; 0: there are none, or no others */
+    ec_uint far_stretch[2], lamp_stretch[2]; /* floor(2^64 / numbers of these and of the others), the high word first */
+    ec_float far_scale, lamp_scale; /* chance of each kind over that of the table */
     ec_uint apart;                /* do slots keep indirect light apart (radiance_of), so that it can be limited? */
     ec_float limit;               /* of the luminance of a sample's indirect light; 0: none */
     ec_uint backdrop;             /* the environment is hidden from camera rays, which a background takes the place of */
@@ -80,7 +83,7 @@ typedef struct ec_params {
     ec_uint layer_groups;         /* the first light group's; the others follow */
     ec_uint layer_ids;            /* behind them: which node and material a sample meets (lib/features.h) */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 560);
+EC_ASSERT_SIZE(ec_params, 588);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u

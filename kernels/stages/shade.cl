@@ -157,6 +157,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             }
             if (HAS(LAMP_PAIRS) && light_trails && !light_tree)
                 h.light_pdf_a *= pair_found_chance(&light, light_trails, &h, m & (path_pdf >= 0.0f) & !h.placed, prim, source);
+            h.light_pdf_a *= light_share_of_lamp(params);
             lane_f pdf = light_found_pdf(&g, &h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = coat_emission(&g, &h, m, wo, surface_emission(&g, &h, m, emission));
             lane_f share = F(0.0f);

@@ -48,11 +48,9 @@ static void the_sky_keeps_its_half(void)
     ec_pack pack;
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
     CHECK_OK(ec_pack_light_tree(&pack, &err), err);
-    CHECK_NEAR(pack.environment_pmf, 0.5, 1e-6);
+    CHECK(pack.lights_are_halved && pack.environment_pmf == 0.5f);
     CHECK(pack.light_choices == 2 && pack.lights[0].kind == EC_KIND_ENVIRONMENT);
-    CHECK_NEAR(pack.light_tree_numbers, 0x1p30, 2 * SIDE * SIDE); /* each lamp had one number for itself first */
-    CHECK(pack.light_shares[1].first + 2ull * pack.light_tree_numbers == 1ull << 32);
-    CHECK((double)pack.environment_pmf == (double)(float)(pack.light_shares[1].first * 0x1p-32));
+    CHECK(pack.light_shares[1].first == 1u << 31 && pack.light_tree_numbers == 1u << 30);
     uint32_t found = 0;
     for (uint32_t i = 0; i < pack.light_count; i++) {
         const ec_light_data *l = &pack.lights[i];

@@ -1,11 +1,11 @@
-/* lib/choice.h on arrays, for test_choice.c. */
-#include "lib/choice.h"
+/* lib/choice.h and lib/light_share.h on arrays, for test_choice.c. */
+#include "lib/light_share.h"
 
 kernel void stretch(uint n, global const uint *rest, constant uint *factor, global const uint *r, global uint *out)
 {
     uint at = get_global_id(0) * LANES;
     if (at >= n) return;
-    LANE_STORE(choice_stretch(LANE_LOAD(rest + at), factor, LANE_LOAD(r + at)), out + at);
+    LANE_STORE(choice_stretch(LANE_LOAD(rest + at), U(factor[0]), U(factor[1]), LANE_LOAD(r + at)), out + at);
 }
 
 /* One of p.length things after the other, or what is left: which, and the rest of the number. */
@@ -31,4 +31,12 @@ kernel void rests(uint n, global const uint *rest, uint all, global const uint *
     uint at = get_global_id(0) * LANES;
     if (at >= n) return;
     LANE_STORE(choice_rest(LANE_LOAD(rest + at), U(all), LANE_LOAD(r + at)), out + at);
+}
+
+/* The numbers of the table of lights that they go to. */
+kernel void shares(uint n, constant ec_params *params, global const uint *r, global uint *out)
+{
+    uint at = get_global_id(0) * LANES;
+    if (at >= n) return;
+    LANE_STORE(light_share_number(params, LANE_LOAD(r + at)), out + at);
 }

@@ -1,6 +1,7 @@
 /* tier: quick */
 /* Numbers that choose and go on: what is left of evenly spread ones is evenly spread in each of the things they choose, in its order, and
  * whole numbers are stretched exactly. */
+#include "device/light_share.h"
 #include "kernel/kernel_run.h"
 #include "kernel/sampler_hash.h"
 #include "pack/distribution.h"
@@ -78,6 +79,24 @@ static void check_fill(void)
     CHECK_MSG(fabs(sum - 0.5) < 4 * sqrt(1.0 / 12 / NUMBERS) && least < 1e-3 && most > 1 - 1e-3 && most < 1, "mean %.4f, from %g to %g", sum, least, most);
 }
 
+/* Numbers 2^16 apart: those of lights at infinity, `share` of all, go to the lower half of the table in their order, evenly, the others to the upper
+ * one. Halves stay what they are. */
+static void check_share(double share)
+{
+    ec_params params = {.environment_pmf = 0.5f};
+    uint32_t wrong = 0;
+    ec_light_share_set(&params, 0.25);
+    ec_light_share_set(&params, share);
+    CHECK_MSG(params.environment_pmf == (float)share, "pmf %g of a share of %g", (double)params.environment_pmf, share);
+    for (uint32_t i = 0; i < NUMBERS; i++) r[i] = (i << 16) + 0x8000;
+    if (!KERNEL_CALL(&cl, program, "shares", NUMBERS / LANES_TRIED, SCALAR(numbers), IN(&params, 1), IN(r, NUMBERS), OUT(stretched, NUMBERS))) return;
+    for (uint32_t i = 0; i < NUMBERS; i++) {
+        const double at = r[i] * 0x1p-32, to = at < share ? 0.5 * at / share : 0.5 + 0.5 * (at - share) / (1 - share);
+        wrong += fabs(stretched[i] * 0x1p-32 - to) > 0x1p-30 || (share == 0.5 && stretched[i] != r[i]);
+    }
+    CHECK_MSG(!wrong, "%u of %u numbers go to the wrong place where lights at infinity have %g of them", wrong, NUMBERS, share);
+}
+
 int main(void)
 {
     int open = kernel_open(&cl);
@@ -90,6 +109,9 @@ int main(void)
         check_chain((const float[]){0.04f, 0.3f, 0.9f}, 3);
         check_chain((const float[]){0.0f, 0.001f, 1.0f / 3, 0.25f, 1.0f}, 5);
         check_fill();
+        check_share(0.5);
+        check_share(0.125);
+        check_share(0.875);
         clReleaseProgram(program);
     }
     ec_cl_close(&cl);
