@@ -1,5 +1,5 @@
-/* Light paths: paths that start at lights and are joined to the camera at each of their vertices, a third way in which path tracing finds
- * light (Veach 1997, chapter 10, with t = 1 and s > 1). They start towards spheres about what bends or mirrors light sharply, the casters.
+/* Light paths: paths that start at lights and are joined to the camera at each of their vertices but the first, a third way in which path tracing finds
+ * light (Veach 1997, chapter 10, with t = 1 and s > 2; --integrator light has s = 2, too). They start towards spheres about what bends or mirrors light sharply, the casters.
  *
  * For one and the same path x_1 (seen by the camera) … x_k (on a light), let P, N and T be the densities with which directions sampled at
  * x_k-1 find it, light sampling there, and light paths. Each way's light is weighed by the power heuristic over the three. With c and a
@@ -176,14 +176,20 @@ EC_FN lane_f light_path_turn(const surface *s, v3 c, v3 a, lane_f c_z, lane_f a_
     return (s->refracts & (c_z * a_z < 0.0f)) ? turn / (s->eta * s->eta) : turn;
 }
 
+/* Light paths leave direct light to the other two ways: these find it with every path, in the order of their samples, where light paths would come in
+ * random numbers. Behind the first vertex K says so in its last bit. */
+EC_FN lane_f k_mark_direct(lane_f k) { return k > 0.0f ? as_lane_f(as_lane_u(k) | 1u) : F(0.0f); }
+EC_FN lane_f k_unmark(lane_f k) { return as_lane_f(as_lane_u(k) & ~1u); }
+EC_FN lane_i k_is_joined(lane_f k) { return (k > 0.0f) & ((as_lane_u(k) & 1u) == 0u); }
+
 /* K behind a vertex that is left by wi with density pdf, < 0: the only direction. k: before it, < 0 where it is the first one; way2: squared
  * length of the way from the camera to that. straight: a pane is passed, and is no vertex. */
 EC_FN lane_f light_path_k(constant ec_params *params, const surface *s, lane_f k, lane_f way2, v3 wo, v3 wi, lane_f wo_z, lane_f wi_z, lane_f pdf,
                           lane_i lifted, lane_i straight)
 {
     lane_f first = -k * (params->orthographic ? F(1.0f) : way2) * fabs(v3_dot(s->ng, wi)) / (fabs(v3_dot(s->ng, wo)) * pdf);
-    first = pdf > 0.0f ? min(first, F(EC_K_MOST)) : F(0.0f);
-    lane_f later = min(k * light_path_turn(s, wo, wi, wo_z, wi_z), F(EC_K_MOST));
+    first = pdf > 0.0f ? k_mark_direct(min(first, F(EC_K_MOST))) : F(0.0f);
+    lane_f later = k_unmark(min(k * light_path_turn(s, wo, wi, wo_z, wi_z), F(EC_K_MOST)));
     lane_f next = light_path_misses(s, wo_z, wi_z, lifted) ? F(0.0f) : k < 0.0f ? first : later;
     return straight ? k : next;
 }

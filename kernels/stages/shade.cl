@@ -105,7 +105,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             lane_f pdf;
             v3 Le = environment_look_up(&light.env, d, &pdf);
             lane_f share = F(0.0f);
-            if (by_light && any_lane(missed & (k > 0.0f))) share = k > 0.0f ? k * emission_environment(&light, pdf, o, wo) : F(0.0f);
+            if (by_light && any_lane(missed & k_is_joined(k))) share = k_is_joined(k) ? k * emission_environment(&light, pdf, o, wo) : F(0.0f);
             emitted = v3_scale(Le, found_weight(params->sample, path_pdf, pdf, share));
             emits = missed;
         }
@@ -161,7 +161,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             lane_f pdf = light_found_pdf(&g, &h, m, source, v3_dot(way, way), fabs(v3_dot(s.ng, wo)));
             v3 Le = coat_emission(&g, &h, m, wo, surface_emission(&g, &h, m, emission));
             lane_f share = F(0.0f);
-            lane_i known = m & (k > 0.0f) & !h.placed;
+            lane_i known = m & k_is_joined(k) & !h.placed;
             if (by_light && any_lane(known)) {
                 lane_u id = emission_light(&light, known ? prim : U(0));
                 known = known & (id != EC_NO_ID);
@@ -245,9 +245,9 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
         }
         lane_i scatters_there = pdf_bsdf > 0.0f;
         if (guides) pdf_bsdf = guide_mix(&guided, pdf_bsdf, l.wi);
-        if (by_light && any_lane(joins & (k != 0.0f))) {
+        if (by_light && any_lane(joins & (k > 0.0f))) {
             lane_f k_here = light_path_k(params, &s, k, way2, wo, l.wi, wo_z, wi_local.z, pdf_bsdf, lifted, !TRUE_MASK);
-            share = k_here > 0.0f ? k_here * pdf_bsdf * emission_sampled(&light, &l, joins, above) : F(0.0f);
+            share = k_is_joined(k_here) ? k_here * pdf_bsdf * emission_sampled(&light, &l, joins, above) : F(0.0f);
         }
         lane_f weight = joined_weight(params->sample, &l, pdf_bsdf, share);
         v3 arriving = v3_mul(v3_mul(beta, f), v3_scale(l.radiance, weight / l.pdf));

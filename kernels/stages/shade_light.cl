@@ -127,7 +127,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
     for (uint turn = records ? 1u : 0u; turn < 2; turn++) {
         bool joins = turn == 0;
         v3 c = joins ? film.to_camera : surface_to_world(&sa, way_on.wi);
-        lane_i m = scatters & (joins ? film.seen : way_on.pdf != 0.0f);
+        lane_i m = scatters & (joins ? film.seen & (alone ? TRUE_MASK : !is_first) : way_on.pdf != 0.0f);
         if (!any_lane(m) || (!joins && vertex + 3 > params->max_depth)) continue;
         surface s;
         v3 beta_c = joins ? v3_scale(beta, window) : v3_scale(beta, straight ? F(1.0f) : window);
@@ -161,7 +161,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
             }
             lane_f kappa = F(params->light_paths), area = film.area;
             lane_f t_over_p = e_here * min(kappa * area / (turn_cosines * pdf), F(EC_K_MOST));
-            lane_f np = (is_first ? n_over_p : fabs(ratio)) / t_over_p, pp = is_delta ? F(0.0f) : 1.0f / t_over_p;
+            lane_f np = fabs(ratio) / t_over_p, pp = is_delta ? F(0.0f) : 1.0f / t_over_p;
             lane_f weight = alone ? F(1.0f) : 1.0f / fma(np, np, fma(pp, pp, F(1.0f)));
             v3 arriving = v3_scale(v3_mul(beta_c, value), turn_cosines * weight * film.weight / (area * kappa));
             shadow_way way = {U(params->camera_medium), v3_splat(F(1.0f)), !TRUE_MASK};

@@ -40,6 +40,13 @@ class LightPaths(OtherWay):
         job = [CORNELL, "--size", "20x18", "--spp", "8", *QUICK]
         self.assertEqual(self.render(*job)["image_sha256"], self.render(*job, "--light-paths", "1")["image_sha256"])
 
+    @full
+    def test_direct_light(self):
+        """Direct light on a metal that mirrors the sun is found by every path, in the order of samples: more light paths do not spoil it."""
+        job = [scene("spheres"), "--light", "sky:120,40", "--size", "96x96", "--spp", "64", "--seed", "3", "--light-paths"]
+        few, many = (self.render(*job, number)["error"] for number in ("0.015625", "0.25"))
+        self.assertLess(many, few)
+
     def test_refused(self):
         self.assert_refused([(["--clamp", "5"], "--clamp"), (["--adaptive"], "--adaptive"), (["--sample", "bsdf"], "--sample"),
                             (["--integrator", "whitted"], "--integrator")])
