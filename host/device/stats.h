@@ -21,7 +21,7 @@ enum { EC_DEVICES_MOST = 32 };    /* that one render takes */
 
 typedef struct ec_render_stats {
     double seconds;               /* rendering, without set-up */
-    double cpu_seconds;           /* processor time of this process meanwhile, all threads; on a CPU device the kernels' too */
+    double cpu_seconds;           /* processor time of this process meanwhile and in looks at the scene before, all threads; on a CPU device the kernels' too */
     double accel_seconds, pack_seconds, kernel_seconds, guide_seconds; /* set-up: BVH, buffers, kernel build or cache look-up, --guiding */
     ec_begun begun;               /* of the only device: the kernels that it began with */
     double fast_after_seconds;    /* from ec_render's start until the fast ones took over; 0: never, or from the beginning */

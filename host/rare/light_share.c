@@ -11,7 +11,7 @@
 #include "device/light_share.h"
 #include "rare/look.h"
 
-#define PATHS (1u << 14)
+#define PATHS (1u << 12)
 #define BLOCK 8 /* pixels */
 #define STEPS 16
 #define LEAST 2 /* of STEPS, so that what few paths have missed is no firefly */

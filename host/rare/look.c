@@ -13,8 +13,8 @@ uint32_t ec_look_paths(const ec_pipeline *p, uint32_t most)
 
 uint32_t ec_look_accel(const ec_pipeline *p)
 {
-    uint32_t accel = 0;
-    while (!(p->kernels.accels >> accel & 1)) accel++;
+    uint32_t accel = EC_ACCEL_COUNT - 1;
+    while (!(p->kernels.accels >> accel & 1)) accel--;
     return accel;
 }
 

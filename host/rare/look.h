@@ -30,7 +30,7 @@ uint32_t ec_look_paths(const ec_pipeline *p, uint32_t most);
  * film is touched. */
 ec_result ec_look_trace(ec_look *look, ec_error *err);
 
-/* The one acceleration structure that the pipeline traces by, or the first of them. */
+/* The one acceleration structure that the pipeline traces by, or the last of them, which suits rays that go anywhere. */
 uint32_t ec_look_accel(const ec_pipeline *p);
 
 #endif

@@ -163,7 +163,11 @@ static ec_result choose_open(ec_render_state *r, const ec_scene *scene, ec_caust
     r->chosen = *r->options;
     r->options = &r->chosen;
     choose_light_paths(r, *caustics);
-    return r->chosen.far_share > 0 ? EC_OK : ec_light_share_choose(p, &r->chosen.far_share, err);
+    if (r->chosen.far_share > 0) return EC_OK;
+    const double start = ec_cpu_now();
+    EC_TRY(ec_light_share_choose(p, &r->chosen.far_share, err));
+    r->look_cpu_seconds += ec_cpu_now() - start;
+    return EC_OK;
 }
 
 /* The first device alone judges what is open, and goes on with what is loaded where it renders alone and no other kernels are called for. Several begin
@@ -235,7 +239,7 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
         ec_error why = {0};
         r.cpu_start = ec_cpu_now();
         result = r.strip_rows ? ec_render_strips(&r, log, &why) : ec_render_film(&r, log, &why);
-        stats->cpu_seconds = ec_cpu_now() - r.cpu_start;
+        stats->cpu_seconds = ec_cpu_now() - r.cpu_start + r.look_cpu_seconds;
         if (result != EC_OK) r.stopped_by = why.kind == EC_ERROR_OTHER ? "failure" : "device";
         if (result != EC_OK && err) *err = why;
         tell_kernels(&r);

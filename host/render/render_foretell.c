@@ -29,6 +29,7 @@ ec_result ec_render_foretell(ec_render_state *r, ec_error *err)
     ec_rare_lights_free(&r->lights);
     r->is_foretold = true;
     r->render_start += ec_now() - start;
+    r->look_cpu_seconds += ec_cpu_now() - cpu_start;
     r->cpu_start += ec_cpu_now() - cpu_start;
     return EC_OK;
 }

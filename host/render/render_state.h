@@ -29,6 +29,7 @@ typedef struct ec_render_state {
     ec_film_error error;
     bool is_looked_at;         /* error is the film's as it is now */
     double look_seconds;       /* that this took; 0: not known */
+    double look_cpu_seconds;   /* of looks at the picture's paths, which no limit of time counts */
     bool is_withheld_noted;
     bool was_narrow;           /* the last batch ended with the kernels of the beginning (device/tiers.h) */
     ec_rare_lights lights;     /* until it is foretold what they do; owned */
