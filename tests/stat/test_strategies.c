@@ -57,6 +57,25 @@ static void roulette_agrees(void)
     ec_scene_free(scene);
 }
 
+/* Three times by way of dark mirrors, floor, ceiling and floor, to a white sky: each sample is F(45 deg)^3, unless roulette plays for it. */
+static void mirrors_are_spared(void)
+{
+    gltf_writer *w = gltf_new();
+    const int dark = gltf_add(&w->materials, "{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,0.1,0.1,1],\"metallicFactor\":1,\"roughnessFactor\":0}}");
+    gltf_quad(w, dark, (double[3]){-1, 0, 1}, (double[3]){3.5, 0, 0}, (double[3]){0, 0, -2});
+    gltf_quad(w, dark, (double[3]){0.5, 1, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
+    gltf_camera(w, (double[3]){-0.5, 0.5, 0}, (double[3]){0, 0, 0}, 0.002);
+    ec_scene *scene = case_load(gltf_write(w, "strategies-mirrors"), "1,1,1");
+    ec_render_options o = case_random(8, 64, EC_SAMPLE_MIS, 5);
+    case_image image = case_render(scene, &o);
+    const double f = 0.1 + 0.9 * pow(1 - sqrt(0.5), 5);
+    CHECK_MSG(fabs(image.mean[1] / (f * f * f) - 1) < 2e-3 && image.mean_se[1] < 1e-4 * image.mean[1], "%g +- %g of light by way of mirrors, not %g",
+              image.mean[1], image.mean_se[1], f * f * f);
+    case_free(&image);
+    ec_scene_free(scene);
+    free(w);
+}
+
 /* A floor of the given material that fills the picture, a white block on it; a light is still to come. */
 static gltf_writer *stage(int (*floor_material)(gltf_writer *))
 {
@@ -321,5 +340,6 @@ int main(void)
     bent_normals();
     everything(sky);
     roulette_agrees();
+    mirrors_are_spared();
     TEST_END();
 }
