@@ -124,8 +124,10 @@ static ec_result choose_samples(ec_device_source *s, const ec_batch_order *order
     const ec_batch_range range = ec_schedule_batch(s->replicates, order->index);
     const uint32_t samples = order->list ? order->samples : range.samples - order->cut, first = order->list ? 0 : (uint32_t)range.first;
     *numbers = order->list ? 0 : range.replicate * params->width * params->height + params->film_row * params->width;
+    const uint32_t is_apart = order->light == EC_LIGHT_APART;
     s->base.least = p->room / samples;
-    if (params->batch == samples && params->first_sample == first && params->limit == order->limit) return EC_OK;
+    if (params->batch == samples && params->first_sample == first && params->limit == order->limit && params->light_apart == is_apart) return EC_OK;
+    params->light_apart = is_apart;
     params->batch = samples;
     params->first_sample = first;
     params->limit = order->limit;
@@ -152,14 +154,15 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     EC_TRY(prepare(s, order, err));
     uint32_t reached = order->done;
     const uint32_t light_seed = ec_light_path_seed(seed, ec_schedule_batch(s->replicates, order->index).replicate);
-    EC_TRY(ec_light_batch_run(p, light_seed, goes_on, (void *)order, complete, err));
+    if (order->light != EC_LIGHT_APART) EC_TRY(ec_light_batch_run(p, light_seed, goes_on, (void *)order, complete, err));
     while (reached < order->count && *complete) {
         EC_TRY(take_back(s, err));
         EC_TRY(ec_tiers_step(p, err));
         uint32_t count = p->wave / p->params.batch;
         if (!s->has_begun && p->wave > FIRST_PATHS) count = (count + FIRST_SHARE - 1) / FIRST_SHARE;
         if (count > order->count - reached) count = order->count - reached;
-        EC_TRY(ec_pipeline_run_wave(p, seed, before + reached, count, order->with_features, err));
+        if (order->light == EC_LIGHT_ALONE) EC_TRY(ec_pipeline_show_light(p, before + reached, count, err));
+        else EC_TRY(ec_pipeline_run_wave(p, seed, before + reached, count, order->with_features, err));
         if (order->matte) EC_TRY(ec_mattes_read(&s->mattes, p, order->list != NULL, reached, count, err));
         if (!s->has_begun) EC_TRY(ec_cl_finish(p->cl, err));
         s->has_begun = true;

@@ -54,6 +54,8 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, 
                              ec_render_stats *stats, ec_error *err);
 void ec_pipeline_destroy(ec_pipeline *pipeline);
 
+/* What light paths have brought to so many pixels goes into the batch film, as if it were a batch. */
+ec_result ec_pipeline_show_light(ec_pipeline *pipeline, uint32_t first_pixel, uint32_t pixel_count, ec_error *err);
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err);

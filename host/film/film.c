@@ -32,6 +32,8 @@ void ec_film_destroy(ec_film *film)
     free(film->rare);
     for (uint32_t k = 0; film->layer_films && k < film->layers.count; k++) ec_film_destroy(&film->layer_films[k]);
     free(film->layer_films);
+    if (film->light) ec_film_destroy(film->light);
+    free(film->light);
     ec_matte_free(&film->matte);
     *film = (ec_film){0};
 }
@@ -42,6 +44,12 @@ ec_result ec_film_set_rare(ec_film *film, const ec_rare *rare, ec_error *err)
     film->rare = rare && rare->count ? malloc(sizeof *rare) : NULL;
     if (film->rare) *film->rare = *rare;
     return film->rare || !rare || !rare->count ? EC_OK : ec_fail(err, "out of memory for what is foretold of rare paths");
+}
+
+ec_result ec_film_part_light(ec_film *film, ec_error *err)
+{
+    film->light = calloc(1, sizeof *film->light);
+    return film->light ? ec_film_create(film->light, film->width, film->height, film->replicates, err) : ec_fail(err, "out of memory for a film");
 }
 
 double ec_film_samples_of_all(const ec_film *film)
@@ -137,7 +145,9 @@ ec_result ec_film_create_like(ec_film *film, const ec_film *like, uint32_t rows,
     if (like->counts) made = made && (film->counts = malloc(pixels * sizeof *film->counts));
     film->layers = like->layers;
     if (like->layer_films) made = made && (film->layer_films = calloc(like->layers.count, sizeof *film->layer_films));
+    if (like->light) made = made && (film->light = calloc(1, sizeof *film->light));
     if (!made) return ec_fail(err, "out of memory for rows of a picture");
+    if (like->light) EC_TRY(ec_film_create_like(film->light, like->light, rows, err));
     for (uint32_t k = 0; like->layer_films && k < like->layers.count; k++)
         EC_TRY(ec_film_create_like(&film->layer_films[k], &like->layer_films[k], rows, err));
     return EC_OK;
@@ -160,4 +170,5 @@ void ec_film_copy_rows(ec_film *film, uint32_t to, const ec_film *from, uint32_t
     if (film->counts && from->counts) memcpy(film->counts + here, from->counts + there, pixels * sizeof *film->counts);
     for (uint32_t k = 0; film->layer_films && k < film->layers.count; k++)
         ec_film_copy_rows(&film->layer_films[k], to, &from->layer_films[k], first, rows);
+    if (film->light) ec_film_copy_rows(film->light, to, from->light, first, rows);
 }

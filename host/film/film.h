@@ -50,12 +50,16 @@ typedef struct ec_film {
     ec_film_clean clean;          /* owned; of the samples that there were when it was made */
     ec_layers layers;             /* that the picture has beside its radiance … */
     struct ec_film *layer_films;  /* … and a film of each (film/layer_films.h); NULL: none. Owned */
+    struct ec_film *light;        /* what light paths bring, where it is apart: all pixels have its samples, and values are sums with it. NULL: it is not. Owned */
     ec_matte matte;               /* what its samples meet, where layers has mattes; else zeros. Owned */
     ec_rare *rare;                /* light that hardly any sample meets; NULL: there is none, or nobody has looked. Owned */
 } ec_film;
 
 ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_t replicates, ec_error *err);
 void ec_film_destroy(ec_film *film); /* zero-initialised or destroyed films are fine */
+
+/* From now on what light paths bring is a film of its own. */
+ec_result ec_film_part_light(ec_film *film, ec_error *err);
 
 /* In place of what there was; zeros: none. */
 void ec_film_set_clean(ec_film *film, ec_film_clean clean);

@@ -237,6 +237,7 @@ ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err)
     for (uint32_t i = 0; i < from->part_count; i++) EC_TRY(insert(film, &from->parts[i], err));
     from->part_count = 0;
     for (uint32_t k = 0; k < film->layers.count; k++) EC_TRY(ec_film_take_parts(&film->layer_films[k], &from->layer_films[k], err));
+    if (!film->light) film->light = from->light, from->light = NULL;
     film->cut += from->cut;
     film->invalid_count += from->invalid_count;
     if (!film->rare) film->rare = from->rare, from->rare = NULL;

@@ -34,6 +34,21 @@ static void take_part(const ec_film_part *part, uint64_t first, uint64_t count, 
     for (uint64_t i = 0; !part->batch && i < 3 * count; i++) mean[i] += (to[i] - mean[i]) * share;
 }
 
+/* Of a replicate whose light is not there yet, which is one of the first batches, that of the others. */
+static void add_light(const ec_film *light, uint64_t first, uint64_t count, uint32_t r, double *mean)
+{
+    double own[3 * PIECE];
+    const double all = light->samples[r] > 0 ? light->samples[r] : ec_film_samples_of_all(light);
+    for (uint32_t k = 0; k < light->replicates; k++) {
+        if (!(light->samples[k] > 0) || (k != r && light->samples[r] > 0)) continue;
+        for (uint64_t i = 0; i < count; i += PIECE) {
+            const uint64_t some = count - i < PIECE ? count - i : PIECE;
+            ec_film_replicate(light, first + i, some, k, own);
+            for (uint64_t v = 0; v < 3 * some; v++) mean[3 * i + v] += light->samples[k] / all * own[v];
+        }
+    }
+}
+
 void ec_film_replicate(const ec_film *film, uint64_t first, uint64_t count, uint32_t r, double *mean)
 {
     double samples = 0;
@@ -44,6 +59,16 @@ void ec_film_replicate(const ec_film *film, uint64_t first, uint64_t count, uint
         samples += own;
         take_part(&film->parts[i], first, count, r, own / samples, mean);
     }
+    if (film->light && samples > 0) add_light(film->light, first, count, r, mean);
+}
+
+/* As large as they would be among the pixel's own samples to move its mean as they do. */
+static void add_light_tail(const ec_film *film, uint64_t p, float tail[3])
+{
+    float light[3] = {0};
+    ec_film_tail(film->light, p, light);
+    light[0] *= (float)(ec_film_samples(film, p) / ec_film_samples_of_all(film->light));
+    ec_sums_add_tail(tail, light);
 }
 
 void ec_film_tail(const ec_film *film, uint64_t p, float tail[3])
@@ -52,6 +77,7 @@ void ec_film_tail(const ec_film *film, uint64_t p, float tail[3])
         const ec_film_part *part = &film->parts[i];
         ec_sums_add_tail(tail, part->batch ? part->batch + EC_BATCH_FIELDS * p + EC_BATCH_LARGEST : part->sums.tail + 3 * p);
     }
+    if (film->light && film->light->part_count) add_light_tail(film, p, tail);
 }
 
 /* What a piece of pixels comes to, field by field, so that compilers take several pixels at once. */

@@ -259,7 +259,6 @@ static void find_rendered(const ec_render_job *job, ec_render_options *o)
     if (o->light_paths != EC_LIGHT_PATHS_AUTO) return;
     o->light_paths = job->stats.light_paths;
     o->guiding = job->stats.is_guided;
-    o->adaptive &= !(o->light_paths > 0);
 }
 
 ec_render_report ec_render_job_report(ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX])

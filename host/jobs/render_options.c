@@ -229,7 +229,7 @@ const ec_option ec_render_rows[] = {
      .uses = EC_OPTION_INFO,
      .help = "trace N paths from the lights for each path from the camera, towards what bends or mirrors light sharply, and weigh what both find: caustics "
              "converge many times sooner; auto traces as many as a first look foretells to pay, with --guiding where caustics are hardly ever met, or "
-             "none. Only with --sample mis, and without --adaptive and --clamp",
+             "none. Only with --sample mis, and without --clamp",
      .otherwise = "auto; with --integrator light 1"},
     {.name = "guiding", EC_STORED(FLAG, options.guiding), .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,
      .help = "learn from paths from the lights where light comes from, where something bends or mirrors it sharply, and sample directions by it too (path "

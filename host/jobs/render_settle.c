@@ -131,9 +131,7 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
     ec_render_options *o = &request->options;
     if (o->integrator == EC_INTEGRATOR_LIGHT && request->adaptive == EC_ADAPTIVE_ON)
         return ec_usage(err, "--integrator light and --adaptive: light paths fall where they will, not on the pixels that are due; leave one out");
-    if (o->light_paths > 0 && request->adaptive == EC_ADAPTIVE_ON)
-        return ec_usage(err, "--light-paths and --adaptive: light paths fall where they will, not on the pixels that are due; leave one out");
-    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && !(o->light_paths > 0));
+    o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && o->integrator != EC_INTEGRATOR_LIGHT);
     if (o->adaptive && ec_render_replicates(o) < 2)
         return ec_usage(err, "--adaptive and --replicates 1: a single replicate does not tell where noise is; give 2 or more");
     return EC_OK;
@@ -143,8 +141,7 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
 static void settle_light_paths(ec_render_request *request)
 {
     ec_render_options *o = &request->options;
-    const bool can = o->integrator == EC_INTEGRATOR_PATH && o->sample == EC_SAMPLE_MIS && !(o->clamp > 0) && !o->layers.kinds && !request->light_groups &&
-                     request->adaptive != EC_ADAPTIVE_ON;
+    const bool can = o->integrator == EC_INTEGRATOR_PATH && o->sample == EC_SAMPLE_MIS && !(o->clamp > 0) && !o->layers.kinds && !request->light_groups;
     if (o->light_paths == EC_LIGHT_PATHS_AUTO && !can) o->light_paths = 0;
 }
 

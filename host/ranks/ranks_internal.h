@@ -65,7 +65,7 @@ enum { EC_JOB_PROGRAM, EC_JOB_ROUNDS }; /* its text: rank 0's drivers; then --de
 /* A parent to one: positions [from, to) of batch `index`, or of a block of so many from there on (batch_source.h); body: that part of the
  * list, EC_LIST_WORDS each, if there is one. The limit goes as the bits of its float. Or: the job is over; what is under way is given up. */
 enum { EC_ORDER_BATCH, EC_ORDER_END };
-enum { EC_ORDER_BOX, EC_ORDER_INDEX, EC_ORDER_BATCHES, EC_ORDER_FROM, EC_ORDER_TO, EC_ORDER_FEATURES, EC_ORDER_CUT, EC_ORDER_SAMPLES, EC_ORDER_LIMIT };
+enum { EC_ORDER_BOX, EC_ORDER_INDEX, EC_ORDER_BATCHES, EC_ORDER_FROM, EC_ORDER_TO, EC_ORDER_FEATURES, EC_ORDER_CUT, EC_ORDER_SAMPLES, EC_ORDER_LIMIT, EC_ORDER_LIGHT };
 
 /* Its answer: EC_BATCH_FIELDS a position, then EC_AOV_FIELDS a position of features if they were asked for; of a block the sums
  * (ec_sums_in). Of a failure: a text. */

@@ -18,6 +18,7 @@ static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_letter
     const uint32_t box = ++m->ranks->last_box; /* so that what was given up finds nobody */
     pthread_mutex_unlock(&m->ranks->lock);
     letter->numbers[EC_ORDER_BOX] = box;
+    letter->numbers[EC_ORDER_LIGHT] = order->light;
     letter->numbers[EC_ORDER_INDEX] = order->index;
     letter->numbers[EC_ORDER_BATCHES] = order->batches;
     letter->numbers[EC_ORDER_CUT] = order->cut;

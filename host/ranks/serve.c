@@ -50,7 +50,7 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     if (!body || (features && !aov)) return ec_fail(err, "out of memory for a batch of %u pixels", positions);
     float limit;
     memcpy(&limit, &letter->numbers[EC_ORDER_LIMIT], sizeof limit);
-    const ec_batch_order order = {.index = index, .end = index + batches, .batches = batches, .cut = (uint32_t)letter->numbers[EC_ORDER_CUT],
+    const ec_batch_order order = {.light = (ec_order_light)letter->numbers[EC_ORDER_LIGHT], .index = index, .end = index + batches, .batches = batches, .cut = (uint32_t)letter->numbers[EC_ORDER_CUT],
                                   .list = letter->body, .samples = (uint32_t)letter->numbers[EC_ORDER_SAMPLES], .done = first,
                                   .count = first + positions, .limit = limit, .with_features = aov != NULL, .aov = aov, .go_on = goes_on, .user = s};
     const uint64_t rays = source->rays;

@@ -58,6 +58,7 @@ static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *er
     if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, r->replicates, err));
     if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_set_layers(r->film, &r->options->layers, err));
     if (!r->strip_rows) EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
+    if (!r->course->past && !r->strip_rows && r->options->adaptive && r->params.light_paths > 0) EC_TRY(ec_film_part_light(r->film, err));
     if (!alone) return EC_OK;
     if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
     r->stats->wave = alone->room;
@@ -143,14 +144,13 @@ static void begin_again(ec_render_state *r)
     count_from(r, r->course->past);
 }
 
-/* With light paths all pixels are due as many samples. What they cannot be joined to, caustics in mirrors and glass, is what guiding
+/* What they cannot be joined to, caustics in mirrors and glass, is what guiding
  * finds, where these are rare. */
 static void choose_light_paths(ec_render_state *r, ec_caustics caustics)
 {
     if (!caustics) return;
     r->chosen.light_paths = caustics == EC_CAUSTICS_RARE ? EC_LIGHT_PATHS_FEW : r->joined.number;
     r->chosen.guiding |= caustics == EC_CAUSTICS_RARE;
-    r->chosen.adaptive = false;
 }
 
 /* What the options leave open, by the only source before the first sample. Light paths do not scatter on their way. */

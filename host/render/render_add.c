@@ -10,6 +10,7 @@
 uint64_t ec_render_order_samples(const ec_render_state *r)
 {
     const uint32_t batches = r->source->batches > 1 ? r->source->batches : 1;
+    if (r->order.light == EC_LIGHT_ALONE) return 0;
     if (r->order.list) return r->order.samples;
     return ec_schedule_samples(r->replicates, r->order.index + batches) - ec_schedule_samples(r->replicates, r->order.index) - r->order.cut;
 }
@@ -21,7 +22,7 @@ bool ec_render_wants_features(const ec_render_state *r)
 
 void ec_render_keep(ec_render_state *r, uint32_t under_way)
 {
-    if (ec_render_wants_features(r) || r->order.count > ec_render_film_pixels(r) || r->film->layers.count) under_way = 0;
+    if (ec_render_wants_features(r) || r->order.count > ec_render_film_pixels(r) || r->film->layers.count || r->film->light) under_way = 0;
     const bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way;
     if (!r->course->keep || !is_new || !(r->film->batch_count || under_way) || r->film->unsampled || r->film->cut) return;
     ec_past now = r->past;
@@ -119,6 +120,14 @@ static ec_result add_whole(ec_render_state *r, ec_error *err)
     EC_TRY(add_layers(r, err));
     EC_TRY(add_matte(r, err));
     return r->source->batches > 1 ? add_block(r, err) : add_to(r, r->film, r->source->mean, err);
+}
+
+ec_result ec_render_add_light(ec_render_state *r, ec_error *err)
+{
+    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
+    r->past.rays = r->rays_before + r->source->rays;
+    r->is_looked_at = false;
+    return ec_film_add(r->film->light, r->order.index, r->source->mean, err);
 }
 
 ec_result ec_render_add_batch(ec_render_state *r, bool complete, ec_error *err)

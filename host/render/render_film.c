@@ -54,7 +54,7 @@ static bool goes_on(void *user, uint32_t done)
     double now = ec_now(), share = (double)r->under_way / ec_render_film_pixels(r);
     bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start + closing_seconds(r, done) > r->options->time_limit;
     bool go_on = now - r->last_report < 0.1 || ec_render_tell(r, r->samples_before_it + share);
-    if (!out_of_time && go_on) return true;
+    if ((!out_of_time && go_on) || (r->order.light == EC_LIGHT_ALONE && r->order.index < r->replicates)) return true; /* without these no replicate is whole */
     r->stopped_by = go_on ? "time" : "user";
     return false;
 }
@@ -64,7 +64,7 @@ static uint32_t known_end(const ec_render_state *r)
 {
     const uint32_t next = r->past.next;
     uint32_t end = next < r->end ? r->end : next + 1;
-    if (r->past.allotment.weight || ec_render_wants_features(r) || r->film->layers.count || r->film->layers.mattes) return next + 1;
+    if (r->film->light || r->past.allotment.weight || ec_render_wants_features(r) || r->film->layers.count || r->film->layers.mattes) return next + 1;
     while (r->options->adaptive && !r->past.allotted && end > next + 1 && ec_schedule_has_pilot(r->replicates, end - 1)) {
         const uint32_t pilot = (uint32_t)ec_schedule_round(r->replicates, next);
         if (ec_schedule_has_pilot(r->replicates, pilot) || pilot >= end) return pilot < end ? pilot : end;
@@ -117,7 +117,7 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     EC_TRY(make_room_for_features(r, err));
     EC_TRY(make_room_for_layers(r, err));
     r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r),
-                                .with_features = ec_render_wants_features(r), .aov = r->aov, .layers = r->layers,
+                                .light = r->film->light ? EC_LIGHT_APART : EC_LIGHT_ADDED, .with_features = ec_render_wants_features(r), .aov = r->aov, .layers = r->layers,
                                 .matte = r->film->layers.mattes ? &r->matte : NULL,
                                 .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
                                 .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY,
@@ -139,6 +139,31 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     return EC_FAILED;
 }
 
+/* Light paths fall where they will: they keep up with the batches, or with what a pixel of mean weight is due. */
+static bool is_light_due(const ec_render_state *r)
+{
+    const ec_film *light = r->film->light;
+    if (!light || r->past.next == 0) return false;
+    return r->past.allotment.weight ? light->samples[r->replicates - 1] < r->past.allotment.level : ec_film_end(light) < r->past.next;
+}
+
+static ec_result take_light(ec_render_state *r, ec_error *err)
+{
+    bool complete = true;
+    while (complete && is_light_due(r)) {
+        const uint32_t index = ec_film_end(r->film->light);
+        r->order = (ec_batch_order){.light = EC_LIGHT_ALONE, .index = index, .end = index + 1, .count = (uint32_t)ec_render_film_pixels(r), .patience = patience(r),
+                                    .until = INFINITY, .go_on = goes_on, .user = r};
+        r->samples_before_it = ec_render_samples_done(r);
+        r->under_way = 0;
+        ec_result result = r->source->take(r->source, &r->order, &complete, err);
+        if (r->look_failed && err) *err = r->look_error;
+        if (r->look_failed || result != EC_OK) return EC_FAILED;
+        if (complete) EC_TRY(ec_render_add_light(r, err));
+    }
+    return EC_OK;
+}
+
 /* Once for each state of the film. */
 static void look_at_error(ec_render_state *r)
 {
@@ -152,7 +177,7 @@ static void look_at_error(ec_render_state *r)
 /* Have all pixels what they are due, by the schedule or by the allotment's level? Limits of error are looked at then. */
 static bool is_round(const ec_render_state *r)
 {
-    if (r->past.allotment.weight) return ec_allotment_is_even(&r->past.allotment, r->film);
+    if (r->past.allotment.weight && r->film->counts) return ec_allotment_is_even(&r->past.allotment, r->film); /* at the end of the pilot weights are there, and all have as much */
     return ec_schedule_is_round(r->replicates, r->past.next);
 }
 
@@ -234,7 +259,8 @@ static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err
     if (!complete && (r->past.next > 0 || r->course->end || r->strip_rows)) return EC_OK; /* part of a batch is of no use to a picture */
     if (!complete) ec_warn(log, "stopped within the first batch: parts of the picture have no samples (0 in the samples channel) and are black");
     EC_TRY(ec_render_add_batch(r, complete, err));
-    if (!complete) return EC_OK;
+    if (complete) EC_TRY(take_light(r, err));
+    if (!complete || r->stopped_by) return EC_OK;
     EC_TRY(judge(r, log, err));
     if (r->stopped_by) return EC_OK;
     const double now = ec_now(), not_asked = r->source->batches > 1 ? now - start : 0.0; /* the next one may take as long, and keeps nothing */

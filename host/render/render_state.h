@@ -71,6 +71,8 @@ ec_result ec_render_foretell(ec_render_state *r, ec_error *err);
 
 /* render_add.c: the batch that the order is of, complete or given up, goes into the film. */
 ec_result ec_render_add_batch(ec_render_state *r, bool complete, ec_error *err);
+/* A whole one of what light paths bring goes into the film's light. */
+ec_result ec_render_add_light(ec_render_state *r, ec_error *err);
 /* Hands over what there is; of a batch that is under way too, but not of its features and layers, nor of a pass that is larger than the picture. What is
  * kept ends before a batch that is cut short, which cannot be gone on from. */
 void ec_render_keep(ec_render_state *r, uint32_t under_way);

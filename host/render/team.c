@@ -24,7 +24,7 @@ static void work_piece(member *m)
     const slot *s = m->slot;
     const bool is_block = s->batches > 1;
     const ec_sums sums = is_block ? ec_sums_from(&s->sums, m->first - s->from) : (ec_sums){0};
-    const ec_batch_order order = {.index = s->index, .batches = s->batches, .cut = s->cut, .list = s->list, .samples = s->samples,
+    const ec_batch_order order = {.light = s->light, .index = s->index, .batches = s->batches, .cut = s->cut, .list = s->list, .samples = s->samples,
                                   .limit = s->limit, .done = m->first, .count = m->end, .with_features = s->aov != NULL, .aov = s->aov, .layers = s->layers, .matte = s->matte,
                                   .into = is_block ? NULL : s->mean + (uint64_t)EC_BATCH_FIELDS * m->first, .sums = is_block ? &sums : NULL,
                                   .go_on = carries_on, .user = m};

@@ -9,6 +9,7 @@
 
 /* A unit, a batch or a block of some, that is open: of its positions some are done, [handed, count) wait, and members hold the others. */
 typedef struct slot {
+    ec_order_light light;
     uint32_t index, batches;          /* from that one on */
     uint32_t cut, samples;            /* of the order: what is not wanted of it; of each entry of a list */
     float limit;                      /* likewise */

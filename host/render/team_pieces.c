@@ -124,9 +124,9 @@ static bool open_unit(ec_team *t, const slot *unit)
 
 bool ec_team_open_unit(ec_team *t, const ec_batch_order *o)
 {
-    slot unit = {.index = o->index, .batches = o->batches, .cut = o->cut, .list = o->list, .samples = o->samples, .limit = o->limit, .aov = o->aov, .layers = o->layers,
+    slot unit = {.light = o->light, .index = o->index, .batches = o->batches, .cut = o->cut, .list = o->list, .samples = o->samples, .limit = o->limit, .aov = o->aov, .layers = o->layers,
                  .matte = o->matte, .from = o->done, .count = o->count, .handed = o->done};
-    const bool may_choose = !o->batches && !o->list && !o->aov && !o->layers && !o->matte && !o->done && !o->cut;
+    const bool may_choose = o->light == EC_LIGHT_ADDED && !o->batches && !o->list && !o->aov && !o->layers && !o->matte && !o->done && !o->cut;
     if (!unit.batches) unit.batches = may_choose ? unit_from(t, o->index) : 1;
     if (!open_unit(t, &unit)) return false;
     float *mean = t->slots[(t->opened - 1) % t->room].mean;
@@ -222,10 +222,11 @@ void ec_team_settle(member *m, ec_result result, bool complete, double seconds)
     t->rays += m->source->rays - m->rays;
     if (!complete) give_up(m);
     for (int i = 0; complete && i < EC_STAGE_COUNT; i++) s->invalid[i] += m->source->invalid[i] - m->invalid[i];
+    m->slot = NULL;
+    if (s->light == EC_LIGHT_ALONE) return;
     if (complete) m->samples += samples;
     m->seconds = fmax(seconds, 1e-6);
     if (m->pieces++) m->rate = samples / m->seconds; /* compilers slow the first down */
-    m->slot = NULL;
 }
 
 uint32_t ec_team_done(const ec_team *t, const slot *s)

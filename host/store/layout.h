@@ -2,7 +2,7 @@
  *
  * Part "picture": what viewers show; first-hit features are read from its channels A, albedo, normal and depth. Its attribute eclat.state
  * is a JSON object: state.c. Part "sums N" for each part of the film: R, G and B of each replicate, and the tail of the samples (film/sums.h); or
- * what a single batch tells. Pixels with counts of their own have "count" there. Parts "layer K sums N" are the same of the K-th layer, from 1 on. Part "allotment": "weight", by pixel number. Part
+ * what a single batch tells. Pixels with counts of their own have "count" there. Parts "layer K sums N" are the same of the K-th layer, from 1 on; of what light paths bring, where that is apart, K is one more than there are layers. Part "allotment": "weight", by pixel number. Part
  * "under way": what the batch that is not complete tells. */
 #ifndef EC_STORE_LAYOUT_H
 #define EC_STORE_LAYOUT_H
@@ -18,7 +18,9 @@ typedef struct ec_state_film {
     uint32_t replicates, batch_count, part_count, cut, aov_batches;
     float limit;
     uint64_t invalid_count;
-    ec_film_part *parts; /* without sums; malloc'ed */
+    ec_film_part *parts, *light_parts; /* without sums; malloc'ed */
+    uint32_t light_part_count;
+    bool has_light;
     bool has_counts, has_weights;
     ec_layers layers;
     ec_rare rare;

@@ -89,6 +89,20 @@ static ec_result read_parts(ec_exr_file *file, const char *path, const ec_state_
     return check_counts(path, film, err);
 }
 
+static ec_result read_light(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
+{
+    if (!state->has_light) return EC_OK;
+    EC_TRY(ec_film_part_light(film, err));
+    for (uint32_t i = 0; i < state->light_part_count; i++) {
+        ec_film_part part = {.first = state->light_parts[i].first, .count = state->light_parts[i].count};
+        ec_result result = read_part(file, path, state->layers.count + 1, i, &part, film->light, err);
+        if (result == EC_OK) continue;
+        ec_film_part_free(&part);
+        return result;
+    }
+    return EC_OK;
+}
+
 static ec_result read_layers(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
 {
     EC_TRY(ec_film_set_layers(film, &state->layers, err));
@@ -141,12 +155,14 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     if (result == EC_OK) result = ec_film_set_rare(&s->film, &state.rare, err);
     if (result == EC_OK) result = read_parts(file, path, &state, 0, &s->film, err);
     if (result == EC_OK) result = read_layers(file, path, &state, &s->film, err);
+    if (result == EC_OK) result = read_light(file, path, &state, &s->film, err);
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);
     if (result == EC_OK) s->film.invalid_count = state.invalid_count, s->film.limit = state.limit;
     if (result == EC_OK && state.aov_batches) result = read_features(file, path, &s->film, err);
     if (s->film.aov) s->film.aov_batches = state.aov_batches;
     free(state.parts);
+    free(state.light_parts);
     ec_exr_close(file);
     if (result != EC_OK) ec_stored_free(s);
     return result;
@@ -162,6 +178,7 @@ bool ec_store_peek(const char *path, ec_stored *s, uint32_t *first)
     if (can_be_read) s->film.replicates = film.replicates, s->film.batch_count = film.batch_count;
     free(text);
     free(film.parts);
+    free(film.light_parts);
     return can_be_read;
 }
 

@@ -10,7 +10,7 @@
 #include "store/layout.h"
 #include "store/rare_state.h"
 
-enum { FORMAT = 3 };
+enum { FORMAT = 4 };
 
 static void add_count(cJSON *object, const char *name, uint64_t value)
 {
@@ -69,13 +69,19 @@ static void add_layers(cJSON *state, const ec_layers *layers)
     for (uint32_t g = 0; g < layers->group_count; g++) cJSON_AddItemToArray(groups, cJSON_CreateString(layers->groups[g]));
 }
 
-static void add_film(cJSON *state, const ec_film *film)
+static void add_parts(cJSON *state, const char *name, const ec_film *film)
 {
-    cJSON *parts = cJSON_AddArrayToObject(state, "parts");
+    cJSON *parts = cJSON_AddArrayToObject(state, name);
     for (uint32_t i = 0; i < film->part_count; i++) {
         const int range[2] = {(int)film->parts[i].first, (int)film->parts[i].count};
         cJSON_AddItemToArray(parts, cJSON_CreateIntArray(range, 2));
     }
+}
+
+static void add_film(cJSON *state, const ec_film *film)
+{
+    add_parts(state, "parts", film);
+    if (film->light) add_parts(state, "lightParts", film->light);
     cJSON_AddNumberToObject(state, "replicates", film->replicates);
     cJSON_AddNumberToObject(state, "cut", film->cut);
     if (film->limit > 0) cJSON_AddNumberToObject(state, "limit", (double)film->limit);
@@ -229,9 +235,25 @@ static void read_layers(reader *r, ec_layers *layers)
     layers->count = (uint32_t)__builtin_popcount(layers->kinds) + layers->group_count;
 }
 
+static uint32_t read_parts(reader *r, const char *name, ec_film_part **read)
+{
+    const cJSON *item, *parts = cJSON_GetObjectItemCaseSensitive(r->state, name);
+    uint32_t count = 0;
+    *read = calloc((size_t)cJSON_GetArraySize(parts) + 1, sizeof **read);
+    r->is_wrong |= !*read || !cJSON_IsArray(parts);
+    if (r->is_wrong) return 0;
+    cJSON_ArrayForEach(item, parts) {
+        ec_film_part *part = &(*read)[count++];
+        part->first = (uint32_t)number_of(r, cJSON_GetArrayItem(item, 0), INT32_MAX);
+        part->count = (uint32_t)number_of(r, cJSON_GetArrayItem(item, 1), INT32_MAX);
+        r->is_wrong |= !ec_film_part_is_sound(part->first, part->count);
+    }
+    return count;
+}
+
 static void read_film(reader *r, ec_state_film *film)
 {
-    const cJSON *item, *parts = cJSON_GetObjectItemCaseSensitive(r->state, "parts");
+    const cJSON *parts = cJSON_GetObjectItemCaseSensitive(r->state, "parts");
     film->replicates = whole(r, "replicates");
     film->cut = whole(r, "cut");
     film->limit = cJSON_HasObjectItem(r->state, "limit") ? (float)number(r, "limit", FLT_MAX) : 0;
@@ -242,18 +264,13 @@ static void read_film(reader *r, ec_state_film *film)
     film->invalid_count = count(r, "invalidValues");
     r->is_wrong |= !ec_rare_state_read(r->state, &film->rare);
     read_layers(r, &film->layers);
-    int most = cJSON_GetArraySize(parts);
-    film->parts = calloc((size_t)most + 1, sizeof *film->parts);
+    const int most = cJSON_GetArraySize(parts);
     const bool fits = film->replicates >= 1 && film->replicates <= EC_REPLICATES_MOST && (film->batch_count >= 1) == (most >= 1) &&
                       (most >= 1 || !film->cut) && film->aov_batches <= film->batch_count && film->cut < EC_BATCH_MOST && (most == 1 || !film->has_counts);
-    r->is_wrong |= !film->parts || !fits;
-    if (r->is_wrong) return;
-    cJSON_ArrayForEach(item, parts) {
-        ec_film_part *part = &film->parts[film->part_count++];
-        part->first = (uint32_t)number_of(r, cJSON_GetArrayItem(item, 0), INT32_MAX);
-        part->count = (uint32_t)number_of(r, cJSON_GetArrayItem(item, 1), INT32_MAX);
-        r->is_wrong |= !ec_film_part_is_sound(part->first, part->count);
-    }
+    r->is_wrong |= !fits;
+    film->part_count = read_parts(r, "parts", &film->parts);
+    film->has_light = cJSON_HasObjectItem(r->state, "lightParts");
+    if (film->has_light) film->light_part_count = read_parts(r, "lightParts", &film->light_parts);
 }
 
 ec_result ec_state_read(const char *text, const char *path, ec_stored *s, ec_state_film *film, ec_error *err)

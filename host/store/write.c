@@ -22,7 +22,8 @@ static ec_exr_part make_part(sum_part *room, uint32_t layer, uint32_t index, con
 ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past,
                          const ec_exr_part *picture, ec_error *err)
 {
-    const uint32_t sums = film->part_count * (1 + film->layers.count); /* layers have their batches when the picture has them */
+    const uint32_t own = film->part_count * (1 + film->layers.count); /* layers have their batches when the picture has them */
+    const uint32_t sums = own + (film->light ? film->light->part_count : 0);
     uint32_t count = 1 + sums;
     const ec_channel weight = {"weight", past->allotment.weight, 1, EC_CHANNEL_FLOAT};
     ec_channel batch[EC_BATCH_FIELDS];
@@ -39,7 +40,8 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
         parts[0].attributes = attributes;
         if (picture->attribute_count) memcpy(attributes, picture->attributes, picture->attribute_count * sizeof *attributes);
         attributes[parts[0].attribute_count++] = (ec_attribute){.name = "eclat.state", .type = EC_ATTR_STRING, .string = state};
-        for (uint32_t i = 0; i < sums; i++) {
+        for (uint32_t i = own; i < sums; i++) parts[i + 1] = make_part(&rooms[i], film->layers.count + 1, i - own, film->light);
+        for (uint32_t i = 0; i < own; i++) {
             const uint32_t layer = i / film->part_count;
             parts[i + 1] = make_part(&rooms[i], layer, i % film->part_count, layer ? &film->layer_films[layer - 1] : film);
         }

@@ -71,6 +71,7 @@ typedef struct ec_params {
     ec_float screen[4];           /* x and y of the picture's top left corner; what they grow by from pixel to pixel */
     /* Light paths (lib/light_path.h). */
     ec_float light_paths;         /* for each camera path; 0: none */
+    ec_uint light_apart;          /* is what they bring no part of batches? */
     ec_float film_area;           /* of the picture in the plane at distance 1, of an orthographic camera in the scene */
     ec_float splat_unit;          /* radiance of one step of the splats' sums, a power of two */
     ec_uint film_rows;            /* that the films hold, from film_row on */
@@ -83,7 +84,7 @@ typedef struct ec_params {
     ec_uint layer_groups;         /* the first light group's; the others follow */
     ec_uint layer_ids;            /* behind them: which node and material a sample meets (lib/features.h) */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 588);
+EC_ASSERT_SIZE(ec_params, 592);
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u

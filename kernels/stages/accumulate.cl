@@ -88,7 +88,7 @@ kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global c
     if (params->apart) limit_indirect(radiance + i * batch, wave, batch, params->limit);
     for (uint c = 0; c < 3; c++) out[c] = mean_of(radiance + c * wave + i * batch, batch);
     write_tail(radiance + i * batch, wave, batch, out);
-    if (params->light_paths > 0.0f)
+    if (params->light_paths > 0.0f && !params->light_apart)
         add_splats(splats + EC_SPLAT_WORDS * ((ulong)(y - params->film_row) * params->width + x), params->splat_unit, batch, out);
     if (params->apart) write_cut(radiance + 3 * (ulong)wave + i * batch, batch, params->limit, out);
 }

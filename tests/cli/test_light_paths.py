@@ -48,7 +48,7 @@ class LightPaths(OtherWay):
         self.assertLess(many, few)
 
     def test_refused(self):
-        self.assert_refused([(["--clamp", "5"], "--clamp"), (["--adaptive"], "--adaptive"), (["--sample", "bsdf"], "--sample"),
+        self.assert_refused([(["--clamp", "5"], "--clamp"), (["--sample", "bsdf"], "--sample"),
                             (["--integrator", "whitted"], "--integrator")])
         self.assertIn("0 to 16", self.assert_one_error(eclat("render", RING, "--light-paths", "17", "-o", self.path("a.exr")), 2))
 
@@ -60,7 +60,7 @@ class LightPaths(OtherWay):
         self.assertRegex(run.stderr, r'note: caustics: paths through "ring" to "lamp" .*--light-paths 0')
         self.assertEqual((chosen["light_paths"], chosen["guiding"]), (0.0625, True))
         self.assertEqual(chosen["image_sha256"], self.render(*job, "--light-paths", "0.0625", "--guiding")["image_sha256"])
-        for other in (["--light-paths", "0"], ["--clamp", "10"], ["--adaptive"], ["--sample", "bsdf"]):
+        for other in (["--light-paths", "0"], ["--clamp", "10"], ["--sample", "bsdf"]):
             with self.subTest(other=other):
                 self.assertIsNone(self.render(*job, *other)["light_paths"])
 
@@ -118,15 +118,37 @@ class LightPaths(OtherWay):
 
     @full
     def test_auto_error(self):
-        """--error, which allots samples by itself, does not where there are light paths; a job that goes on, or is shared out, chooses as the whole."""
+        """A job with --error that goes on, or is shared out, chooses as the whole."""
         job = [RING, "--size", "24x18"]
         found = self.render(*job, "--error", "40%")
-        self.assertEqual((found["adaptive"], found["light_paths"]), (False, 0.0625))
+        self.assertEqual((found["adaptive"], found["light_paths"]), (True, 0.0625))
         self.assertLessEqual(found["error_bound"], 0.4)
         self.assert_slices_and_resume(job)
         self.render(*job, "--error", "60%", "--checkpoint", self.path("e.exr"))
         again = self.render(*job, "--error", "40%", "--resume", self.path("e.exr"))
-        self.assertEqual((again["adaptive"], again["image_sha256"]), (False, found["image_sha256"]))
+        self.assertEqual((again["adaptive"], again["image_sha256"]), (True, found["image_sha256"]))
+
+    def test_adaptive(self):
+        """What light paths bring is a film of its own where pixels are due different numbers of samples; bits are the same on any way to it."""
+        job = [scene("spheres"), "--light", "sky:120,40", "--size", "48x48", "--light-paths", "0.0625", "--adaptive"]
+        whole = self.render(*job, "--spp", "80")
+        self.assertLess(whole["allotment_gain"], 0.8)
+        self.assertEqual(self.render(*job, "--spp", "80", "--lanes", "1", "--wave", "8192")["image_sha256"], whole["image_sha256"])
+        for spp in ("24", "48"):
+            with self.subTest(after=spp):
+                self.render(*job, "--spp", spp, "--checkpoint", self.path("c.exr"))
+                again = self.assert_ok(eclat("render", "--resume", self.path("c.exr"), "--spp", "80", "-o", self.path("a.exr"), "--json"))
+                self.assertEqual(json.loads(again.stdout)["image_sha256"], whole["image_sha256"])
+
+    @full
+    def test_adaptive_noise(self):
+        """It is one picture with less noise."""
+        job = [scene("spheres"), "--light", "sky:120,40", "--size", "96x96", "--seed", "2", "--spp"]
+        even = self.render(*job, "512", "--light-paths", "0", name="even.exr")
+        found = self.render(*job, "128", "--light-paths", "0.0625", "--adaptive", name="found.exr")
+        self.assertLess(found["error"], 0.7 * self.render(*job, "128", "--light-paths", "0.0625", "--adaptive=off")["error"])
+        self.assertLess(found["error"], even["error"])
+        self.assert_ok(eclat("compare", self.path("found.exr"), self.path("even.exr")))
 
     def test_info(self):
         """Which bodies they are aimed at is an effect like any other."""
