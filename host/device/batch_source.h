@@ -21,8 +21,6 @@ static inline uint64_t ec_order_positions(uint64_t pixels, uint32_t replicates)
     return pixels > most ? pixels : most;
 }
 
-/* Positions done to count - 1 of a batch. A position is a place in `list`; without one a pixel number, and then both ends of what is not a
- * whole batch are whole rows of tiles (kernels/lib/film.h), whose numbers and places in row order are the same range. */
 /* What light paths have to do with an order, where there are any. */
 typedef enum ec_order_light {
     EC_LIGHT_ADDED, /* what they bring is in what the batch tells */
@@ -30,6 +28,8 @@ typedef enum ec_order_light {
     EC_LIGHT_ALONE  /* … and here it is the batch, of as many samples; no path starts at the camera */
 } ec_order_light;
 
+/* Positions done to count - 1 of a batch. A position is a place in `list`; without one a pixel number, and then both ends of what is not a
+ * whole batch are whole rows of tiles (kernels/lib/film.h), whose numbers and places in row order are the same range. */
 typedef struct ec_batch_order {
     ec_order_light light;
     uint32_t index;                   /* of the batch, in the whole job: film/schedule.h says which samples it is */

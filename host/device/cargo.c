@@ -12,6 +12,7 @@
 #include "device/light_share.h"
 #include "device/pipeline.h"
 #include "device/pixel_filter.h"
+#include "pack/distribution.h"
 #include "pack/lamp_pairs.h"
 
 static void add_accel_buffers(ec_cargo *cargo, uint32_t which, const ec_accel *accel, bool owned)
@@ -191,8 +192,7 @@ static void set_environment(const ec_pack *pack, ec_params *params)
     params->environment_width = pack->environment_width;
     params->environment_height = pack->environment_height;
     params->environment_pmf = pack->environment_pmf;
-    params->environment_stretch[0] = (uint32_t)(pack->environment_stretch >> 32);
-    params->environment_stretch[1] = (uint32_t)pack->environment_stretch;
+    ec_stretch_words(pack->environment_stretch, params->environment_stretch);
     for (int k = 0; k < 3; k++)
         params->environment[k] = !plain->has_environment ? 0.0f : plain->environment.rgb ? 1.0f : plain->environment.constant[k];
     params->environment_turned = plain->has_environment && plain->environment.turned;

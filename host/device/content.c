@@ -67,7 +67,7 @@ static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
 static void add_params(SHA2_CTX *digests, ec_params p)
 {
     p.batch = p.first_sample = p.wave = p.part = p.film_rows = p.light_apart = 0;
-    p.limit = 0; /* follows from what else there is, as this does: */
+    p.limit = 0; /* limit and share of lights follow from what else there is */
     if (p.far_numbers) ec_light_share_set(&p, 0.5);
     TAKE(EC_CONTENT_CAMERA, camera_origin);
     TAKE(EC_CONTENT_CAMERA, camera_right);

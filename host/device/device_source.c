@@ -53,6 +53,7 @@ static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, e
     ec_pipeline *p = &s->pipeline;
     cl_mem *list = &p->buffers[EC_ARG_PIXEL_LIST];
     const uint64_t slack = 64; /* lanes past the last sample look too */
+    if (order->light == EC_LIGHT_ALONE) return EC_OK; /* the next pass has a list again */
     if (!order->list) {
         ec_buffer_release(p->cl, list); /* of a pilot */
         return EC_OK;

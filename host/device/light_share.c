@@ -4,18 +4,11 @@
 
 #include "pack/distribution.h"
 
-static void set_stretch(uint64_t numbers, ec_uint words[2])
-{
-    const uint64_t stretch = ec_distribution_stretch(numbers);
-    words[0] = (uint32_t)(stretch >> 32);
-    words[1] = (uint32_t)stretch;
-}
-
 void ec_light_numbers_set(ec_params *p, uint32_t far)
 {
     p->far_numbers = far;
-    set_stretch(far, p->far_stretch);
-    set_stretch(((uint64_t)1 << 32) - far, p->lamp_stretch);
+    ec_stretch_words(ec_distribution_stretch(far), p->far_stretch);
+    ec_stretch_words(ec_distribution_stretch(((uint64_t)1 << 32) - far), p->lamp_stretch);
 }
 
 void ec_light_share_set(ec_params *p, double share)

@@ -83,7 +83,11 @@ ec_result ec_pipeline_show_light(ec_pipeline *p, uint32_t first_pixel, uint32_t 
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_FIRST_PIXEL] = first_pixel, [EC_ARG_PATH_COUNT] = pixel_count * p->params.batch, [EC_ARG_PIXEL_COUNT] = pixel_count};
     for (uint64_t c = 0; c < 3; c++)
         EC_TRY(ec_buffer_zero(p->cl, p->buffers[EC_ARG_RADIANCE], 4ull * c * p->wave, 4ull * pixel_count * p->params.batch, err));
-    return ec_pipeline_launch(p, EC_ACCUMULATE, scalars, err);
+    cl_mem list = p->buffers[EC_ARG_PIXEL_LIST];
+    p->buffers[EC_ARG_PIXEL_LIST] = NULL;
+    ec_result result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, err);
+    p->buffers[EC_ARG_PIXEL_LIST] = list;
+    return result;
 }
 
 ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,

@@ -34,19 +34,25 @@ static void take_part(const ec_film_part *part, uint64_t first, uint64_t count, 
     for (uint64_t i = 0; !part->batch && i < 3 * count; i++) mean[i] += (to[i] - mean[i]) * share;
 }
 
-/* Of a replicate whose light is not there yet, which is one of the first batches, that of the others. */
-static void add_light(const ec_film *light, uint64_t first, uint64_t count, uint32_t r, double *mean)
+static void add_replicate(const ec_film *light, uint64_t first, uint64_t count, uint32_t r, double share, double *mean)
 {
     double own[3 * PIECE];
-    const double all = light->samples[r] > 0 ? light->samples[r] : ec_film_samples_of_all(light);
-    for (uint32_t k = 0; k < light->replicates; k++) {
-        if (!(light->samples[k] > 0) || (k != r && light->samples[r] > 0)) continue;
-        for (uint64_t i = 0; i < count; i += PIECE) {
-            const uint64_t some = count - i < PIECE ? count - i : PIECE;
-            ec_film_replicate(light, first + i, some, k, own);
-            for (uint64_t v = 0; v < 3 * some; v++) mean[3 * i + v] += light->samples[k] / all * own[v];
-        }
+    for (uint64_t i = 0; i < count; i += PIECE) {
+        const uint64_t some = count - i < PIECE ? count - i : PIECE;
+        ec_film_replicate(light, first + i, some, r, own);
+        for (uint64_t v = 0; v < 3 * some; v++) mean[3 * i + v] += share * own[v];
     }
+}
+
+/* Adds the replicate's light. During the first batches it may have none yet, and takes the mean of those that have. */
+static void add_light(const ec_film *light, uint64_t first, uint64_t count, uint32_t r, double *mean)
+{
+    if (light->samples[r] > 0) {
+        add_replicate(light, first, count, r, 1, mean);
+        return;
+    }
+    for (uint32_t k = 0; k < light->replicates; k++)
+        if (light->samples[k] > 0) add_replicate(light, first, count, k, light->samples[k] / ec_film_samples_of_all(light), mean);
 }
 
 void ec_film_replicate(const ec_film *film, uint64_t first, uint64_t count, uint32_t r, double *mean)

@@ -19,4 +19,11 @@ void ec_distribution_guide(uint32_t n, ec_distribution_entry *table);
 /* floor(2^64 / share), for choice_stretch of kernels/lib/choice.h; 2^64 - 1 for a share of one number. */
 uint64_t ec_distribution_stretch(uint64_t share);
 
+/* As kernels have it: the high word first. */
+static inline void ec_stretch_words(uint64_t stretch, uint32_t words[2])
+{
+    words[0] = (uint32_t)(stretch >> 32);
+    words[1] = (uint32_t)stretch;
+}
+
 #endif

@@ -173,13 +173,13 @@ static ec_result met(void *user, uint32_t number, ec_error *err)
 static ec_result shaded(void *user, uint32_t number, ec_error *err)
 {
     tracer *t = user;
-    return ec_joined_gather(&t->joined, t->p, t->look.first, t->look.count, number, true, err);
+    return ec_joined_gather(&t->joined, &t->look, number, true, err);
 }
 
 static ec_result lit(void *user, uint32_t number, ec_error *err)
 {
     tracer *t = user;
-    return ec_joined_gather(&t->joined, t->p, t->look.first, t->look.count, number, false, err);
+    return ec_joined_gather(&t->joined, &t->look, number, false, err);
 }
 
 /* Where nothing is more than diffuse only the camera's own directions are sharp. */

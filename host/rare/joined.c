@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/luminance.h"
 
 #define PI 3.14159265358979323846
 #define DIRECT_LEFT 0.25 /* of direct light's variance where samples are in order, about */
@@ -22,14 +21,16 @@ ec_result ec_joined_open(ec_joined *j, double flux, uint32_t paths, ec_error *er
 {
     *j = (ec_joined){.flux = flux};
     if (!(flux > 0)) return EC_OK;
-    j->radiance = malloc(3 * sizeof *j->radiance * paths);
+    j->rgb = malloc(6ull * sizeof *j->rgb * paths);
+    j->luminance = malloc(sizeof *j->luminance * paths);
     j->paths = calloc(paths, sizeof *j->paths);
-    return j->radiance && j->paths ? EC_OK : ec_fail(err, "out of memory for %u paths", paths);
+    return j->rgb && j->luminance && j->paths ? EC_OK : ec_fail(err, "out of memory for %u paths", paths);
 }
 
 void ec_joined_close(ec_joined *j)
 {
-    free(j->radiance);
+    free(j->rgb);
+    free(j->luminance);
     free(j->paths);
     *j = (ec_joined){0};
 }
@@ -57,16 +58,15 @@ static void add(ec_joined *j, ec_joined_path *path, float light, bool is_joined)
     }
 }
 
-ec_result ec_joined_gather(ec_joined *j, ec_pipeline *p, uint32_t first, uint32_t count, uint32_t bounce, bool by_segment, ec_error *err)
+ec_result ec_joined_gather(ec_joined *j, const ec_look *look, uint32_t bounce, bool by_segment, ec_error *err)
 {
     const bool is_direct = bounce + !by_segment < EC_DIRECT_SEGMENTS;
     if (!j->paths) return EC_OK;
-    EC_TRY(ec_buffer_read_rows(p->cl, p->buffers[EC_ARG_RADIANCE], 4ull * p->wave, 4ull * count, 3, j->radiance, err));
-    for (uint32_t i = 0; i < count; i++) {
-        ec_joined_path *path = &j->paths[first + i];
-        const double rgb[3] = {j->radiance[i], j->radiance[count + i], j->radiance[2 * (size_t)count + i]};
-        const float radiance = (float)ec_luminance(rgb), light = radiance - path->radiance;
-        path->radiance = radiance;
+    EC_TRY(ec_look_luminance(look, j->rgb, j->luminance, err));
+    for (uint32_t i = 0; i < look->count; i++) {
+        ec_joined_path *path = &j->paths[look->first + i];
+        const float light = j->luminance[i] - path->radiance;
+        path->radiance = j->luminance[i];
         if (!is_direct) add(j, path, light, by_segment ? path->by_segment : path->by_vertex);
     }
     return EC_OK;

@@ -2,7 +2,7 @@
 #ifndef EC_RARE_JOINED_H
 #define EC_RARE_JOINED_H
 
-#include "device/pipeline.h"
+#include "rare/look.h"
 
 enum { EC_JOINED_NUMBERS = 6 };
 
@@ -17,7 +17,7 @@ typedef struct ec_joined_path {
 
 typedef struct ec_joined {
     double flux;           /* W, of luminance, that lights send to what bends or mirrors it sharply */
-    float *radiance;       /* of a wave's slots, as the device has it; owned, as the next one */
+    float *rgb, *luminance; /* of a wave's slots; owned, as the next one */
     ec_joined_path *paths; /* NULL: nobody asks */
 } ec_joined;
 
@@ -28,9 +28,9 @@ void ec_joined_close(ec_joined *j); /* zero-initialised or closed is fine */
 /* Where a path, which leaves p with beta, first met a surface. */
 void ec_joined_first(ec_joined_path *path, const ec_params *params, const float p[3], float beta);
 
-/* What the wave's paths, from `first` on, have gathered since it was last called: by the segments that bounce `bounce` traced, or else by light sampled
+/* What the paths of the look's wave have gathered since it was last called: by the segments that bounce `bounce` traced, or else by light sampled
  * where these end. */
-ec_result ec_joined_gather(ec_joined *j, ec_pipeline *pipeline, uint32_t first, uint32_t count, uint32_t bounce, bool by_segment, ec_error *err);
+ec_result ec_joined_gather(ec_joined *j, const ec_look *look, uint32_t bounce, bool by_segment, ec_error *err);
 
 /* How many light paths for each camera path have the least error for the time. */
 typedef struct ec_joined_choice {

@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/luminance.h"
 #include "device/light_share.h"
 #include "rare/look.h"
 
@@ -21,21 +20,15 @@ enum { FAR, LAMPS, KINDS };
 typedef struct gathered {
     ec_look look;
     int kind;
-    float *radiance;     /* of a wave's slots */
+    float *rgb, *luminance; /* of a wave's slots */
     float *light[KINDS]; /* of each path: the luminance of all that was sampled */
 } gathered;
 
 static ec_result add(gathered *g, float sign, ec_error *err)
 {
-    const ec_pipeline *p = g->look.p;
-    const uint32_t count = g->look.count, fields = p->params.apart ? 6 : 3;
     float *light = g->light[g->kind] + g->look.first;
-    EC_TRY(ec_buffer_read_rows(p->cl, p->buffers[EC_ARG_RADIANCE], 4ull * p->wave, 4ull * count, fields, g->radiance, err));
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t f = 0; f < fields; f += 3) {
-            const float *r = g->radiance + (size_t)f * count + i;
-            light[i] += sign * (float)ec_luminance((double[3]){r[0], r[count], r[2 * (size_t)count]});
-        }
+    EC_TRY(ec_look_luminance(&g->look, g->rgb, g->luminance, err));
+    for (uint32_t i = 0; i < g->look.count; i++) light[i] += sign * g->luminance[i];
     return EC_OK;
 }
 
@@ -90,9 +83,10 @@ static double least_error(const gathered *g)
 static ec_result find_share(gathered *g, double *share, ec_error *err)
 {
     const uint32_t most = g->look.paths < g->look.p->wave ? g->look.paths : g->look.p->wave;
-    g->radiance = malloc(6ull * sizeof *g->radiance * most);
+    g->rgb = malloc(6ull * sizeof *g->rgb * most);
+    g->luminance = malloc(sizeof *g->luminance * most);
     for (int k = 0; k < KINDS; k++) g->light[k] = calloc(g->look.paths, sizeof *g->light[k]);
-    if (!g->radiance || !g->light[FAR] || !g->light[LAMPS]) return ec_fail(err, "out of memory for %u paths", g->look.paths);
+    if (!g->rgb || !g->luminance || !g->light[FAR] || !g->light[LAMPS]) return ec_fail(err, "out of memory for %u paths", g->look.paths);
     EC_TRY(trace(g, FAR, err));
     EC_TRY(trace(g, LAMPS, err));
     *share = least_error(g);
@@ -107,7 +101,8 @@ ec_result ec_light_share_choose(ec_pipeline *p, double *share, ec_error *err)
     gathered g = {.look = {.p = p, .paths = ec_look_paths(p, PATHS), .each = 1, .replicates = 2, .bounces = params.max_depth, .samples_light = true,
                            .shaded = before, .lit = after, .user = &g}};
     ec_result result = find_share(&g, share, err);
-    free(g.radiance);
+    free(g.rgb);
+    free(g.luminance);
     for (int k = 0; k < KINDS; k++) free(g.light[k]);
     p->params = params;
     if (result != EC_OK) return result;

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/luminance.h"
+
 #define SEED 0x2545f491u /* any, but no render's: seeds are mixed (device_source.c) */
 
 uint32_t ec_look_paths(const ec_pipeline *p, uint32_t most)
@@ -16,6 +18,22 @@ uint32_t ec_look_accel(const ec_pipeline *p)
     uint32_t accel = EC_ACCEL_COUNT - 1;
     while (!(p->kernels.accels >> accel & 1)) accel--;
     return accel;
+}
+
+ec_result ec_look_luminance(const ec_look *look, float *rgb, float *luminance, ec_error *err)
+{
+    const ec_pipeline *p = look->p;
+    const uint32_t count = look->count, fields = p->params.apart ? 6 : 3;
+    EC_TRY(ec_buffer_read_rows(p->cl, p->buffers[EC_ARG_RADIANCE], 4ull * p->wave, 4ull * count, fields, rgb, err));
+    for (uint32_t i = 0; i < count; i++) {
+        double sum = 0;
+        for (uint32_t f = 0; f < fields; f += 3) {
+            const float *r = rgb + (size_t)f * count + i;
+            sum += ec_luminance((double[3]){r[0], r[count], r[2 * (size_t)count]});
+        }
+        luminance[i] = (float)sum;
+    }
+    return EC_OK;
 }
 
 /* One bounce: rays[0] of the counters says what each part of the queue holds, and at the end what is left. */

@@ -30,6 +30,9 @@ uint32_t ec_look_paths(const ec_pipeline *p, uint32_t most);
  * film is touched. */
 ec_result ec_look_trace(ec_look *look, ec_error *err);
 
+/* The luminance that the wave's paths have brought to their slots so far, indirect light too where it is kept apart. rgb: room for 6 floats a path. */
+ec_result ec_look_luminance(const ec_look *look, float *rgb, float *luminance, ec_error *err);
+
 /* The one acceleration structure that the pipeline traces by, or the last of them, which suits rays that go anywhere. */
 uint32_t ec_look_accel(const ec_pipeline *p);
 

@@ -122,21 +122,26 @@ static ec_result add_whole(ec_render_state *r, ec_error *err)
     return r->source->batches > 1 ? add_block(r, err) : add_to(r, r->film, r->source->mean, err);
 }
 
-ec_result ec_render_add_light(ec_render_state *r, ec_error *err)
+/* What the source has counted so far; the film has changed. */
+static void take_counts(ec_render_state *r)
 {
     for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
     r->past.rays = r->rays_before + r->source->rays;
     r->is_looked_at = false;
-    return ec_film_add(r->film->light, r->order.index, r->source->mean, err);
+}
+
+ec_result ec_render_add_light(ec_render_state *r, ec_error *err)
+{
+    EC_TRY(ec_film_add(r->film->light, r->order.index, r->source->mean, err));
+    take_counts(r);
+    return EC_OK;
 }
 
 ec_result ec_render_add_batch(ec_render_state *r, bool complete, ec_error *err)
 {
-    for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
     EC_TRY(complete ? add_whole(r, err) : add_begun(r, err));
+    take_counts(r); /* what add_whole keeps of a job's end has not the batch's */
     r->past.samples += r->under_way;
-    r->past.rays = r->rays_before + r->source->rays;
     r->past.next += r->source->batches;
-    r->is_looked_at = false;
     return EC_OK;
 }

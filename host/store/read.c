@@ -73,16 +73,22 @@ static ec_result check_counts(const char *path, const ec_film *film, ec_error *e
     return EC_OK;
 }
 
-static ec_result read_parts(ec_exr_file *file, const char *path, const ec_state_film *state, uint32_t layer, ec_film *film, ec_error *err)
+static ec_result read_each(ec_exr_file *file, const char *path, uint32_t layer, const ec_film_part *parts, uint32_t count, ec_film *film, ec_error *err)
 {
-    if (state->has_counts && !(film->counts = calloc((uint64_t)film->width * film->height, sizeof *film->counts))) return no_memory(path, err);
-    for (uint32_t i = 0; i < state->part_count; i++) {
-        ec_film_part part = {.first = state->parts[i].first, .count = state->parts[i].count};
+    for (uint32_t i = 0; i < count; i++) {
+        ec_film_part part = {.first = parts[i].first, .count = parts[i].count};
         ec_result result = read_part(file, path, layer, i, &part, film, err);
         if (result == EC_OK) continue;
         ec_film_part_free(&part);
         return result;
     }
+    return EC_OK;
+}
+
+static ec_result read_parts(ec_exr_file *file, const char *path, const ec_state_film *state, uint32_t layer, ec_film *film, ec_error *err)
+{
+    if (state->has_counts && !(film->counts = calloc((uint64_t)film->width * film->height, sizeof *film->counts))) return no_memory(path, err);
+    EC_TRY(read_each(file, path, layer, state->parts, state->part_count, film, err));
     if (film->batch_count != state->batch_count) return no_sense(path, err);
     if (state->cut && state->cut >= ec_schedule_batch(film->replicates, ec_film_end(film) - 1).samples) return no_sense(path, err);
     if (state->cut) ec_film_set_cut(film, state->cut);
@@ -93,14 +99,7 @@ static ec_result read_light(ec_exr_file *file, const char *path, const ec_state_
 {
     if (!state->has_light) return EC_OK;
     EC_TRY(ec_film_part_light(film, err));
-    for (uint32_t i = 0; i < state->light_part_count; i++) {
-        ec_film_part part = {.first = state->light_parts[i].first, .count = state->light_parts[i].count};
-        ec_result result = read_part(file, path, state->layers.count + 1, i, &part, film->light, err);
-        if (result == EC_OK) continue;
-        ec_film_part_free(&part);
-        return result;
-    }
-    return EC_OK;
+    return read_each(file, path, state->layers.count + 1, state->light_parts, state->light_part_count, film->light, err);
 }
 
 static ec_result read_layers(ec_exr_file *file, const char *path, const ec_state_film *state, ec_film *film, ec_error *err)
