@@ -144,7 +144,7 @@ class CheckpointFaults(FaultCase):
         kept = self.path("kept.exr")
         self.refused(kept, data + MARK + hashlib.sha256(data).digest())
         error = self.check_error(eclat("render", "--resume", kept, "-q", "-o", self.path("b.png")))
-        self.assertIn("it was written by another version of eclat (format 1, this one reads 3); use that version, or render anew", error)
+        self.assertIn("it was written by another version of eclat (format 1, this one reads 4); use that version, or render anew", error)
 
     def test_forged(self):
         """Changed and sealed anew: read as what it says, or refused; never a crash."""
