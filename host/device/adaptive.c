@@ -182,7 +182,7 @@ static bool enter(ec_allotment *a, const ec_film *film, uint32_t i, double most,
 static void rise(ec_allotment *a, const ec_film *film)
 {
     const uint64_t level = (uint64_t)a->level;
-    if (level > EC_PILOT_SAMPLES && (level & (level - 1)) == 0) weigh(a, film);
+    if (level > ec_schedule_pilot(a->replicates) && (level & (level - 1)) == 0) weigh(a, film);
     a->level += ec_schedule_step(level);
 }
 

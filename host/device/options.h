@@ -58,7 +58,7 @@ typedef struct ec_render_options {
     uint32_t spp;               /* stop after so many samples a pixel; 0 = no such limit */
     double time_limit;          /* stop before this many seconds of rendering; 0 = none */
     double error_target;        /* stop when the image's error bound is under this (0.02 = 2 %); 0 = none */
-    uint32_t replicates;        /* independent copies of the sample sequence, up to EC_REPLICATES_MOST; 0 = EC_REPLICATES */
+    uint32_t replicates;        /* independent copies of the sample sequence, up to EC_REPLICATES_MOST; 0 = the default of ec_render_replicates */
     ec_integrator integrator;
     uint32_t max_depth;         /* path segments: 1 = emission only, 2 = direct light; 0 = unlimited, Whitted: 10 */
     double cutoff;              /* Whitted: branches of less weight than this are not followed */
@@ -100,7 +100,10 @@ typedef struct ec_render_options {
 static inline bool ec_has_screen_window(const ec_render_options *o) { return o->screen_window[0] < o->screen_window[1]; }
 
 /* Replicates of the options. */
-static inline uint32_t ec_render_replicates(const ec_render_options *o) { return o->replicates ? o->replicates : EC_REPLICATES; }
+static inline uint32_t ec_render_replicates(const ec_render_options *o)
+{
+    return o->replicates ? o->replicates : o->denoise ? EC_REPLICATES_DENOISED : EC_REPLICATES;
+}
 
 /* What the kernels seed a render of that seed with. */
 uint32_t ec_render_seed(uint64_t seed);

@@ -109,12 +109,12 @@ ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *pl
     return EC_OK;
 }
 
-ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, ec_error *err)
+ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, uint32_t cut, ec_error *err)
 {
     const uint64_t values = pixels * EC_FILM_FEATURES;
     if (!film->aov) film->aov = calloc(pixels_of(film), EC_FILM_FEATURES * sizeof *film->aov);
     if (!film->aov) return ec_fail(err, "out of memory for the first-hit features");
-    const double own = ec_schedule_batch(film->replicates, film->aov_batches).samples;
+    const double own = ec_schedule_batch(film->replicates, film->aov_batches).samples - cut;
     const double share = own / (own + (double)ec_schedule_samples(film->replicates, film->aov_batches));
     const bool is_first = film->aov_batches++ == 0;
 #pragma omp parallel for if (pixels > EC_FILM_MANY)

@@ -77,8 +77,9 @@ ec_result ec_film_add_cut(ec_film *film, uint32_t index, uint32_t cut, const flo
 /* Says of a film whose parts are all there that its last batch is so many samples short. */
 void ec_film_set_cut(ec_film *film, uint32_t cut);
 
-/* First-hit features of batch `aov_batches`, EC_FILM_FEATURES floats a pixel, of the first `pixels` of them; 0 elsewhere. */
-ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, ec_error *err);
+/* First-hit features of batch `aov_batches`, which is `cut` samples short, EC_FILM_FEATURES floats a pixel, of the first `pixels` of them; 0
+ * elsewhere. */
+ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, uint32_t cut, ec_error *err);
 
 /* The first batch of a picture that was stopped within it: the first `pixels` of it may have a sample. */
 ec_result ec_film_add_begun(ec_film *film, const float *batch, uint64_t pixels, ec_error *err);

@@ -6,10 +6,11 @@
  *     g(T) = T + gamma T^2 / 3 + gamma^2 T^3 / 27 + gamma / 6,
  * which has none to this order and is monotone; the interval is where |g(T)| is at most t's quantile. gamma = skewness of a
  * replicate / sqrt(R) is far too noisy from one pixel's replicates, and worse, small just where the bright paths were missed. So it
- * is pooled over 5 x 5 pixels: mean k3 / mean s^3. R, G and B share the gamma of luminance.
+ * is pooled over 9 x 9 pixels: mean k3 / mean s^3. R, G and B share the gamma of luminance. SE and its degrees of freedom are borrowed
+ * from these pixels, too, channel by channel: borrowed.h.
  *
  * A pixel is heavy, its interval not to be trusted, where
- * - |gamma| > 0.4: the expansion ends there (at 0.47 the interval with 16 replicates would reach to infinity), or
+ * - |gamma| > 0.45: the expansion ends there (its inverse takes a root of 0 where gamma is 1 / T), or
  * - one sample dominates its light: it holds a fifth of the sum more than the fair share, or
  * - a bright path met next door would dominate its noise: in 3 x 3 pixels a sample exceeds its own pixel's mean by more than
  *   4 standard errors' worth of this pixel, SE times its number of samples.
@@ -21,64 +22,90 @@
 #include <math.h>
 #include <string.h>
 
-#include "film/statistics.h"
+#include "film/borrowed.h"
 
-static const double gamma_most = 0.4, share_most = 0.2, scatter_most = 4;
+static const double gamma_most = 0.45, share_most = 0.2, scatter_most = 4;
 
 /* Pixels side by side that are judged together, and rows and columns that they look at. */
 enum { COLUMNS = 64, AROUND = 2 * EC_INTERVAL_REACH + 1, WIDE = COLUMNS + 2 * EC_INTERVAL_REACH };
+
+/* What is summed over the pixels around: s^3, k3 (the unbiased third moment), and for the ends of intervals ln SE^2 of each channel and its square. */
+enum { CUBE, THIRD, NOISE, NOISE2 = NOISE + 3, SUMS = NOISE2 + 3 };
 
 /* A part of a picture: rows of pixels, whose edges are taken for the picture's. */
 typedef struct window {
     const ec_pixel *pixels;
     uint32_t width, height;
     uint32_t first, count; /* columns */
-    /* Of the rows around the one that is judged, row y at y % AROUND, and of the columns around: s^3, k3 (the unbiased third moment), and by how much
-     * the brightest sample exceeds the mean. 0 beyond the edges. */
-    double cube[AROUND][WIDE], third[AROUND][WIDE], excess[AROUND][WIDE];
-    uint32_t n;            /* replicates of the pixel judged last, and … */
-    double t;              /* … Student's quantile for that many */
+    uint32_t sums;         /* CUBE up to this one */
+    /* Of the rows around the one that is judged, row y at y % AROUND, and of the columns around: what is summed, and by how much the brightest
+     * sample exceeds the mean. 0 beyond the edges. */
+    double part[SUMS][AROUND][WIDE], excess[AROUND][WIDE];
+    ec_borrower borrower;  /* for as many replicates as the pixel judged last has */
 } window;
 
+/* What is summed, over the pixels around those of a row; excess: the largest in 3 x 3. */
+typedef struct around {
+    double of[SUMS][COLUMNS], excess[COLUMNS];
+} around;
+
 static const ec_pixel *at(const window *w, uint32_t x, uint32_t y) { return w->pixels + (uint64_t)y * w->width + x; }
+
+/* Where row j - REACH is, AROUND added. */
+static uint64_t row_at(uint64_t j) { return (j + AROUND - EC_INTERVAL_REACH) % AROUND; }
 
 /* By how much the pixel's brightest sample exceeds its mean. The largest is a float: steady pixels have no excess. */
 static double excess_of(const ec_pixel *p) { return fmax(p->tail[0] - (1 + 1e-6) * ec_luminance(p->mean), 0); }
 
+static double log_noise(const ec_pixel *p, int channel)
+{
+    const double se2 = ec_pixel_se2(p, channel);
+    return se2 > 0 ? log(se2) : NAN;
+}
+
 /* Row y comes in place of row y - AROUND. */
 static void take_row(window *w, uint64_t y)
 {
-    double *cube = w->cube[y % AROUND], *third = w->third[y % AROUND], *excess = w->excess[y % AROUND];
+    const uint64_t row = y % AROUND;
     for (uint32_t i = 0; i < WIDE; i++) {
         const uint64_t x = (uint64_t)w->first + i;
-        cube[i] = third[i] = excess[i] = 0;
+        for (uint32_t k = 0; k < w->sums; k++) w->part[k][row][i] = 0;
+        w->excess[row][i] = 0;
         if (y >= w->height || x < EC_INTERVAL_REACH || x >= (uint64_t)w->width + EC_INTERVAL_REACH) continue;
         const ec_pixel *q = at(w, (uint32_t)x - EC_INTERVAL_REACH, (uint32_t)y);
         const double n = q->n, s2 = q->m2[3] / (n - 1);
-        excess[i] = excess_of(q);
+        w->excess[row][i] = excess_of(q);
+        for (int c = 0; w->sums > NOISE && c < 3; c++) {
+            const double one = log_noise(q, c);
+            w->part[NOISE + c][row][i] = one;
+            w->part[NOISE2 + c][row][i] = one * one;
+        }
         if (n < 3) continue;
-        cube[i] = s2 * sqrt(s2);
-        third[i] = q->m3 * n / ((n - 1) * (n - 2));
+        w->part[CUBE][row][i] = s2 * sqrt(s2);
+        w->part[THIRD][row][i] = q->m3 * n / ((n - 1) * (n - 2));
     }
 }
 
-/* Sums over 5 x 5 pixels, and the largest excess in 3 x 3, for all columns of row y at once. Above the first row there are zeros too. */
-static void look_around(const window *w, uint64_t y, double *cubes, double *thirds, double *excess)
+/* For all columns of row y at once, rows in order from above. Above the first row there are zeros too. */
+static void sum_around(double part[AROUND][WIDE], uint64_t y, double *sums)
 {
-    memset(cubes, 0, COLUMNS * sizeof *cubes);
-    memset(thirds, 0, COLUMNS * sizeof *thirds);
-    memset(excess, 0, COLUMNS * sizeof *excess);
-    for (uint64_t j = y; j < y + AROUND; j++) { /* row j - REACH, AROUND added */
-        const uint64_t row = (j + AROUND - EC_INTERVAL_REACH) % AROUND;
-        const bool is_near = j + 1 >= y + EC_INTERVAL_REACH && j <= y + EC_INTERVAL_REACH + 1;
-        for (uint32_t i = 0; i < AROUND; i++)
+    double columns[WIDE] = {0};
+    for (uint64_t j = y; j < y + AROUND; j++)
+        for (uint32_t i = 0; i < WIDE; i++) columns[i] += part[row_at(j)][i];
+    for (uint32_t i = 0; i < AROUND; i++)
+        for (uint32_t x = 0; x < COLUMNS; x++) sums[x] += columns[x + i];
+}
+
+static void look_around(window *w, uint64_t y, around *sum)
+{
+    memset(sum, 0, sizeof *sum);
+    for (uint32_t k = 0; k < w->sums; k++) sum_around(w->part[k], y, sum->of[k]);
+    for (uint64_t j = y + EC_INTERVAL_REACH - 1; j <= y + EC_INTERVAL_REACH + 1; j++)
+        for (uint32_t i = EC_INTERVAL_REACH - 1; i <= EC_INTERVAL_REACH + 1; i++)
             for (uint32_t x = 0; x < COLUMNS; x++) {
-                cubes[x] += w->cube[row][x + i];
-                thirds[x] += w->third[row][x + i];
+                const double here = w->excess[row_at(j)][x + i];
+                sum->excess[x] = here > sum->excess[x] ? here : sum->excess[x];
             }
-        for (uint32_t i = EC_INTERVAL_REACH - 1; is_near && i <= EC_INTERVAL_REACH + 1; i++)
-            for (uint32_t x = 0; x < COLUMNS; x++) excess[x] = w->excess[row][x + i] > excess[x] ? w->excess[row][x + i] : excess[x];
-    }
 }
 
 /* excess: the largest around */
@@ -95,13 +122,24 @@ static double inverse_hall(double y, double gamma)
     return (cbrt(1 + gamma * (y - gamma / 6)) - 1) * 3 / gamma;
 }
 
-/* low and high: of the pixel; either may be NULL */
-static void write_interval(const ec_pixel *p, double most, double least, float *low, float *high)
+/* Pixels of a row or a column of so many that the one in that place looks at. */
+static double seen_from(uint64_t place, uint64_t size)
 {
+    const uint64_t first = place < EC_INTERVAL_REACH ? 0 : place - EC_INTERVAL_REACH, end = place + EC_INTERVAL_REACH + 1;
+    return (double)((end < size ? end : size) - first);
+}
+
+/* low and high: of the pixel in column x of the window; either may be NULL */
+static void write_interval(const window *w, uint32_t x, uint32_t y, const around *sum, double gamma, float *low, float *high)
+{
+    const ec_pixel *p = at(w, w->first + x, y);
+    const double others = seen_from(w->first + x, w->width) * seen_from(y, w->height) - 1;
     for (int c = 0; c < 3; c++) {
-        const double mean = p->mean[c], se = sqrt(ec_pixel_se2(p, c));
-        if (low) low[c] = (float)fmax(mean - most * se, 0); /* radiance is never negative */
-        if (high) high[c] = (float)fmin(mean - least * se, FLT_MAX); /* files hold no infinity */
+        const double se2 = ec_pixel_se2(p, c), own = log_noise(p, c);
+        const ec_neighbours around = {others, sum->of[NOISE + c][x] - own, sum->of[NOISE2 + c][x] - own * own};
+        const ec_reach reach = ec_borrowed_reach(&w->borrower, se2, &around);
+        if (low) low[c] = (float)fmax(p->mean[c] - inverse_hall(reach.t, gamma) * reach.se, 0); /* radiance is never negative */
+        if (high) high[c] = (float)fmin(p->mean[c] - inverse_hall(-reach.t, gamma) * reach.se, FLT_MAX); /* files hold no infinity */
     }
 }
 
@@ -114,30 +152,31 @@ static void know_nothing(float *low, float *high)
     }
 }
 
-/* Is the pixel heavy? cubes, thirds and excess are those around it. */
-static bool judge(window *w, const ec_pixel *p, double cubes, double thirds, double excess, float *low, float *high)
+/* Is the pixel in column x of the window heavy? */
+static bool judge(window *w, uint32_t x, uint32_t y, const around *sum, float *low, float *high)
 {
+    const ec_pixel *p = at(w, w->first + x, y);
     if (p->n < 2) {
         know_nothing(low, high);
         return true;
     }
-    if (w->n != p->n) w->t = ec_student_t_quantile(0.975, p->n - 1.0), w->n = p->n;
-    double gamma = cubes > 0 ? thirds / (cubes * sqrt(p->n)) : 0;
-    const bool is_heavy = !(fabs(gamma) <= gamma_most) || is_dominated(p, excess); /* NaN: moments left the range of double */
+    double gamma = sum->of[CUBE][x] > 0 ? sum->of[THIRD][x] / (sum->of[CUBE][x] * sqrt(p->n)) : 0;
+    const bool is_heavy = !(fabs(gamma) <= gamma_most) || is_dominated(p, sum->excess[x]); /* NaN: moments left the range of double */
     gamma = gamma <= gamma_most ? fmax(gamma, -gamma_most) : gamma_most;
-    if (low || high) write_interval(p, inverse_hall(w->t, gamma), inverse_hall(-w->t, gamma), low, high);
+    if (w->sums <= NOISE) return is_heavy;
+    if (w->borrower.replicates != p->n) w->borrower = ec_borrower_of(p->n);
+    write_interval(w, x, y, sum, gamma, low, high);
     return is_heavy;
 }
 
 /* The window's columns of the row; i: the place of the first in what is written. */
-static uint64_t judge_row(window *w, uint64_t y, uint64_t i, const ec_intervals_of *out)
+static uint64_t judge_row(window *w, uint32_t y, uint64_t i, const ec_intervals_of *out)
 {
-    double cubes[COLUMNS], thirds[COLUMNS], excess[COLUMNS];
+    around sum;
     uint64_t count = 0;
-    look_around(w, y, cubes, thirds, excess);
+    look_around(w, y, &sum);
     for (uint32_t x = 0; x < w->count; x++, i++) {
-        float *low = out->low ? out->low + 3 * i : NULL, *high = out->high ? out->high + 3 * i : NULL;
-        const bool is_heavy = judge(w, at(w, w->first + x, (uint32_t)y), cubes[x], thirds[x], excess[x], low, high);
+        const bool is_heavy = judge(w, x, y, &sum, out->low ? out->low + 3 * i : NULL, out->high ? out->high + 3 * i : NULL);
         if (out->heavy) out->heavy[i] = is_heavy;
         count += is_heavy;
     }
@@ -148,13 +187,14 @@ uint64_t ec_intervals(const ec_pixel *pixels, uint32_t width, uint32_t height, u
                       const ec_intervals_of *out)
 {
     uint64_t count = 0;
+    const uint64_t above = first < EC_INTERVAL_REACH ? 0 : first - EC_INTERVAL_REACH;
     for (uint32_t x = 0; x < width; x += COLUMNS) {
-        window w = {.pixels = pixels, .width = width, .height = height, .first = x, .count = width - x < COLUMNS ? width - x : COLUMNS};
-        const uint64_t end = (uint64_t)first + rows;
-        for (uint64_t y = first < EC_INTERVAL_REACH ? 0 : first - EC_INTERVAL_REACH; y < first + (uint64_t)EC_INTERVAL_REACH; y++) take_row(&w, y);
-        for (uint64_t y = first; y < end; y++) {
-            take_row(&w, y + EC_INTERVAL_REACH);
-            count += judge_row(&w, y, (y - first) * width + x, out);
+        window w = {.pixels = pixels, .width = width, .height = height, .first = x, .count = width - x < COLUMNS ? width - x : COLUMNS,
+                    .sums = out->low || out->high ? SUMS : NOISE};
+        for (uint64_t y = above; y < (uint64_t)first + EC_INTERVAL_REACH; y++) take_row(&w, y);
+        for (uint32_t y = first; y < first + rows; y++) {
+            take_row(&w, (uint64_t)y + EC_INTERVAL_REACH);
+            count += judge_row(&w, y, (uint64_t)(y - first) * width + x, out);
         }
     }
     return count;

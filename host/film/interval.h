@@ -5,7 +5,7 @@
 
 #include "film/pixel.h"
 
-enum { EC_INTERVAL_REACH = 2 }; /* rows above and below that a pixel's interval looks at */
+enum { EC_INTERVAL_REACH = 4 }; /* rows above and below that a pixel's interval looks at */
 
 /* low and high: 3 floats a pixel, the interval's ends, 0 <= low <= mean <= high; 0 and infinity with fewer than two replicates.
  * heavy: 1 a pixel, 1 where the noise has too heavy a tail for its own estimate, so that the pixel's error is a lower bound; else 0.

@@ -15,11 +15,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define EC_REPLICATES 8        /* R by default: docs/sampling.md says what others cost */
+#define EC_REPLICATES 4          /* R by default: docs/sampling.md says what others cost */
+#define EC_REPLICATES_DENOISED 8 /* with a denoiser, which one half of them judges by the other */
 #define EC_REPLICATES_MOST 16
-#define EC_BATCH_MOST 64u      /* samples of a batch */
-#define EC_FEATURE_STRIDES 4u  /* of each replicate, that a denoised picture has first-hit features of: 8 samples of each */
-#define EC_PILOT_SAMPLES 4u    /* of each replicate: before these no error is judged */
+#define EC_BATCH_MOST 64u        /* samples of a batch */
+#define EC_FEATURE_SAMPLES 8u    /* of a pixel, that first-hit features are of: so many or more, whole strides */
+#define EC_FEATURE_STRIDES 4u    /* of each replicate, that a denoised picture has them of: 8 samples of each */
+#define EC_PILOT_SAMPLES 32u     /* of a pixel: before these no error is judged, … */
+#define EC_PILOT_LEAST 4u        /* … nor before so many of each replicate */
 
 typedef struct ec_batch_range {
     uint32_t replicate;
@@ -47,10 +50,25 @@ bool ec_schedule_is_round(uint32_t replicates, uint64_t index);
 /* Samples that a replicate of `has` samples gets in its next stride. */
 uint32_t ec_schedule_step(uint64_t has);
 
+/* Batches that first-hit features are of. */
+static inline uint32_t ec_schedule_features(uint32_t replicates, bool is_denoised)
+{
+    uint32_t batches = replicates * (is_denoised ? EC_FEATURE_STRIDES : 1);
+    while (ec_schedule_samples(replicates, batches) < EC_FEATURE_SAMPLES) batches += replicates;
+    return batches;
+}
+
+/* Samples that each replicate needs before an error is judged. */
+static inline uint32_t ec_schedule_pilot(uint32_t replicates)
+{
+    const uint32_t share = (EC_PILOT_SAMPLES + replicates - 1) / replicates;
+    return share > EC_PILOT_LEAST ? share : EC_PILOT_LEAST;
+}
+
 /* Are so many batches enough to judge an error by? */
 static inline bool ec_schedule_has_pilot(uint32_t replicates, uint64_t batches)
 {
-    return ec_schedule_share(replicates, replicates - 1, 0, batches) >= EC_PILOT_SAMPLES;
+    return ec_schedule_share(replicates, replicates - 1, 0, batches) >= ec_schedule_pilot(replicates);
 }
 
 #endif

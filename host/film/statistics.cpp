@@ -5,6 +5,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
 
 using namespace boost::math;
@@ -38,6 +39,11 @@ double ec_student_t_upper_tail(double t, double nu)
 double ec_student_t_quantile(double p, double nu)
 {
     return guarded([=] { return quantile(student(nu), p); });
+}
+
+double ec_trigamma(double x)
+{
+    return guarded([=] { return trigamma(x, quiet()); });
 }
 
 double ec_f_quantile(double p, double d1, double d2)

@@ -18,6 +18,9 @@ double ec_normal_upper_quantile(double q);
 double ec_student_t_upper_tail(double t, double nu);
 double ec_student_t_quantile(double p, double nu);
 
+/* The second derivative of ln Gamma: the variance of the logarithm of a chi-square variable with 2 x degrees of freedom. */
+double ec_trigamma(double x);
+
 /* Fisher's F with d1 and d2 degrees of freedom (any positive reals): x with P(F <= x) = p. */
 double ec_f_quantile(double p, double d1, double d2);
 

@@ -292,7 +292,7 @@ const ec_option ec_render_rows[] = {
     {.name = "replicates", .metavar = "N", EC_RANGED(U32, options.replicates, 1, EC_REPLICATES_MOST), .group = EC_GROUP_MEASURE, .uses = EC_OPTION_WINDOW,
      .help = "independent copies of the sample sequence, 1 to " EC_TEXT(EC_REPLICATES_MOST) ". Their spread gives the error: fewer make less noise, but a less "
              "certain error; a single one gives none",
-     .otherwise = EC_TEXT(EC_REPLICATES)},
+     .otherwise = EC_TEXT(EC_REPLICATES) ", and " EC_TEXT(EC_REPLICATES_DENOISED) " with --denoise"},
     {.name = "wave", .metavar = "N", EC_RANGED(U32, options.wave, 1, 1u << 28), .group = EC_GROUP_MEASURE, .uses = EC_OPTION_NO_IDENTITY,
      .help = "paths in flight; the image is the same", .otherwise = "fitted to the device"},
     {.name = "without", .metavar = "EFFECT", .set = ec_set_without, .group = EC_GROUP_MEASURE,

@@ -6,14 +6,14 @@
 #include "base/clock.h"
 #include "render/goal.h"
 
-enum { PILOT_ROUNDS = 5 }; /* the first ones also warm the device up; a forecast wants EC_PILOT_SAMPLES of each replicate */
+enum { ROUNDS_MORE = 2 }; /* after those that a forecast wants; the first one also warms the device up */
 
 #define ENOUGH_SECONDS 5.0
 
 typedef struct pilot {
     const ec_listener *listener;
     uint64_t pixels;
-    double rounds[PILOT_ROUNDS]; /* samples in all after each of the first ones */
+    double one, two, most;       /* samples in all after the first round, the second, and as many as are measured */
     bool is_foretold;            /* by its film */
     ec_mark first, last;         /* when the first round was done, and what was done last */
 } pilot;
@@ -22,10 +22,10 @@ static bool watch(void *user, const ec_progress *progress)
 {
     pilot *p = user;
     const double done = (double)progress->samples;
-    if (p->first.samples == 0 && done >= p->rounds[0]) p->first = (ec_mark){done, progress->seconds};
+    if (p->first.samples == 0 && done >= p->one) p->first = (ec_mark){done, progress->seconds};
     if (done > p->last.samples) p->last = (ec_mark){done, progress->seconds};
-    const bool suffices = done >= p->rounds[1] && !p->is_foretold && progress->seconds > ENOUGH_SECONDS;
-    return done < p->rounds[PILOT_ROUNDS - 1] && !suffices && !p->listener->should_stop(p->listener->user);
+    const bool suffices = done >= p->two && !p->is_foretold && progress->seconds > ENOUGH_SECONDS;
+    return done < p->most && !suffices && !p->listener->should_stop(p->listener->user);
 }
 
 enum { TIMES = 3 }; /* and once before, which touches the memory */
@@ -74,22 +74,31 @@ static ec_result time_sums(const ec_film *like, ec_plan *plan, ec_error *err)
     return result;
 }
 
+static void set_rounds(pilot *p, uint32_t replicates)
+{
+    uint32_t batch = 0, more = 0;
+    for (uint32_t round = 0; more < ROUNDS_MORE; round++) {
+        more += ec_schedule_has_pilot(replicates, batch);
+        batch = (uint32_t)ec_schedule_round(replicates, batch);
+        p->most = (double)(ec_schedule_samples(replicates, batch) * p->pixels);
+        if (round == 0) p->one = p->most;
+        if (round == 1) p->two = p->most;
+    }
+}
+
 ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
 {
     const ec_listener *listener = job->listener;
     ec_render_options options = job->request->options;
     const uint32_t replicates = ec_render_replicates(&options);
     pilot p = {.listener = listener, .pixels = (uint64_t)options.width * options.height, .is_foretold = !options.spp};
-    for (uint32_t i = 0, batch = 0; i < PILOT_ROUNDS; i++) {
-        batch = (uint32_t)ec_schedule_round(replicates, batch);
-        p.rounds[i] = (double)(ec_schedule_samples(replicates, batch) * p.pixels);
-    }
+    set_rounds(&p, replicates);
     options.adaptive = false;
     options.compile = EC_COMPILE_FIRST; /* what is measured is what all will do */
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(job->devices, &cl, err));
     listener->begin(listener->user, &options, true);
-    ec_say(&listener->log, "measuring up to %.0f samples a pixel on %s", p.rounds[PILOT_ROUNDS - 1] / (double)p.pixels, job->devices->name);
+    ec_say(&listener->log, "measuring up to %.0f samples a pixel on %s", p.most / (double)p.pixels, job->devices->name);
     ec_result result = ec_render(&cl, job->scene, &options, watch, &p, &job->film, &job->stats, &listener->log, err);
     ec_cl_close(&cl);
     listener->end(listener->user);

@@ -101,8 +101,8 @@ static bool find_end(const ec_render_options *o, uint32_t samples, uint32_t *bat
     return samples == o->spp;
 }
 
-/* Slices begin and end with a batch, or end with the job. Before every replicate has a batch none does: the first-hit features are the mean
- * of all of these, taken one after the other. */
+/* Slices begin and end with a batch, or end with the job. None begins or ends among the batches that first-hit features are of: these are
+ * the mean of all of them, taken one after the other. */
 static ec_result settle_slice(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
@@ -112,14 +112,15 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
         return ec_usage(err, "--samples and --error: a slice does not know the error of the whole; leave one out");
     if (o->spp == 0) request->slice_of_any = true, o->spp = request->slice_end;
     const uint32_t a = request->slice_first, b = request->slice_end, replicates = ec_render_replicates(o);
+    const uint64_t features = ec_schedule_samples(replicates, ec_schedule_features(replicates, false));
     if (b > o->spp)
         return ec_usage(err, "--samples %u:%u reaches beyond the job's %u samples a pixel; give the whole job's --spp", a, b, o->spp);
     uint32_t cut;
-    const bool begins = find_end(o, a, &o->slice_first, &cut) && cut == 0 && (a == 0 || a >= replicates);
-    const bool ends = find_end(o, b, &o->slice_end, &request->slice_cut) && (b >= replicates || b == o->spp);
+    const bool begins = find_end(o, a, &o->slice_first, &cut) && cut == 0 && (a == 0 || a >= features);
+    const bool ends = find_end(o, b, &o->slice_end, &request->slice_cut) && (b >= features || b == o->spp);
     if (begins && ends) return EC_OK;
-    const uint64_t from = a < replicates ? 0 : ec_schedule_samples(replicates, o->slice_first - (cut > 0));
-    uint64_t to = b < replicates ? replicates : ec_schedule_samples(replicates, o->slice_end);
+    const uint64_t from = a < features ? 0 : ec_schedule_samples(replicates, o->slice_first - (cut > 0));
+    uint64_t to = b < features ? features : ec_schedule_samples(replicates, o->slice_end);
     if (to > o->spp) to = o->spp;
     return ec_usage(err, "--samples %u:%u: slices begin and end with a batch, here as %" PRIu64 ":%" PRIu64 "; multiples of %u always do", a, b, from, to,
                     EC_BATCH_MOST);

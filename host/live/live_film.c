@@ -81,7 +81,7 @@ static void judge(ec_live_film *p, double took)
 static ec_result make_room(ec_live_film *p, float **features, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->film.width * p->film.height;
-    const bool wants_features = p->film.batch_count < p->film.replicates * (p->limits.denoise ? EC_FEATURE_STRIDES : 1);
+    const bool wants_features = p->film.batch_count < ec_schedule_features(p->film.replicates, p->limits.denoise);
     if (!p->room) p->room = malloc(pixels * EC_BATCH_FIELDS * sizeof *p->room);
     *features = wants_features ? malloc(pixels * EC_FILM_FEATURES * sizeof **features) : NULL;
     return p->room && (*features || !wants_features) ? EC_OK : ec_fail(err, "out of memory for a picture");
@@ -100,7 +100,7 @@ ec_result ec_live_film_take(ec_live_film *p, ec_session *session, bool (*go_on)(
                               .features = features, .batch = p->room};
     if (result == EC_OK) result = ec_session_take(session, &batch, err);
     *complete = result == EC_OK && batch.complete;
-    if (result == EC_OK && *complete && features) result = ec_film_add_features(&p->film, features, (uint64_t)p->film.width * p->film.height, err);
+    if (result == EC_OK && *complete && features) result = ec_film_add_features(&p->film, features, (uint64_t)p->film.width * p->film.height, 0, err);
     free(features);
     if (result != EC_OK || !*complete) return result;
     EC_TRY(cut ? ec_film_add_cut(&p->film, index, cut, p->room, err) : ec_film_add(&p->film, index, p->room, err));

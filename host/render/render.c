@@ -229,7 +229,7 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
                          .matte_lock = PTHREAD_MUTEX_INITIALIZER};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.replicates = ec_render_replicates(options);
-    r.feature_batches = options->hides_environment ? UINT32_MAX /* of alpha as of colour */ : options->denoise ? EC_FEATURE_STRIDES * r.replicates : r.replicates;
+    r.feature_batches = options->hides_environment ? UINT32_MAX /* of alpha as of colour */ : ec_schedule_features(r.replicates, options->denoise);
     r.matte.lock = &r.matte_lock;
     r.goal.pixels = (double)options->width * options->height;
     r.goal.replicates = r.replicates;

@@ -42,6 +42,11 @@ class Checkpoint(Case):
         for first, all_of_it in [(2, 8), (32, 80), (101, 300), (37, 203)]:
             self.assert_same(["--spp", str(first)], ["--spp", str(all_of_it)], ["--spp", str(all_of_it)])
 
+    def test_first_hits_within_a_batch(self):
+        """Of all batches, as the environment is hidden; what a batch that is cut short adds to them is not in the checkpoint."""
+        job = ["--background", "transparent"]
+        self.assert_same([*job, "--spp", "37"], [*job, "--spp", "80"], ["--spp", "80"])
+
     @full
     def test_other_numbers_of_replicates(self):
         for replicates, first, all_of_it in [(1, 3, 21), (3, 4, 50), (16, 40, 75)]:
@@ -155,7 +160,7 @@ class Checkpoint(Case):
         job = [CORNELL, *SIZE, "--spp", "101", "--samples", "64:101"]
         whole = self.render(*job)
         planes = read_exr(self.path("a.exr"))[1]
-        self.assertEqual((whole["samples_per_pixel"], json.loads(read_exr(self.path("a.exr"))[0]["eclat.state"])["cut"]), (37, 1))
+        self.assertEqual((whole["samples_per_pixel"], json.loads(read_exr(self.path("a.exr"))[0]["eclat.state"])["cut"]), (37, 3))
         self.render(*job, "--checkpoint", self.kept)
         self.assertEqual((self.state()["cut"], set(read_exr(self.kept)[1]["samples"])), (0, {36.0}))
         for _ in range(2):
@@ -202,7 +207,7 @@ class Checkpoint(Case):
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--checkpoint", "other.exr", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.kept)[1], read_exr(self.path("other.exr"))[1])
         self.assert_ok(eclat("render", "--resume", "other.exr", "-q", cwd=self.folder))
-        for limit, kept in [(["--spp", "21"], 20), ([], 20), (["--spp", "22"], 22)]:  # of 20:22 half, again, and all
+        for limit, kept in [(["--spp", "22"], 20), ([], 20), (["--spp", "24"], 24)]:  # of 20:24 half, again, and all
             self.assert_ok(eclat("render", "--resume", "kept.exr", *limit, "-q", cwd=self.folder))
             self.assertEqual(set(read_exr(self.path("x.exr"))[1]["samples"]), {float((limit or [0, 20])[1])})
             self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {float(kept)})
@@ -224,7 +229,7 @@ class Checkpoint(Case):
     def test_what_does_not_fit_is_refused(self):
         self.render(CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept)
         for options, says in [(["--seed", "2"], "--seed is 0 there and 2 here"), (["--size", "20x17"], "--size is 20x18 there and 20x17 here"),
-                              (["--replicates", "4"], "--replicates is 8 there and 4 here"), (["--adaptive"], "--adaptive is off there and on here"),
+                              (["--replicates", "8"], "--replicates is 4 there and 8 here"), (["--adaptive"], "--adaptive is off there and on here"),
                               (["--light-choice", "tree"], "--light-choice is power there and tree here"),
                               (["--integrator", "raster"], "--integrator is path there and raster here"), (["--rr", "0.5"], "--rr is"),
                               (["--camera", "0", "--filter", "blackman-harris"], "--filter is box there"), ([RING], "not the same are the scene's camera, geometry")]:

@@ -69,7 +69,7 @@ class Renders(Compare):
         self.render("c.exr", "--spp", "64", "--seed", "2", "--max-depth", "2")
         same = self.compare("a.exr", "b.exr")
         self.assertGreater(same["noise_test"]["p"], 0.01)
-        self.assertEqual([same["a"]["replicates"], same["b"]["replicates"], same["noise_test"]["exact_unequal"]], [8, 8, 0])
+        self.assertEqual([same["a"]["replicates"], same["b"]["replicates"], same["noise_test"]["exact_unequal"]], [4, 4, 0])
         other = self.compare("a.exr", "c.exr", code=1)
         self.assertLess(other["noise_test"]["p"], 1e-6)
         run = eclat("compare", "a.exr", "c.exr", cwd=self.folder)
@@ -77,7 +77,7 @@ class Renders(Compare):
         self.assertRegex(run.stdout, r"(?m)^verdict +they differ by more than noise \(p [=<] \S+, alarm below 0.01\)$")
         run = self.assert_ok(eclat("compare", "a.exr", "b.exr", cwd=self.folder))
         self.assertRegex(run.stdout, r"(?m)^verdict +no more different than noise makes them")
-        self.assertRegex(run.stdout, r"(?m)^noise +standard errors of A from 8 replicates; standard errors of B from 8 replicates$")
+        self.assertRegex(run.stdout, r"(?m)^noise +standard errors of A from 4 replicates; standard errors of B from 4 replicates$")
         self.assertRegex(run.stdout, r"(?m)^error +\S+ % of B's mean luminance, root mean square; noise alone makes \S+ %$")
 
     def test_a_picture_equals_itself(self):

@@ -117,7 +117,7 @@ class Strips(Case):
     @full
     def test_slices_whose_sums_wait(self):
         """74 batches, whose left neighbours are in other slices, 24 bytes a pixel each: more than the picture from its beginning."""
-        job = ["--size", "256x256", "--spp", "256", "--integrator", "raster"]
+        job = ["--size", "256x256", "--spp", "256", "--replicates", "8", "--integrator", "raster"]
         path = self.path("s.exr")
         self.assert_ok(eclat("render", CORNELL, "-q", *job, "--samples", "0:16", "-o", path))  # compiles
         least = [float(re.search(r"take ([\d.]+) MB", self.assert_one_error(eclat("render", CORNELL, "-q", *job, "--samples", samples, "--memory", "1M", "-o", path), 1)).group(1))

@@ -131,9 +131,9 @@ static void a_firefly_is_flagged_and_its_neighbours_are(void)
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++) {
             int apart = abs(x - 7) > abs(y - 5) ? abs(x - 7) : abs(y - 5);
-            if (apart <= 1 || apart > 2) CHECK_MSG((i.heavy[y * W + x] != 0) == (apart <= 1), "(%d, %d)", x, y);
+            if (apart <= 1 || apart > EC_INTERVAL_REACH) CHECK_MSG((i.heavy[y * W + x] != 0) == (apart <= 1), "(%d, %d)", x, y);
         }
-    CHECK(i.count >= 9 && i.count <= 25);
+    CHECK(i.count >= 9 && i.count <= (2 * EC_INTERVAL_REACH + 1) * (2 * EC_INTERVAL_REACH + 1));
     ec_film_destroy(&film);
 }
 

@@ -115,7 +115,7 @@ int main(void)
     ec_render_options o = {.width = 7, .height = 5, .cutoff = 0.25, .seed = UINT64_MAX};
     check_trait("size", &o, "7x5");
     check_trait("seed", &o, "18446744073709551615");
-    check_trait("replicates", &o, "8");
+    check_trait("replicates", &o, "4");
     check_trait("adaptive", &o, "off");
     check_trait("max-depth", &o, "inf");
     check_trait("rr", &o, "auto");
@@ -129,5 +129,7 @@ int main(void)
     o.clamp = 0.1;
     check_trait("cutoff", &o, "0.25");
     check_trait("clamp", &o, "0.10000000000000001");
+    o.denoise = EC_DENOISER_OIDN;
+    check_trait("replicates", &o, "8");
     TEST_END();
 }

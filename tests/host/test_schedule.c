@@ -25,7 +25,7 @@ static void every_sample_once(uint32_t replicates)
         CHECK(ec_schedule_samples(replicates, b) == all);
         const bool is_round = b > 0 && b % replicates == 0 && is_end_of_a_round(has[0]);
         CHECK_MSG(ec_schedule_is_round(replicates, b) == is_round, "%u batches of %u replicates", b, replicates);
-        CHECK(ec_schedule_has_pilot(replicates, b) == (has[replicates - 1] >= EC_PILOT_SAMPLES));
+        CHECK(ec_schedule_has_pilot(replicates, b) == (has[replicates - 1] >= 4 && has[replicates - 1] * replicates >= 32));
         for (uint32_t r = 0; r < replicates; r++) CHECK(ec_schedule_share(replicates, r, 0, b) == has[r]);
         has[range.replicate] += range.samples;
         all += range.samples;

@@ -106,7 +106,7 @@ class CheckpointFaults(FaultCase):
         with open(kept, "rb") as file:
             before = file.read()
         run = eclat("render", "--resume", kept, "--spp", "4", "-q", "-o", image,
-                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4 << 20, 4 << 20)))
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2 << 20, 2 << 20)))
         self.assertEqual(run.returncode, 1)
         self.assertRegex(run.stderr.splitlines()[-1], rf"error: cannot write '{kept}': File too large; raise .*; the picture is written")
         with open(kept, "rb") as file:

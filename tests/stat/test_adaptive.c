@@ -55,7 +55,7 @@ static void check_bias(void)
         CHECK_OK(ec_allot(&film, &params, &a, &err), err);
         allotted += a.weight && a.gain < 0.95;
         static uint32_t taken[PIXELS * EC_REPLICATES];
-        for (int i = 0; i < PIXELS * EC_REPLICATES; i++) taken[i] = EC_PILOT_SAMPLES;
+        for (int i = 0; i < PIXELS * EC_REPLICATES; i++) taken[i] = ec_schedule_pilot(EC_REPLICATES);
         for (double samples = 32; a.weight && samples < 96;) {
             const ec_pass pass = ec_allotment_pass(&a, &film, INFINITY);
             const uint32_t wrong = count_wrong(&a, &pass, taken);

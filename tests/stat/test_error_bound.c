@@ -117,7 +117,7 @@ int main(void)
     static const bound_case cases[] = {
         {"cornell-box, seeds", cornell, NULL, 32, 32, 64, 5, EC_SAMPLER_SOBOL, 0},
         {"cornell-box", cornell, NULL, 32, 32, 64, 5, EC_SAMPLER_INDEPENDENT, 0},
-        {"cornell-box", cornell, NULL, 32, 32, 128, 5, EC_SAMPLER_SOBOL, 0.05},
+        {"cornell-box", cornell, NULL, 32, 32, 256, 5, EC_SAMPLER_SOBOL, 0.05},
         {"plates under studio.hdr", plates, studio, 32, 32, 64, 4, EC_SAMPLER_SOBOL, 0.1},
         {"plates under studio.hdr", plates, studio, 32, 32, 128, 4, EC_SAMPLER_INDEPENDENT, 0.05},
         {"veach-plates", veach, NULL, 32, 32, 64, 4, EC_SAMPLER_SOBOL, 0},

@@ -43,7 +43,7 @@ static inline ec_result films_add(ec_film *film, uint32_t index, const float *rg
 static inline void films_add_features(ec_film *film, const float *features)
 {
     ec_error err;
-    if (ec_film_add_features(film, features, (uint64_t)film->width * film->height, &err) != EC_OK) exit(1);
+    if (ec_film_add_features(film, features, (uint64_t)film->width * film->height, 0, &err) != EC_OK) exit(1);
 }
 
 static inline ec_pixel films_pixel(const ec_film *film, uint64_t p)
