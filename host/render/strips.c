@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "film/layer_films.h"
-#include "film/pixel.h"
+#include "film/resolve.h"
 #include "render/team.h"
 
 ec_strip_need ec_strip_needs(const ec_render_options *o)
@@ -12,8 +12,9 @@ ec_strip_need ec_strip_needs(const ec_render_options *o)
     const uint32_t replicates = ec_render_replicates(o);
     uint32_t before;
     const uint64_t batches = o->spp ? ec_schedule_find(replicates, o->spp, &before) + 1ull : EC_FILM_FIRST;
-    const uint64_t threads = (uint64_t)omp_get_max_threads(), rows = 20 + 20; /* that wait: write_rows.c; a band, and what is being resolved and compressed of it: */
-    const uint64_t planes = threads * 2 * 16 * (64 + 3 + 4 * EC_LAYER_PLANES * o->layers.count), coded = threads * 3 * 16 * 25 * 4, room = threads * 20 * sizeof(ec_pixel);
+    const uint64_t threads = (uint64_t)omp_get_max_threads(), around = EC_RESOLVE_ROWS + 2 * EC_INTERVAL_REACH;
+    const uint64_t rows = 2 * around; /* that wait: write_rows.c; a band, and what is being resolved and compressed of it: */
+    const uint64_t planes = threads * 2 * 16 * (64 + 3 + 4 * EC_LAYER_PLANES * o->layers.count), coded = threads * 3 * 16 * 25 * 4, room = threads * around * sizeof(ec_pixel);
     const uint64_t film = o->slice_end ? ec_film_bytes(replicates, o->slice_first, o->slice_end) : ec_film_bytes(replicates, 0, batches);
     const uint64_t batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES, layers = o->layers.count, mattes = o->layers.mattes ? EC_MATTE_BYTES : 0;
     const uint64_t light = o->adaptive && o->light_paths > 0 ? film : 0; /* kept apart */

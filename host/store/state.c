@@ -279,7 +279,9 @@ ec_result ec_state_read(const char *text, const char *path, ec_stored *s, ec_sta
     reader r = {.state = state};
     double format = cJSON_GetNumberValue(cJSON_GetObjectItemCaseSensitive(state, "format"));
     ec_result result = EC_OK;
-    if (format != FORMAT) {
+    if (!state) {
+        result = ec_fail(err, "cannot read '%s': its eclat.state is no JSON; take an older file or render it again", path);
+    } else if (format != FORMAT) {
         result = ec_fail(err, "cannot read '%s': it was written by another version of eclat (format %g, this one reads %d); use that version, or render anew",
                          path, format, FORMAT);
     } else {

@@ -4,12 +4,13 @@ import hashlib
 import json
 import os
 import random
+import re
 import resource
 import signal
 import unittest
 
 from faults import FaultCase, at_once, spread
-from support import eclat, read_exr
+from support import SOURCE, eclat, read_exr
 from tiers import full
 
 KILLS = 100
@@ -166,6 +167,25 @@ class CheckpointFaults(FaultCase):
                     self.check_error(run)
         places = [dice.randrange(len(body) // 4) for _ in range(60)] + [dice.randrange(*state) for _ in range(60)]
         at_once(forge, [(i, place, dice.choice([0, 255, 57, dice.randrange(256)])) for i, place in enumerate(places)])
+
+    def test_forged_light(self):
+        """The film of what light paths bring, of an adaptive render. Read as what it says, or refused; what lacks is taken again."""
+        kept = self.path("kept.exr")
+        job = [os.path.join(SOURCE, "scenes", "ring", "ring.gltf"), "--size", "8x8", "--adaptive", "--light-paths", "0.0625"]
+        self.assert_ok(eclat("render", *job, "--spp", "64", "-q", "--checkpoint", kept, "-o", self.path("a.png")))
+        with open(kept, "rb") as file:
+            body = file.read()[:-len(MARK) - 32]
+        first, end = re.search(rb'"lightParts":(\[\[\d,\d\d\]\])', body).span(1)
+        for parts in [b"[[0,00]]", b"[[0,99]]", b"[[1,31]]", b"[[9,32]]", b"[]      ", b"[[0,1]] ", b"[[0,16]]", b"[[0,,2]]", b'[["","]]']:
+            forged = body[:first] + parts + body[end:]
+            with open(kept, "wb") as file:
+                file.write(forged + MARK + hashlib.sha256(forged).digest())
+            run = eclat("render", "--resume", kept, "--spp", "80", "-q", "-o", self.path("b.png"))
+            with self.subTest(parts=parts):
+                if parts in (b"[]      ", b"[[0,1]] ", b"[[0,16]]"):
+                    self.assert_ok(run)
+                elif run.returncode:
+                    self.assertIn(f"cannot read '{kept}': ", self.check_error(run))
 
 
 if __name__ == "__main__":
