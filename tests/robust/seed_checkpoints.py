@@ -20,7 +20,7 @@ JOB = ["render", os.path.basename(CORNELL), "--effects", "all", "--lanes", "4", 
 KINDS = {  # what is rendered, and the file of it that is kept
     "whole": (["--size", "2x2", "--spp", "523", "--checkpoint", "c.exr"], "c.exr"),
     "adaptive": (["--size", "8x8", "--spp", "40", "--adaptive", "--checkpoint", "c.exr"], "c.exr"),
-    "slice": (["--size", "2x2", "--spp", "64", "--samples", "10:18"], "x.exr"),
+    "slice": (["--size", "2x2", "--spp", "64", "--samples", "10:20"], "x.exr"),
     "cut": (["--size", "2x2", "--spp", "47", "--samples", "40:47"], "x.exr"),
     "under-way": (["--size", "4x4", "--wave", "16", "--spp", "100000", "--checkpoint", "c.exr", "--every", "0.00001s"], "c.exr"),
 }
