@@ -34,10 +34,21 @@ static double quantile(const ec_borrower *b, double borrowed)
     return b->t[i] + (at - i) * (b->t[i + 1] - b->t[i]);
 }
 
-ec_reach ec_borrowed_reach(const ec_borrower *b, double se2, const ec_neighbours *n)
+/* d0 / 2; 0 where nothing is known */
+static double half_freedom(const ec_borrower *b, const ec_neighbours *n)
 {
     const double mean = n->sum / n->count, apart = (n->squares - n->sum * mean) / (n->count - 1) - b->spread;
-    if (!(n->count >= FEWEST) || !isfinite(apart)) return (ec_reach){b->t[0], sqrt(se2)};
-    const double y = inverse_trigamma(fmax(apart, ALIKE)), d = b->replicates - 1.0, d0 = fmin(2 * y, EC_BORROWED_MOST);
-    return (ec_reach){quantile(b, d0), sqrt((d0 * exp(mean - b->bias + log_bias(y)) + d * se2) / (d0 + d))};
+    return n->count >= FEWEST && isfinite(apart) ? inverse_trigamma(fmax(apart, ALIKE)) : 0;
+}
+
+double ec_borrowed_freedom(const ec_borrower *b, const ec_neighbours *n)
+{
+    return b->replicates - 1.0 + fmin(2 * half_freedom(b, n), EC_BORROWED_MOST);
+}
+
+ec_reach ec_borrowed_reach(const ec_borrower *b, double se2, const ec_neighbours *n)
+{
+    const double y = half_freedom(b, n), d = b->replicates - 1.0, d0 = fmin(2 * y, EC_BORROWED_MOST);
+    if (!(y > 0)) return (ec_reach){b->t[0], sqrt(se2)};
+    return (ec_reach){quantile(b, d0), sqrt((d0 * exp(n->sum / n->count - b->bias + log_bias(y)) + d * se2) / (d0 + d))};
 }

@@ -16,10 +16,13 @@ typedef struct ec_borrower {
 
 ec_borrower ec_borrower_of(uint32_t replicates);
 
-/* ln SE^2 of neighbours: the sums of its first and second powers; NaN where one of them has no noise. */
+/* ln SE^2 of neighbours: the sums of its first and second powers, not finite where one of them has no noise. */
 typedef struct ec_neighbours {
     double count, sum, squares;
 } ec_neighbours;
+
+/* Degrees of freedom that a pixel's SE^2 has with what these tell of it: its own R - 1 and up to EC_BORROWED_MOST. */
+double ec_borrowed_freedom(const ec_borrower *borrower, const ec_neighbours *neighbours);
 
 /* The plain 95 % interval of a pixel reaches from its mean by t standard errors to both sides. */
 typedef struct ec_reach {
