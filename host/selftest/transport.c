@@ -30,7 +30,7 @@ ec_result ec_selftest_furnace(ec_selftest *t, ec_error *err)
 ec_result ec_selftest_metal(ec_selftest *t, ec_error *err)
 {
     static const double alphas[] = {0.1, 0.5, 1}, cosines[] = {1, 0.5, 0.1};
-    static const double albedo[3][3] = {{0.98859, 0.96891, 0.88358}, {0.68785, 0.69825, 0.86010}, {0.30685, 0.4507, 0.76021}};
+    static const double albedo[3][3] = {{0.98830, 0.96921, 0.88346}, {0.68785, 0.69825, 0.86010}, {0.30685, 0.45069, 0.76021}};
     for (int a = 0; a < 3; a++) {
         ec_model *m = ec_model_new();
         ec_scene *scene;
