@@ -50,6 +50,7 @@ typedef struct ec_cost_runner {
     float *room;                 /* as much, for a replicate of it */
     double seconds_per_sample;   /* the last estimate */
     bool denoises;
+    uint32_t replicates;         /* of a picture */
     double denoise_seconds;      /* of all pictures so far … */
     uint32_t denoised;           /* … so many */
     uint64_t pixels, invalid;

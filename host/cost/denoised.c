@@ -44,15 +44,14 @@ static ec_result take_all(ec_cost_runner *runner, ec_film *film, ec_session_batc
 
 ec_result ec_cost_denoised_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, bool (*go_on)(void *study), double *seconds, ec_error *err)
 {
-    ec_render_options o = runner->study->options;
+    const ec_render_options *o = &runner->study->options;
     ec_film film = {0};
     ec_session_batch room = {.seed = seed, .go_on = go_on, .user = runner->study,
                              .batch = malloc(runner->pixels * EC_BATCH_FIELDS * sizeof(float)),
                              .features = malloc(runner->pixels * EC_FILM_FEATURES * sizeof(float))};
     *seconds = 0;
-    o.denoise = EC_DENOISER_AUTO; /* has a say in how many replicates there are */
     ec_result result = room.batch && room.features ? EC_OK : ec_fail(err, "out of memory for a picture to denoise");
-    if (result == EC_OK) result = ec_film_create(&film, o.width, o.height, ec_render_replicates(&o), err);
+    if (result == EC_OK) result = ec_film_create(&film, o->width, o->height, runner->replicates, err);
     if (result == EC_OK) result = take_all(runner, &film, &room, samples, seconds, err);
     ec_film_destroy(&film);
     free(room.batch);

@@ -35,7 +35,8 @@ ec_result ec_cost_runner_open(ec_cost_study *study, const ec_cost_rung *rung, ec
 {
     double start = ec_now(), first = 0, second = 0;
     uint64_t pixels = (uint64_t)rung->options.width * rung->options.height;
-    *runner = (ec_cost_runner){.study = study, .pixels = pixels, .denoises = rung->options.denoise, .mean = malloc(pixels * 12), .room = malloc(pixels * 12)};
+    *runner = (ec_cost_runner){.study = study, .pixels = pixels, .denoises = rung->options.denoise, .replicates = ec_render_replicates(&rung->options),
+                               .mean = malloc(pixels * 12), .room = malloc(pixels * 12)};
     if (!runner->mean || !runner->room) return ec_fail(err, "out of memory for a picture of %llu pixels", (unsigned long long)pixels);
     EC_TRY(open_session(study, rung, &runner->session, stats, err));
     *setup = ec_now() - start;
@@ -67,7 +68,7 @@ static void add_up(ec_cost_runner *runner, uint32_t count)
 /* As a render takes them: so many samples in replicates (film/schedule.h). */
 ec_result ec_cost_runner_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err)
 {
-    const uint32_t replicates = ec_render_replicates(&runner->study->options), count = samples < replicates ? samples : replicates;
+    const uint32_t count = samples < runner->replicates ? samples : runner->replicates;
     if (runner->denoises) return ec_cost_denoised_take(runner, seed, samples, ec_cost_go_on, seconds, err);
     *seconds = 0;
     for (uint32_t r = 0; r < count; r++) {

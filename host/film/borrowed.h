@@ -8,10 +8,10 @@ enum { EC_BORROWED_MOST = 24, EC_BORROWED_STEPS = 4 }; /* degrees of freedom tha
 
 /* For pixels of so many replicates. */
 typedef struct ec_borrower {
-    uint32_t replicates;                                   /* 0: not made yet */
-    double spread;                                         /* the variance of ln SE^2 where all pixels have the same truth */
-    double bias;                                           /* the mean of ln SE^2 less the logarithm of the truth */
-    double t[EC_BORROWED_MOST * EC_BORROWED_STEPS + 2];    /* Student's 97.5 % quantiles by degrees of freedom */
+    uint32_t replicates; /* 0: not made yet */
+    double spread;       /* the variance of ln SE^2 where all pixels have the same truth */
+    double bias;         /* the mean of ln SE^2 less the logarithm of the truth */
+    double t[EC_BORROWED_MOST * EC_BORROWED_STEPS + 2]; /* Student's 97.5 % quantiles by degrees of freedom */
 } ec_borrower;
 
 ec_borrower ec_borrower_of(uint32_t replicates);
@@ -29,7 +29,7 @@ typedef struct ec_reach {
     double t, se;
 } ec_reach;
 
-/* Of a pixel with this SE^2, which is not among the neighbours. */
+/* The reach for a pixel whose squared standard error is se2. The neighbours do not include it. */
 ec_reach ec_borrowed_reach(const ec_borrower *borrower, double se2, const ec_neighbours *neighbours);
 
 #endif

@@ -23,13 +23,15 @@
 #include <string.h>
 
 #include "film/borrowed.h"
+#include "film/neighbourhood.h"
 
 static const double gamma_most = 0.45, share_most = 0.2, scatter_most = 4;
 
 /* Pixels side by side that are judged together, and rows and columns that they look at. */
 enum { COLUMNS = 64, AROUND = 2 * EC_INTERVAL_REACH + 1, WIDE = COLUMNS + 2 * EC_INTERVAL_REACH };
 
-/* What is summed over the pixels around: s^3, k3 (the unbiased third moment), and for the ends of intervals ln SE^2 of each channel and its square. */
+/* Terms that each pixel adds to the sums of its neighbours: s^3; k3, the unbiased third moment; ln SE^2 of R, G and B; and the squares of these three.
+ * The last six are for the ends of intervals alone. */
 enum { CUBE, THIRD, NOISE, NOISE2 = NOISE + 3, SUMS = NOISE2 + 3 };
 
 /* A part of a picture: rows of pixels, whose edges are taken for the picture's. */
@@ -37,16 +39,16 @@ typedef struct window {
     const ec_pixel *pixels;
     uint32_t width, height;
     uint32_t first, count; /* columns */
-    uint32_t sums;         /* CUBE up to this one */
-    /* Of the rows around the one that is judged, row y at y % AROUND, and of the columns around: what is summed, and by how much the brightest
-     * sample exceeds the mean. 0 beyond the edges. */
-    double part[SUMS][AROUND][WIDE], excess[AROUND][WIDE];
-    ec_borrower borrower;  /* for as many replicates as the pixel judged last has */
+    uint32_t sums;         /* terms that are wanted: the first so many */
+    double part[SUMS][AROUND][WIDE]; /* the terms of the pixels that the judged row looks at: row y of the picture at y % AROUND, 0 beyond the edges */
+    double excess[AROUND][WIDE];     /* by how much the brightest sample of each of these pixels exceeds its mean */
+    ec_borrower *borrower;           /* for as many replicates as the pixel judged last has */
 } window;
 
-/* What is summed, over the pixels around those of a row; excess: the largest in 3 x 3. */
+/* Sums for each pixel of the judged row. */
 typedef struct around {
-    double of[SUMS][COLUMNS], excess[COLUMNS];
+    double of[SUMS][COLUMNS]; /* of the terms, over 9 x 9 pixels */
+    double excess[COLUMNS];   /* the largest in 3 x 3 pixels */
 } around;
 
 static const ec_pixel *at(const window *w, uint32_t x, uint32_t y) { return w->pixels + (uint64_t)y * w->width + x; }
@@ -87,7 +89,7 @@ static void take_row(window *w, uint64_t y)
 }
 
 /* For all columns of row y at once, rows in order from above. Above the first row there are zeros too. */
-static void sum_around(double part[AROUND][WIDE], uint64_t y, double *sums)
+static void sum_around(const double part[AROUND][WIDE], uint64_t y, double *sums)
 {
     double columns[WIDE] = {0};
     for (uint64_t j = y; j < y + AROUND; j++)
@@ -96,7 +98,7 @@ static void sum_around(double part[AROUND][WIDE], uint64_t y, double *sums)
         for (uint32_t x = 0; x < COLUMNS; x++) sums[x] += columns[x + i];
 }
 
-static void look_around(window *w, uint64_t y, around *sum)
+static void look_around(const window *w, uint64_t y, around *sum)
 {
     memset(sum, 0, sizeof *sum);
     for (uint32_t k = 0; k < w->sums; k++) sum_around(w->part[k], y, sum->of[k]);
@@ -122,22 +124,16 @@ static double inverse_hall(double y, double gamma)
     return (cbrt(1 + gamma * (y - gamma / 6)) - 1) * 3 / gamma;
 }
 
-/* Pixels of a row or a column of so many that the one in that place looks at. */
-static double seen_from(uint64_t place, uint64_t size)
-{
-    const uint64_t first = place < EC_INTERVAL_REACH ? 0 : place - EC_INTERVAL_REACH, end = place + EC_INTERVAL_REACH + 1;
-    return (double)((end < size ? end : size) - first);
-}
-
 /* low and high: of the pixel in column x of the window; either may be NULL */
 static void write_interval(const window *w, uint32_t x, uint32_t y, const around *sum, double gamma, float *low, float *high)
 {
     const ec_pixel *p = at(w, w->first + x, y);
-    const double others = seen_from(w->first + x, w->width) * seen_from(y, w->height) - 1;
+    const ec_neighbourhood seen = ec_neighbourhood_of(w->first + x, y, EC_INTERVAL_REACH, w->width, w->height);
+    const double others = (double)(seen.x1 - seen.x0) * (seen.y1 - seen.y0) - 1;
     for (int c = 0; c < 3; c++) {
         const double se2 = ec_pixel_se2(p, c), own = log_noise(p, c);
         const ec_neighbours around = {others, sum->of[NOISE + c][x] - own, sum->of[NOISE2 + c][x] - own * own};
-        const ec_reach reach = ec_borrowed_reach(&w->borrower, se2, &around);
+        const ec_reach reach = ec_borrowed_reach(w->borrower, se2, &around);
         if (low) low[c] = (float)fmax(p->mean[c] - inverse_hall(reach.t, gamma) * reach.se, 0); /* radiance is never negative */
         if (high) high[c] = (float)fmin(p->mean[c] - inverse_hall(-reach.t, gamma) * reach.se, FLT_MAX); /* files hold no infinity */
     }
@@ -153,7 +149,7 @@ static void know_nothing(float *low, float *high)
 }
 
 /* Is the pixel in column x of the window heavy? */
-static bool judge(window *w, uint32_t x, uint32_t y, const around *sum, float *low, float *high)
+static bool judge(const window *w, uint32_t x, uint32_t y, const around *sum, float *low, float *high)
 {
     const ec_pixel *p = at(w, w->first + x, y);
     if (p->n < 2) {
@@ -164,13 +160,13 @@ static bool judge(window *w, uint32_t x, uint32_t y, const around *sum, float *l
     const bool is_heavy = !(fabs(gamma) <= gamma_most) || is_dominated(p, sum->excess[x]); /* NaN: moments left the range of double */
     gamma = gamma <= gamma_most ? fmax(gamma, -gamma_most) : gamma_most;
     if (w->sums <= NOISE) return is_heavy;
-    if (w->borrower.replicates != p->n) w->borrower = ec_borrower_of(p->n);
+    if (w->borrower->replicates != p->n) *w->borrower = ec_borrower_of(p->n);
     write_interval(w, x, y, sum, gamma, low, high);
     return is_heavy;
 }
 
 /* The window's columns of the row; i: the place of the first in what is written. */
-static uint64_t judge_row(window *w, uint32_t y, uint64_t i, const ec_intervals_of *out)
+static uint64_t judge_row(const window *w, uint32_t y, uint64_t i, const ec_intervals_of *out)
 {
     around sum;
     uint64_t count = 0;
@@ -187,10 +183,11 @@ uint64_t ec_intervals(const ec_pixel *pixels, uint32_t width, uint32_t height, u
                       const ec_intervals_of *out)
 {
     uint64_t count = 0;
+    ec_borrower borrower = {0};
     const uint64_t above = first < EC_INTERVAL_REACH ? 0 : first - EC_INTERVAL_REACH;
     for (uint32_t x = 0; x < width; x += COLUMNS) {
         window w = {.pixels = pixels, .width = width, .height = height, .first = x, .count = width - x < COLUMNS ? width - x : COLUMNS,
-                    .sums = out->low || out->high ? SUMS : NOISE};
+                    .sums = out->low || out->high ? SUMS : NOISE, .borrower = &borrower};
         for (uint64_t y = above; y < (uint64_t)first + EC_INTERVAL_REACH; y++) take_row(&w, y);
         for (uint32_t y = first; y < first + rows; y++) {
             take_row(&w, (uint64_t)y + EC_INTERVAL_REACH);

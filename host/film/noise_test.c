@@ -56,40 +56,44 @@ static double single_variance(const ec_measured *image, uint64_t i)
     return image->tail_se ? (double)image->tail_se[i] * image->tail_se[i] : own_variance(image, i);
 }
 
-static void add_neighbour(ec_neighbours *n, double variance)
+/* Variances of one channel in 5 x 5 pixels: their sum and number, and the logarithms of all but the middle one. */
+typedef struct surroundings {
+    double sum, count;
+    ec_neighbours others;
+} surroundings;
+
+/* logs: of all variances */
+static surroundings look_around(const ec_measured *image, const double *logs, uint32_t x, uint32_t y, uint64_t c)
 {
-    const double one = log(variance);
-    n->count++;
-    n->sum += one;
-    n->squares += one * one;
+    const ec_neighbourhood around = ec_neighbourhood_of(x, y, RADIUS, image->width, image->height);
+    const uint64_t middle = 3 * ((uint64_t)y * image->width + x) + c;
+    surroundings s = {0};
+    for (uint32_t j = around.y0; image->se && j < around.y1; j++)
+        for (uint32_t i = around.x0; i < around.x1; i++) {
+            const uint64_t beside = 3 * ((uint64_t)j * image->width + i) + c;
+            if (!ec_counts(image, image, beside / 3)) continue;
+            s.sum += single_variance(image, beside);
+            s.count++;
+            if (beside == middle) continue;
+            s.others.count++;
+            s.others.sum += logs[beside];
+            s.others.squares += logs[beside] * logs[beside];
+        }
+    return s;
 }
 
-static void judge(const ec_measured *image, double dof, double *judged, double *doubt)
+/* room: as much as judged */
+static void judge(const ec_measured *image, double dof, double *judged, double *doubt, double *room)
 {
-    const bool is_counted = image->se && dof >= 1 && dof < MANY;
+    const bool is_counted = dof >= 1 && dof < MANY;
     const ec_borrower borrower = is_counted ? ec_borrower_of((uint32_t)dof + 1) : (ec_borrower){0};
-    for (uint32_t y = 0; y < image->height; y++)
-        for (uint32_t x = 0; x < image->width; x++) {
-            ec_neighbourhood around = ec_neighbourhood_of(x, y, RADIUS, image->width, image->height);
-            uint64_t p = (uint64_t)y * image->width + x;
-            double sum[3] = {0}, count = 0;
-            ec_neighbours others[3] = {{0}};
-            for (uint32_t j = around.y0; image->se && j < around.y1; j++)
-                for (uint32_t i = around.x0; i < around.x1; i++) {
-                    uint64_t beside = (uint64_t)j * image->width + i;
-                    if (!ec_counts(image, image, beside)) continue;
-                    count++;
-                    for (uint64_t c = 0; c < 3; c++) {
-                        const double variance = single_variance(image, 3 * beside + c);
-                        sum[c] += variance;
-                        if (beside != p && is_counted) add_neighbour(&others[c], variance);
-                    }
-                }
-            for (uint64_t c = 0; c < 3; c++) {
-                judged[3 * p + c] = fmax(single_variance(image, 3 * p + c), count > 0 ? sum[c] / count : 0);
-                doubt[3 * p + c] = 1 / (is_counted ? ec_borrowed_freedom(&borrower, &others[c]) : dof);
-            }
-        }
+    const uint64_t values = 3ull * image->width * image->height;
+    for (uint64_t i = 0; i < values; i++) room[i] = is_counted ? log(single_variance(image, i)) : 0;
+    for (uint64_t i = 0; i < values; i++) {
+        const surroundings s = look_around(image, room, (uint32_t)(i / 3 % image->width), (uint32_t)(i / 3 / image->width), i % 3);
+        judged[i] = fmax(single_variance(image, i), s.count > 0 ? s.sum / s.count : 0);
+        doubt[i] = 1 / (is_counted ? ec_borrowed_freedom(&borrower, &s.others) : dof);
+    }
 }
 
 static void lend_value(double lent, double doubt, double *judged, double *own_doubt)
@@ -254,13 +258,13 @@ static void run_tests(const pair *q, ec_noise_test *test)
 ec_result ec_test_noise(const ec_measured *a, const ec_measured *b, ec_noise_test *test, ec_error *err)
 {
     uint64_t values = 3ull * a->width * a->height;
-    EC_FREED double *room = malloc(4 * values * sizeof *room);
+    EC_FREED double *room = malloc(5 * values * sizeof *room);
     const pair q = {a, b, a->se ? a->replicates - 1 : INFINITY, b->se ? b->replicates - 1 : INFINITY, /* what has no noise has no say */
                     room, room + values, room + 2 * values, room + 3 * values};
     *test = (ec_noise_test){0};
     if (!room) return ec_fail(err, "out of memory for the comparison of two images of %ux%u pixels", a->width, a->height);
-    judge(a, q.dof_a, q.judged_a, q.doubt_a);
-    judge(b, q.dof_b, q.judged_b, q.doubt_b);
+    judge(a, q.dof_a, q.judged_a, q.doubt_a, room + 4 * values);
+    judge(b, q.dof_b, q.judged_b, q.doubt_b, room + 4 * values);
     lend(&q);
     run_tests(&q, test);
     return EC_OK;

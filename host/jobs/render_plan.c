@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "render/goal.h"
 
-enum { ROUNDS_MORE = 2 }; /* after those that a forecast wants; the first one also warms the device up */
+enum { ROUNDS_MORE = 2 }; /* that are measured after those that a forecast wants */
 
 #define ENOUGH_SECONDS 5.0
 
@@ -76,14 +76,13 @@ static ec_result time_sums(const ec_film *like, ec_plan *plan, ec_error *err)
 
 static void set_rounds(pilot *p, uint32_t replicates)
 {
-    uint32_t batch = 0, more = 0;
-    for (uint32_t round = 0; more < ROUNDS_MORE; round++) {
-        more += ec_schedule_has_pilot(replicates, batch);
-        batch = (uint32_t)ec_schedule_round(replicates, batch);
-        p->most = (double)(ec_schedule_samples(replicates, batch) * p->pixels);
-        if (round == 0) p->one = p->most;
-        if (round == 1) p->two = p->most;
-    }
+    const uint32_t first = (uint32_t)ec_schedule_round(replicates, 0), second = (uint32_t)ec_schedule_round(replicates, first);
+    uint32_t last = second;
+    while (!ec_schedule_has_pilot(replicates, last)) last = (uint32_t)ec_schedule_round(replicates, last);
+    for (int more = 0; more < ROUNDS_MORE; more++) last = (uint32_t)ec_schedule_round(replicates, last);
+    p->one = (double)(ec_schedule_samples(replicates, first) * p->pixels); /* which also warms the device up */
+    p->two = (double)(ec_schedule_samples(replicates, second) * p->pixels);
+    p->most = (double)(ec_schedule_samples(replicates, last) * p->pixels);
 }
 
 ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
