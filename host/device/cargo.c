@@ -13,6 +13,7 @@
 #include "device/pipeline.h"
 #include "device/pixel_filter.h"
 #include "pack/distribution.h"
+#include "pack/bulbs.h"
 #include "pack/lamp_pairs.h"
 
 static void add_accel_buffers(ec_cargo *cargo, uint32_t which, const ec_accel *accel, bool owned)
@@ -142,7 +143,7 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
         pack->effects.bits &= ~EC_FEATURE_INSTANCES;
         ec_effects_add(&pack->effects, &here);
     }
-    if (joins_still_lamps(o, pack) && !wants_light_tree(o, pack)) EC_TRY(ec_pack_lamp_pairs(pack, err));
+    if (joins_still_lamps(o, pack)) EC_TRY(wants_light_tree(o, pack) ? ec_pack_bulbs(pack, err) : ec_pack_lamp_pairs(pack, err));
     const ec_aim aim = o->integrator == EC_INTEGRATOR_LIGHT ? EC_AIM_SCENE : o->guiding ? EC_AIM_CASTERS_AND_SCENE : EC_AIM_CASTERS;
     if (o->light_paths > 0 || o->guiding) EC_TRY(ec_pack_casters(pack, aim, err));
     if (o->light_paths == EC_LIGHT_PATHS_AUTO) EC_TRY(ec_pack_caster_flux(pack, err));

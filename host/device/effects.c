@@ -33,7 +33,9 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
     if (pack->light_node_count) ec_effects_call(called, EC_FEATURE_LIGHT_TREE, "%u lights are chosen among", pack->light_count);
     if (pack->lamp_node_count && options->integrator == EC_INTEGRATOR_PATH && ec_pipeline_joins(options, pack))
         ec_effects_call(called, EC_FEATURE_LAMP_PARTS, "lamps in %u parts, as their textures vary", 3 * pack->lamp_node_count);
-    if (pack->lamp_pair_count)
+    if (pack->bulb_count)
+        ec_effects_call(called, EC_FEATURE_LAMP_PAIRS, "%u lamps of many triangles are chosen as one from afar", pack->bulb_count);
+    else if (pack->lamp_pair_count)
         ec_effects_call(called, EC_FEATURE_LAMP_PAIRS, "%u pairs of lamps face opposite ways", pack->lamp_pair_count);
     call_light_paths(options, pack, called);
     if (pack->caster_count && options->guiding) ec_effects_call(called, EC_FEATURE_GUIDING, "--guiding, by light paths to %u bodies that bend or mirror light", pack->caster_count - 1);

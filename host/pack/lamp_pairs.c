@@ -13,9 +13,8 @@
 #include "pack/distribution.h"
 #include "pack/light_order.h"
 
-#define MOST 8192      /* lamps: each is compared with each */
 #define OPPOSITE -0.7  /* cosine of the normals of a pair */
-#define NONE UINT32_MAX
+#define NONE EC_NO_ID
 
 typedef struct facing {
     double n[3], middle[3];
@@ -52,23 +51,23 @@ static uint32_t find_partner(const ec_light_data *lights, const facing *all, con
     return best;
 }
 
-/* By place: its partner's place, or NONE. */
-static uint32_t find_pairs(const ec_light_data *lights, uint32_t count, facing *all, uint32_t *partner)
+ec_result ec_lamp_pairs_match(const ec_light_data *lights, uint32_t count, uint32_t *partner, uint32_t *pairs, ec_error *err)
 {
-    uint32_t pairs = 0;
+    EC_FREED facing *all = malloc(count * sizeof *all);
+    if (!all) return ec_fail(err, "out of memory for %u lights", count);
     for (uint32_t i = 0; i < count; i++) all[i] = facing_of(&lights[i]), partner[i] = NONE;
+    *pairs = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t j = all[i].may && partner[i] == NONE ? find_partner(lights, all, partner, i, count) : NONE;
         if (j == NONE) continue;
         partner[i] = j;
         partner[j] = i;
-        pairs++;
+        ++*pairs;
     }
-    return pairs;
+    return EC_OK;
 }
 
-/* Each pair stands where its first one did. order: which light comes to each place. */
-static void find_order(ec_light_data *lights, uint32_t count, const uint32_t *partner, uint32_t *order)
+void ec_lamp_pairs_order(ec_light_data *lights, uint32_t count, const uint32_t *partner, uint32_t *order)
 {
     uint32_t at = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -95,17 +94,27 @@ static ec_result move_shares(ec_pack *pack, const uint32_t *order, ec_error *err
     return EC_OK;
 }
 
-/* What knows lights by their places. */
-static ec_result move_prims(ec_pack *pack, const uint32_t *order, uint32_t *place, ec_error *err)
+ec_result ec_lights_move(ec_pack *pack, const uint32_t *order, ec_error *err)
 {
-    for (uint32_t i = 0; i < pack->light_count; i++) place[order[i]] = i;
+    const uint32_t count = pack->light_count;
+    EC_FREED uint32_t *place = malloc(count * sizeof *place);
+    if (!place) return ec_fail(err, "out of memory for %u lights", count);
+    for (uint32_t i = 0; i < count; i++) place[order[i]] = i;
+    for (uint32_t p = 0; p < pack->prim_count; p++)
+        if (pack->light_of_prim[p] != EC_NO_ID) pack->light_of_prim[p] = place[pack->light_of_prim[p]];
+    EC_TRY(ec_light_rearrange(pack->lights, sizeof *pack->lights, order, count, err));
+    EC_TRY(ec_light_rearrange(pack->light_source, sizeof *pack->light_source, order, count, err));
+    return move_shares(pack, order, err);
+}
+
+static ec_result note_partners(ec_pack *pack, ec_error *err)
+{
     pack->pair_of_prim = malloc((pack->prim_count + (size_t)1) * sizeof *pack->pair_of_prim);
     if (!pack->pair_of_prim) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
     for (uint32_t p = 0; p < pack->prim_count; p++) {
-        uint32_t *light = &pack->light_of_prim[p];
-        if (*light != EC_NO_ID) *light = place[*light];
-        const bool is = *light != EC_NO_ID && (pack->lights[*light].kind & (EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND));
-        pack->pair_of_prim[p] = is ? ec_lamp_partner(pack->lights, *light) : EC_NO_ID;
+        const uint32_t light = pack->light_of_prim[p];
+        const bool is = light != EC_NO_ID && (pack->lights[light].kind & (EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND));
+        pack->pair_of_prim[p] = is ? ec_lamp_partner(pack->lights, light) : EC_NO_ID;
     }
     return EC_OK;
 }
@@ -113,16 +122,13 @@ static ec_result move_prims(ec_pack *pack, const uint32_t *order, uint32_t *plac
 ec_result ec_pack_lamp_pairs(ec_pack *pack, ec_error *err)
 {
     const uint32_t count = pack->light_count;
-    if (count < 2 || count > MOST) return EC_OK;
-    EC_FREED facing *all = malloc(count * sizeof *all);
+    if (count < 2 || count > EC_LAMP_PAIRS_MOST) return EC_OK;
     EC_FREED uint32_t *partner = malloc(count * sizeof *partner);
     EC_FREED uint32_t *order = malloc(count * sizeof *order);
-    if (!all || !partner || !order) return ec_fail(err, "out of memory for %u lights", count);
-    pack->lamp_pair_count = find_pairs(pack->lights, count, all, partner);
+    if (!partner || !order) return ec_fail(err, "out of memory for %u lights", count);
+    EC_TRY(ec_lamp_pairs_match(pack->lights, count, partner, &pack->lamp_pair_count, err));
     if (!pack->lamp_pair_count) return EC_OK;
-    find_order(pack->lights, count, partner, order);
-    EC_TRY(ec_light_rearrange(pack->lights, sizeof *pack->lights, order, count, err));
-    EC_TRY(ec_light_rearrange(pack->light_source, sizeof *pack->light_source, order, count, err));
-    EC_TRY(move_shares(pack, order, err));
-    return move_prims(pack, order, partner, err);
+    ec_lamp_pairs_order(pack->lights, count, partner, order);
+    EC_TRY(ec_lights_move(pack, order, err));
+    return note_partners(pack, err);
 }

@@ -95,7 +95,7 @@ double ec_light_bounds_cost(const ec_light_bounds *b)
 
 ec_light_node ec_light_bounds_node(const ec_light_bounds *b, double most_power)
 {
-    ec_light_node node = {.power = (float)fmax(b->power / most_power, 1e-30), .two_sided = b->two_sided};
+    ec_light_node node = {.power = (float)fmax(b->power / most_power, 1e-30), .flags = b->two_sided ? EC_LIGHT_NODE_TWO_SIDED : 0};
     double radius2 = 0, co = fmax(b->cos_spread - 1e-6, -1);
     for (int k = 0; k < 3; k++) {
         node.centre[k] = (float)(0.5 * (b->low[k] + b->high[k]));

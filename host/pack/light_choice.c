@@ -71,16 +71,21 @@ ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err)
     EC_FREED uint32_t *ids = malloc(lamps * sizeof *ids);
     EC_FREED uint32_t *trails = malloc(lamps * sizeof *trails);
     EC_FREED uint32_t *trail_of = calloc(pack->light_count, sizeof *trail_of);
-    pack->light_tree = malloc((2 * (size_t)lamps - 1) * sizeof *pack->light_tree);
-    if (!bounds || !ids || !trails || !trail_of || !pack->light_tree) return ec_fail(err, "out of memory for a tree of %u lamps", lamps);
+    EC_FREED ec_bulb *bulbs = malloc((pack->bulb_count + (size_t)1) * sizeof *bulbs);
+    if (!bounds || !ids || !trails || !trail_of || !bulbs) return ec_fail(err, "out of memory for a tree of %u lamps", lamps);
     for (uint32_t i = 0; i < pack->light_count; i++) {
         if (ec_light_is_far(&pack->lights[i])) continue;
         bounds[n] = ec_light_bounds_of(&pack->lights[i], pack->lights[i].pmf);
         ids[n++] = i;
     }
-    EC_TRY(ec_light_tree_build(bounds, ids, lamps, pack->light_tree, trails, err));
+    for (uint32_t i = 0; i < pack->bulb_count; i++) bulbs[i] = (ec_bulb){pack->bulbs[i].first - ids[0], pack->bulbs[i].count};
+    const ec_light_set set = {lamps, bounds, ids, pack->bulb_count, bulbs};
+    const size_t nodes = ec_light_tree_nodes(&set);
+    pack->light_tree = malloc(nodes * sizeof *pack->light_tree);
+    if (!pack->light_tree) return ec_fail(err, "out of memory for a tree of %u lamps", lamps);
+    EC_TRY(ec_light_tree_build(&set, pack->light_tree, trails, err));
     share_out(pack);
-    pack->light_node_count = 2 * lamps - 1;
+    pack->light_node_count = (uint32_t)nodes;
     for (uint32_t i = 0; i < lamps; i++) trail_of[ids[i]] = trails[i];
     if (pack->emission) memcpy(pack->emission + ec_emission_trails(pack->light_count), trail_of, pack->light_count * sizeof *trail_of);
     for (uint32_t p = 0; p < pack->prim_count; p++) {

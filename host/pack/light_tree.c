@@ -3,15 +3,24 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "base/freed.h"
+#include "pack/distribution.h"
+#include "pack/lamp_pairs.h"
 
 #define BINS 12
 #define MANY 4096 /* lamps: of so many only the longest axis is tried */
 #define FEW 512   /* lamps: so many are not worth another thread */
 
+/* A tree of items: bulbs and lamps that are in none; and below each bulb one of its lamps. */
 typedef struct builder {
-    const ec_light_bounds *bounds;
-    const uint32_t *ids;
-    uint32_t *order; /* indices of bounds: a node's stand together */
+    const ec_light_set *set;
+    const ec_light_bounds *bounds; /* of items */
+    const ec_bulb *items;          /* which lamps each has; NULL: each is one */
+    const struct builder *below;   /* of the lamps of bulbs */
+    uint32_t below_levels;         /* that the deepest bulb takes */
+    uint32_t *order;               /* indices of bounds: a node's stand together */
     ec_light_node *nodes;
     uint32_t *trails;
     double most_power;
@@ -19,8 +28,21 @@ typedef struct builder {
 
 typedef struct task {
     uint32_t node, first, end, depth, trail;
-    uint32_t free; /* nodes from here on are for those below: two for each lamp but the first */
+    uint32_t free;   /* nodes from here on are for those below */
+    uint32_t record; /* so many of them, behind the first two, are kept */
 } task;
+
+static uint32_t levels_of(uint32_t count)
+{
+    uint32_t levels = 0;
+    while (((uint64_t)1 << levels) < count) levels++;
+    return levels;
+}
+
+static uint32_t record_nodes(uint32_t lamps) { return (2 + lamps + EC_LIGHT_NODE_WORDS - 1) / EC_LIGHT_NODE_WORDS; }
+
+/* Nodes below one of an item of so many lamps. */
+static uint32_t nodes_below(uint32_t lamps) { return lamps > 1 ? 2 * (lamps - 1) + record_nodes(lamps) : 0; }
 
 static double middle(const ec_light_bounds *b, int axis) { return 0.5 * (b->low[axis] + b->high[axis]); }
 
@@ -70,11 +92,10 @@ static void try_axis(const builder *b, const task *t, int axis, double stretch, 
 }
 
 /* Where the second child's lamps begin; its lamps come to stand there. Long boxes are rather cut across (the paper's regulariser). */
-static uint32_t split(builder *b, const task *t, const ec_light_bounds *all)
+static uint32_t split(const builder *b, const task *t, const ec_light_bounds *all)
 {
-    uint32_t half = t->first + (t->end - t->first) / 2, levels = 0;
-    while (((uint64_t)1 << levels) < t->end - t->first) levels++;
-    if (t->depth + levels >= EC_LIGHT_DEPTH_MOST) return half; /* in halves it just fits the trail */
+    uint32_t half = t->first + (t->end - t->first) / 2;
+    if (t->depth + levels_of(t->end - t->first) + b->below_levels >= EC_LIGHT_DEPTH_MOST) return half; /* in halves it just fits the trail */
     if (t->end - t->first == 2) return half;
     plane best = {.axis = -1};
     double longest = 0;
@@ -93,39 +114,98 @@ static uint32_t split(builder *b, const task *t, const ec_light_bounds *all)
     return at > t->first && at < t->end ? at : half;
 }
 
+/* What kernels/lib/bulb.h reads. */
+static void write_record(const ec_light_set *set, const ec_bulb *bulb, ec_light_node *record)
+{
+    ec_distribution_entry table[EC_LAMP_PAIRS_MOST];
+    double weights[EC_LAMP_PAIRS_MOST];
+    uint32_t *words = (uint32_t *)memset(record, 0, record_nodes(bulb->count) * sizeof *record);
+    for (uint32_t i = 0; i < bulb->count; i++) weights[i] = set->bounds[bulb->first + i].power;
+    ec_distribution_share(weights, bulb->count, 0, (uint64_t)1 << 32, table, weights);
+    words[0] = set->ids[bulb->first];
+    words[1] = bulb->count;
+    for (uint32_t i = 0; i < bulb->count; i++) words[2 + i] = table[i].first;
+}
+
+static void grow(const builder *b, task t);
+
+static void grow_item(const builder *b, const task *t)
+{
+    const uint32_t item = b->order[t->first], lamp = b->items ? b->items[item].first : item, count = b->items ? b->items[item].count : 1;
+    ec_light_node *node = &b->nodes[t->node];
+    if (count == 1) {
+        node->link = EC_LIGHT_LEAF | b->set->ids[lamp];
+        b->trails[lamp] = t->trail;
+        return;
+    }
+    grow(b->below, (task){t->node, lamp, lamp + count, t->depth, t->trail, t->free, record_nodes(count)});
+    node->flags |= EC_LIGHT_NODE_BULB;
+    write_record(b->set, &b->items[item], node + (node->link + 2 - t->node));
+}
+
 /* Where a node's descendants stand depends on how many there are, not on who writes them first. */
-static void grow(builder *b, task t)
+static void grow(const builder *b, task t)
 {
     const ec_light_bounds all = around(b, t.first, t.end);
     ec_light_node *node = &b->nodes[t.node];
     *node = ec_light_bounds_node(&all, b->most_power);
     if (t.end - t.first == 1) {
-        const uint32_t lamp = b->order[t.first];
-        node->link = EC_LIGHT_LEAF | b->ids[lamp];
-        b->trails[lamp] = t.trail;
+        grow_item(b, &t);
         return;
     }
-    const uint32_t at = split(b, &t, &all), child = t.free, left = 2 * (at - t.first - 1);
+    const uint32_t at = split(b, &t, &all), child = t.free, free = child + 2 + t.record;
+    uint32_t left = 2 * (at - t.first - 1);
+    for (uint32_t i = t.first; b->items && i < at; i++) left += nodes_below(b->items[b->order[i]].count);
     node->link = child;
-    const task first = {child, t.first, at, t.depth + 1, t.trail, child + 2};
-    const task second = {child + 1, at, t.end, t.depth + 1, t.trail | 1u << t.depth, child + 2 + left};
+    const task first = {child, t.first, at, t.depth + 1, t.trail, free, 0};
+    const task second = {child + 1, at, t.end, t.depth + 1, t.trail | 1u << t.depth, free + left, 0};
 #pragma omp task if (first.end - first.first > FEW)
     grow(b, first);
     grow(b, second);
 }
 
-ec_result ec_light_tree_build(const ec_light_bounds *bounds, const uint32_t *ids, uint32_t count, ec_light_node *nodes,
-                              uint32_t *trails, ec_error *err)
+size_t ec_light_tree_nodes(const ec_light_set *set)
 {
-    builder b = {bounds, ids, malloc((size_t)count * sizeof *b.order), nodes, trails, 0};
-    if (!b.order) return ec_fail(err, "out of memory for a tree of %u lamps", count);
-    for (uint32_t i = 0; i < count; i++) {
-        b.order[i] = i;
-        b.most_power = fmax(b.most_power, bounds[i].power);
+    size_t nodes = 2 * (size_t)set->count - 1;
+    for (uint32_t i = 0; i < set->bulb_count; i++) nodes += record_nodes(set->bulbs[i].count);
+    return nodes;
+}
+
+/* Bulbs, and the lamps between them. items, bounds: room for one for each lamp. */
+static uint32_t list_items(const ec_light_set *set, ec_bulb *items, ec_light_bounds *bounds, uint32_t *levels)
+{
+    uint32_t n = 0, bulb = 0;
+    *levels = 0;
+    for (uint32_t i = 0; i < set->count; n++) {
+        const bool is_bulb = bulb < set->bulb_count && set->bulbs[bulb].first == i;
+        items[n] = is_bulb ? set->bulbs[bulb++] : (ec_bulb){i, 1};
+        bounds[n] = (ec_light_bounds){.power = 0};
+        for (const uint32_t end = i + items[n].count; i < end; i++) ec_light_bounds_add(&bounds[n], &set->bounds[i]);
+        if (is_bulb && levels_of(items[n].count) > *levels) *levels = levels_of(items[n].count);
     }
+    return n;
+}
+
+ec_result ec_light_tree_build(const ec_light_set *set, ec_light_node *nodes, uint32_t *trails, ec_error *err)
+{
+    const size_t count = set->count;
+    EC_FREED uint32_t *order = malloc(2 * count * sizeof *order);
+    EC_FREED ec_bulb *items = malloc(count * sizeof *items);
+    EC_FREED ec_light_bounds *bounds = malloc(count * sizeof *bounds);
+    if (!order || !items || !bounds) return ec_fail(err, "out of memory for a tree of %u lamps", set->count);
+    builder lamps = {.set = set, .bounds = set->bounds, .order = order, .nodes = nodes, .trails = trails};
+    for (uint32_t i = 0; i < count; i++) {
+        order[i] = order[count + i] = i;
+        lamps.most_power = fmax(lamps.most_power, set->bounds[i].power);
+    }
+    builder top = lamps;
+    top.bounds = bounds;
+    top.items = items;
+    top.below = &lamps;
+    top.order = order + count;
+    const uint32_t item_count = list_items(set, items, bounds, &top.below_levels);
 #pragma omp parallel if (count > FEW)
 #pragma omp single
-    grow(&b, (task){0, 0, count, 0, 0, 1});
-    free(b.order);
+    grow(&top, (task){0, 0, item_count, 0, 0, 1, 0});
     return EC_OK;
 }

@@ -135,6 +135,7 @@ void ec_pack_free(ec_pack *pack)
     free(pack->light_tree);
     free(pack->lamp_nodes);
     free(pack->pair_of_prim);
+    free(pack->bulbs);
     free(pack->emission);
     if (!pack->environment_lent) free(pack->environment_texels);
     if (!pack->environment_lent) free(pack->environment_table);

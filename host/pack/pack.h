@@ -22,6 +22,11 @@ typedef struct ec_caster {
     float share;             /* of the light paths that are aimed at it */
 } ec_caster;
 
+/* Lamps of one body, as the light tree takes them for one: places in the table of lights. */
+typedef struct ec_bulb {
+    uint32_t first, count;
+} ec_bulb;
+
 typedef struct ec_pack {
     ec_scene_view plain;           /* what was packed */
     ec_effects effects;            /* that the scene calls for (those that options call for are the caller's) */
@@ -49,6 +54,8 @@ typedef struct ec_pack {
     uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */
     uint32_t light_node_count;     /* 0: lights are chosen by power alone */
     ec_light_node *light_tree;
+    uint32_t bulb_count;
+    ec_bulb *bulbs;                /* with a tree, in order: bulbs.h */
     uint32_t lamp_pair_count;      /* of lamps that face opposite ways: lamp_pairs.h */
     uint32_t *pair_of_prim;        /* a triangle's partner's place in lights, or EC_NO_ID; NULL: there are no pairs */
     uint32_t lamp_node_count;      /* 0: no lamp is in parts */

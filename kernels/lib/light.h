@@ -5,7 +5,6 @@
 
 #include "coat.h"
 #include "environment.h"
-#include "lamp_pairs.h"
 #include "lamp_parts.h"
 #include "light_share.h"
 #include "light_tree.h"
@@ -277,7 +276,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
         lane_i m_lamp = m & (id + 1u == count);
         if (any_lane(m_lamp)) {
             lane_f pmf, left;
-            lane_u lamp = light_tree_choose(l->tree, m_lamp, p, rest >> 1, params->light_tree_numbers, r1, &pmf, &left);
+            lane_u lamp = light_tree_choose(l, m_lamp, p, rest >> 1, params->light_tree_numbers, r1, &pmf, &left);
             id = m_lamp ? lamp : id;
             chance = m_lamp ? pmf : chance;
             u1 = m_lamp ? left : u1;
@@ -286,7 +285,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     light_record one = light_load(l, id);
     one.pmf *= chance;
     one.pdf_a *= chance;
-    if (HAS(LAMP_PAIRS)) light_choose_of_pair(l, m, p, &one, &id, &u1);
+    if (HAS(LAMP_PAIRS) && !(HAS(LIGHT_TREE) && l->tree)) light_choose_of_pair(l, m, p, &one, &id, &u1);
     one.pmf *= light_share_scale(params, one.kind);
     one.pdf_a *= light_share_of_lamp(params);
     if (HAS(MOTION) && g->motion) light_move(g, &one);

@@ -8,7 +8,7 @@
 #ifndef EC_LIB_LIGHT_TREE_H
 #define EC_LIB_LIGHT_TREE_H
 
-#include "../shared/light_tree.h"
+#include "bulb.h"
 #include "choice.h"
 
 #define EC_TREE_FEW 0x10000u /* numbers: fewer are too coarse to share out, and become 2^15 times as many */
@@ -17,8 +17,9 @@
  * to be dark is dark. What is not keeps that share at least. */
 #define EC_TREE_DARK 0.004f
 
-/* Power times the largest cosine that one of a node's lamps may have towards p; d2: squared distance, no less than the node's size. */
-EC_FN lane_f light_node_weight(quad place, quad cone, quad rest, v3 p, lane_f *d2)
+/* Power times the largest cosine that one of a node's lamps may have towards p; d2: squared distance, no less than the node's size; link: where the
+ * node leads. */
+EC_FN lane_f light_node_weight(quad place, quad cone, quad rest, v3 p, lane_f *d2, lane_u *link)
 {
     v3 way = v3_sub(p, v3_make(place.a, place.b, place.c));
     lane_f distance2 = v3_dot(way, way), radius2 = place.d, cos_spread = cone.d, sin_spread = rest.b;
@@ -28,7 +29,13 @@ EC_FN lane_f light_node_weight(quad place, quad cone, quad rest, v3 p, lane_f *d
     lane_f ball2 = 0.5f * radius2, size = ball2 / distance2;
     *d2 = distance2 > ball2 ? distance2 / fma(0.5f * size, size, F(1.0f)) : (ball2 + distance2) * (1.0f / 3.0f);
     lane_f cosine = v3_dot(way, v3_make(cone.a, cone.b, cone.c)) / sqrt(distance2);
-    cosine = as_lane_u(rest.d) != 0u ? fabs(cosine) : cosine;
+    lane_u flags = as_lane_u(rest.d);
+    *link = as_lane_u(rest.c);
+    if (HAS(LAMP_PAIRS)) {
+        lane_i is_bulb = ((flags & EC_LIGHT_NODE_BULB) != 0u) & (distance2 > EC_LIGHT_BULB_FAR * radius2);
+        *link = is_bulb ? (*link + 2u) | (EC_LIGHT_LEAF | EC_LIGHT_BULB) : *link;
+    }
+    cosine = (flags & EC_LIGHT_NODE_TWO_SIDED) != 0u ? fabs(cosine) : cosine;
     lane_f sine = sqrt(max(fma(-cosine, cosine, F(1.0f)), F(0.0f)));
     lane_i within = cosine >= cos_spread; /* the cone of normals */
     lane_f c = within ? F(1.0f) : fma(cosine, cos_spread, sine * sin_spread);
@@ -46,10 +53,8 @@ EC_FN lane_u light_tree_share(global const float *tree, lane_u child, v3 p, lane
     lane_u at = child * EC_LIGHT_NODE_WORDS;
     lane_f da, db;
     quad a = gather_quad(tree, at + 8u), b = gather_quad(tree, at + 20u);
-    lane_f wa = light_node_weight(gather_quad(tree, at), gather_quad(tree, at + 4u), a, p, &da);
-    lane_f wb = light_node_weight(gather_quad(tree, at + 12u), gather_quad(tree, at + 16u), b, p, &db);
-    *first = as_lane_u(a.c);
-    *second = as_lane_u(b.c);
+    lane_f wa = light_node_weight(gather_quad(tree, at), gather_quad(tree, at + 4u), a, p, &da, first);
+    lane_f wb = light_node_weight(gather_quad(tree, at + 12u), gather_quad(tree, at + 16u), b, p, &db, second);
     lane_f ia = wa * db, ib = wb * da, sum = ia + ib;
     lane_i good = (sum > 0.0f) & is_finite_bits(sum), dark = (wa == 0.0f) & (wb == 0.0f);
     lane_f share = good ? ia / sum : F(0.5f);
@@ -58,14 +63,14 @@ EC_FN lane_u light_tree_share(global const float *tree, lane_u child, v3 p, lane
     return dark ? all >> 1 : n; /* dark both: it does not matter, but probabilities add up */
 }
 
-/* A lamp for p, and its probability. rest: one of `all` of 2^31 numbers, on the lanes m; *left: where it lies in the lamp's share, in [0, 1).
+/* A lamp for p, and its probability. rest: one of `numbers` of 2^31 numbers, on the lanes m; *left: where it lies in the lamp's share, in [0, 1).
  * r: bits to make it finer. */
-EC_FN lane_u light_tree_choose(global const float *tree, lane_i m, v3 p, lane_u rest, uint numbers, lane_u r, lane_f *pmf, lane_f *left)
+EC_FN lane_u light_tree_choose(const lights *l, lane_i m, v3 p, lane_u rest, uint numbers, lane_u r, lane_f *pmf, lane_f *left)
 {
     lane_u link = U(1u), all = U(numbers);
     *pmf = F(1.0f / 2147483648.0f);
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
-        lane_u first, second, share = light_tree_share(tree, going ? link : U(1u), p, all, &first, &second);
+        lane_u first, second, share = light_tree_share(l->tree, going ? link : U(1u), p, all, &first, &second);
         lane_i is_first = rest < share;
         rest = (going & !is_first) ? rest - share : rest;
         all = going ? (is_first ? share : all - share) : all;
@@ -75,25 +80,58 @@ EC_FN lane_u light_tree_choose(global const float *tree, lane_i m, v3 p, lane_u 
         rest = few ? rest << EC_TREE_FINER | hash_u(r + link) >> (32u - EC_TREE_FINER) : rest;
         all = few ? all << EC_TREE_FINER : all;
     }
+    lane_u lamp = m ? link & ~EC_LIGHT_LEAF : U(0u);
+    lane_i is_bulb = m & ((link & EC_LIGHT_BULB) != 0u);
+    if (HAS(LAMP_PAIRS) && any_lane(is_bulb)) {
+        lane_u low, high, shift = is_bulb ? bulb_shift(all) : U(0);
+        rest = rest << shift | (hash_u(r + link) >> 1u) >> (31u - shift);
+        bulb b = bulb_at(l->tree, is_bulb, link, all << shift);
+        lane_u chosen = bulb_choose(&b, l, is_bulb, p, rest, &low, &high);
+        *pmf *= as_lane_f((127u - shift) << 23u);
+        lamp = is_bulb ? chosen : lamp;
+        rest = is_bulb ? rest - low : rest;
+        all = is_bulb ? high - low : all;
+    }
     *pmf *= to_lane_f(all);
     *left = choice_rest(rest, all, r);
-    return m ? link & ~EC_LIGHT_LEAF : U(0u);
+    return lamp;
+}
+
+/* The lamp at the end of a trail whose next step is one of two children; weights are not asked for. */
+EC_FN lane_u light_tree_end(global const float *tree, lane_i m, lane_u child, lane_u trail)
+{
+    lane_u link = child;
+    for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
+        lane_u next = gather_u((global const uint *)tree, (going ? link + (trail & 1u) : U(0)) * EC_LIGHT_NODE_WORDS + 10u);
+        link = going ? next : link;
+        trail >>= 1;
+    }
+    return link & ~EC_LIGHT_LEAF;
 }
 
 /* The probability with which that comes to the lamp at the end of a trail. */
-EC_FN lane_f light_tree_pmf(global const float *tree, lane_i m, v3 p, uint numbers, lane_u trail)
+EC_FN lane_f light_tree_pmf(const lights *l, lane_i m, v3 p, uint numbers, lane_u trail)
 {
     lane_u link = U(1u), all = U(numbers);
     lane_f pmf = F(1.0f / 2147483648.0f);
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
-        lane_u first, second, share = light_tree_share(tree, going ? link : U(1u), p, all, &first, &second);
+        lane_u first, second, share = light_tree_share(l->tree, going ? link : U(1u), p, all, &first, &second);
         lane_i is_first = (trail & 1u) == 0u;
-        trail >>= 1;
+        trail = going ? trail >> 1 : trail;
         all = going ? (is_first ? share : all - share) : all;
         link = going ? (is_first ? first : second) : link;
         lane_i few = going & (all < EC_TREE_FEW);
         pmf = few ? pmf * (1.0f / (1u << EC_TREE_FINER)) : pmf;
         all = few ? all << EC_TREE_FINER : all;
+    }
+    lane_i is_bulb = m & ((link & EC_LIGHT_BULB) != 0u);
+    if (HAS(LAMP_PAIRS) && any_lane(is_bulb)) {
+        lane_u shift = is_bulb ? bulb_shift(all) : U(0);
+        bulb b = bulb_at(l->tree, is_bulb, link, all << shift);
+        lane_u place = light_tree_end(l->tree, is_bulb, (link & ~(EC_LIGHT_LEAF | EC_LIGHT_BULB)) - 2u, trail);
+        lane_u numbers_of_lamp = bulb_numbers(&b, l, is_bulb, p, place);
+        pmf *= as_lane_f((127u - shift) << 23u);
+        all = is_bulb ? numbers_of_lamp : all;
     }
     return pmf * to_lane_f(all);
 }

@@ -152,7 +152,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
             v3 way = v3_sub(s.p, source);
             if (HAS(LIGHT_TREE) && light_tree) {
                 lane_u lamp = HAS(INSTANCES) ? (h.placed ? U(0) : prim) : prim; /* no instance is one, and its id lies behind the trails */
-                h.light_pdf_a *= light_tree_pmf(light_tree, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source,
+                h.light_pdf_a *= light_tree_pmf(&light, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source,
                                                 params->light_tree_numbers, gather_u(light_trails, lamp));
             }
             if (HAS(LAMP_PAIRS) && light_trails && !light_tree)

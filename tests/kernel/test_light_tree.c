@@ -1,6 +1,7 @@
 /* tier: quick */
 /* The light tree's probabilities, lamp by lamp and point by point: they add up to the share of all lamps, are those sampled, are the same
- * found from the lamp's trail, and no lamp that shines on a point is left without. What is left of the numbers that choose is uniform. */
+ * found from the lamp's trail, and no lamp that shines on a point is left without; among the lamps a ball and a panel that are bulbs. What is left of
+ * the numbers that choose is uniform. */
 #include "kernel/chi2.h"
 #include "pack/light_tree.h"
 
@@ -9,7 +10,8 @@
 
 static ec_light_data lamps[LAMPS];
 static ec_light_bounds bounds[LAMPS];
-static ec_light_node nodes[2 * LAMPS - 1];
+static ec_light_node nodes[3 * LAMPS];
+static const ec_bulb bulbs[] = {{301, 151}, {600, 64}};
 static uint32_t trails[LAMPS], ids[LAMPS], chosen[SAMPLES];
 static float points[3 * POINTS], pmf[LAMPS], first_pmf[POINTS][LAMPS];
 
@@ -36,7 +38,35 @@ static void make_lamps(void)
     }
     for (int i = 0; i < POINTS; i++)
         for (int k = 0; k < 3; k++)
-            points[3 * i + k] = i < 4 ? lamps[i * 30].a[k] : i < 8 ? (float)test_random_in(-1e4, 1e4) : (float)test_random_in(-1, 7);
+            points[3 * i + k] = i == 9 ? 3 : i == 10 ? 3.3f : i < 4 ? lamps[i * 30].a[k] : i < 8 ? (float)test_random_in(-1e4, 1e4) : (float)test_random_in(-1, 7);
+}
+
+/* A ball of pairs, and one lamp more; a panel of equal ones. Sizes differ by a thousand. */
+static void make_bulbs(void)
+{
+    for (uint32_t i = 0; i < 151; i++) {
+        ec_light_data *l = &lamps[301 + i];
+        const ec_light_data *other = l - 1;
+        const double size = pow(10, test_random_in(-3, 0)), towards[3] = {test_random_in(-1, 1), test_random_in(-1, 1), test_random_in(-1, 1)};
+        double n[3], length = 0;
+        for (int k = 0; k < 3; k++) length += towards[k] * towards[k];
+        for (int k = 0; k < 3; k++) n[k] = towards[k] / sqrt(length);
+        *l = (ec_light_data){.kind = EC_KIND_TRIANGLE | (i == 150 ? 0 : i % 2 ? EC_LIGHT_PAIR_SECOND : EC_LIGHT_PAIR_FIRST)};
+        for (int k = 0; k < 3; k++) { /* corners at n and beside it, so that it looks away from the middle; the partner's on the other side */
+            const double u = n[(k + 1) % 3] * 0.3 - n[(k + 2) % 3] * 0.5, at = 3 + 0.2 * n[k];
+            l->a[k] = (float)at;
+            l->b[k] = (float)(at + 0.1 * size * u);
+            l->c[k] = (float)(at + 0.1 * size * (n[(k + 2) % 3] * n[(k + 1) % 3] - u));
+            if (i % 2) l->a[k] = 6 - other->a[k], l->b[k] = 6 - other->c[k], l->c[k] = 6 - other->b[k];
+        }
+        bounds[301 + i] = ec_light_bounds_of(l, i % 2 ? bounds[300 + i].power : size * size);
+    }
+    for (uint32_t i = 0; i < 64; i++) {
+        ec_light_data *l = &lamps[600 + i];
+        *l = (ec_light_data){.kind = EC_KIND_TRIANGLE, .a = {i % 8 * 0.1f, i / 8 * 0.1f, 5}};
+        for (int k = 0; k < 3; k++) l->b[k] = l->a[k] + (k == 0) * 0.1f, l->c[k] = l->a[k] + (k == 1) * 0.1f;
+        bounds[600 + i] = ec_light_bounds_of(l, 0.01);
+    }
 }
 
 /* Does it shine on p, by a cosine that rounding cannot have made? */
@@ -62,7 +92,7 @@ static void check_point(cl_program program, int lanes, uint32_t which, uint32_t 
     /* All of 2^31 numbers, or an odd part of them. */
     uint32_t width = (uint32_t)lane_widths[lanes], n = LAMPS, other = 0, numbers = which % 4 ? 1u << 31 : 1234567891;
     const double whole = numbers * 0x1p-31;
-    if (!KERNEL_CALL(&cl, program, "probabilities", LAMPS / width, SCALAR(n), IN((float *)nodes, 12 * (2 * LAMPS - 1)), IN(trails, LAMPS),
+    if (!KERNEL_CALL(&cl, program, "probabilities", LAMPS / width, SCALAR(n), IN((float *)lamps, EC_LIGHT_WORDS * LAMPS), IN((float *)nodes, sizeof nodes / 4), IN(trails, LAMPS),
                      IN(points, 3 * POINTS), SCALAR(which), SCALAR(numbers), OUT(pmf, LAMPS)))
         return;
     if (!lanes) memcpy(first_pmf[which], pmf, sizeof pmf);
@@ -76,7 +106,7 @@ static void check_point(cl_program program, int lanes, uint32_t which, uint32_t 
         CHECK_MSG(pmf[i] > 0 || !shines_on(&lamps[i], points + 3 * which), "lamp %d shines on point %u and is never chosen", i, which);
     }
     CHECK_MSG(fabs(sum / whole - 1) < 1e-6, "point %u: probabilities add up to 1 %+.2g", which, sum / whole - 1);
-    if (which % 6 || !KERNEL_CALL(&cl, program, "choices", samples / width, SCALAR(samples), SCALAR(seed), IN((float *)nodes, 12 * (2 * LAMPS - 1)),
+    if (which % 6 || !KERNEL_CALL(&cl, program, "choices", samples / width, SCALAR(samples), SCALAR(seed), IN((float *)lamps, EC_LIGHT_WORDS * LAMPS), IN((float *)nodes, sizeof nodes / 4),
                                   IN(trails, LAMPS), IN(points, 3 * POINTS), SCALAR(which), SCALAR(numbers), OUT(chosen, SAMPLES), OUT(out, 3 * SAMPLES)))
         return;
     uint32_t tenths[10] = {0};
@@ -103,7 +133,10 @@ int main(void)
     if (open) return open;
     ec_error err = {0};
     make_lamps();
-    CHECK_OK(ec_light_tree_build(bounds, ids, LAMPS, nodes, trails, &err), err);
+    make_bulbs();
+    const ec_light_set set = {LAMPS, bounds, ids, 2, bulbs};
+    CHECK(ec_light_tree_nodes(&set) == 2 * LAMPS - 1 + 13 + 6 && 2 * LAMPS + 18 < sizeof nodes / sizeof *nodes);
+    CHECK_OK(ec_light_tree_build(&set, nodes, trails, &err), err);
     int widths = kernel_widths(&cl);
     uint32_t unlit = 0;
     for (int i = 0; i < widths; i++) {

@@ -1,0 +1,140 @@
+#include "pack/bulbs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/freed.h"
+#include "base/vec3.h"
+#include "pack/lamp_pairs.h"
+#include "pack/light_order.h"
+
+#define LEAST 8               /* lamps: fewer are soon told apart by the tree */
+#define LAMPS_MOST (1u << 18) /* in all: their corners are sorted */
+#define PAIRED 0.9            /* of a body's power: so much has to be of pairs … */
+#define FLAT 0.9              /* … or its normals within this cosine of the first one's */
+#define FAINTEST 0x1p-26      /* share of a body's power: each lamp needs several of its 2^30 numbers */
+
+typedef struct corner {
+    float at[3];
+    uint32_t lamp;
+} corner;
+
+/* What finds bodies, by lamp. */
+typedef struct finder {
+    const ec_pack *pack;
+    uint32_t *root;                  /* a lamp of the same body that stands before it; itself: there is none */
+    uint32_t *first, *next, *count;  /* lists of members, of each first lamp of a body */
+    uint32_t *order, placed;         /* which light comes to each place */
+} finder;
+
+static bool may_be(const ec_light_data *l)
+{
+    return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && !(l->kind & (EC_LIGHT_TWO_SIDED | EC_LIGHT_TEXTURED | EC_LIGHT_OPEN)) &&
+           !(l->kind >> EC_LIGHT_PARTS);
+}
+
+static int compare(const void *a, const void *b)
+{
+    const corner *p = a, *q = b;
+    const int by_place = memcmp(p->at, q->at, sizeof p->at);
+    return by_place ? by_place : (p->lamp > q->lamp) - (p->lamp < q->lamp);
+}
+
+static uint32_t root_of(uint32_t *root, uint32_t i)
+{
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+}
+
+/* Lamps of one emission that share a corner are of one body; its root is the first of them. */
+static ec_result join_corners(finder *f, ec_error *err)
+{
+    const ec_light_data *lights = f->pack->lights;
+    const uint32_t lamps = f->pack->light_count;
+    uint32_t n = 0;
+    EC_FREED corner *corners = malloc(3 * (size_t)lamps * sizeof *corners);
+    if (!corners) return ec_fail(err, "out of memory for %u lights", lamps);
+    for (uint32_t i = 0; i < lamps; i++) {
+        const float *at[3] = {lights[i].a, lights[i].b, lights[i].c};
+        for (int k = 0; k < 3 && may_be(&lights[i]); k++) {
+            corners[n] = (corner){.lamp = i};
+            for (int axis = 0; axis < 3; axis++) corners[n].at[axis] = at[k][axis] + 0.0f; /* no -0 */
+            n++;
+        }
+    }
+    qsort(corners, n, sizeof *corners, compare);
+    for (uint32_t c = 1; c < n; c++) {
+        if (memcmp(corners[c].at, corners[c - 1].at, sizeof corners[c].at)) continue;
+        const uint32_t a = root_of(f->root, corners[c - 1].lamp), b = root_of(f->root, corners[c].lamp);
+        if (memcmp(lights[a].emission, lights[b].emission, sizeof lights[a].emission)) continue;
+        f->root[a > b ? a : b] = a > b ? b : a;
+    }
+    return EC_OK;
+}
+
+/* Is the lamp that shines on a far point well chosen by power? */
+static bool is_even(const ec_light_data *members, uint32_t count, const uint32_t *partner)
+{
+    double all = 0, paired = 0, least = INFINITY, flattest = 1, first[3], n[3];
+    ec_triangle_normal(members[0].a, members[0].b, members[0].c, first);
+    for (uint32_t i = 0; i < count; i++) {
+        all += (double)members[i].pmf;
+        paired += partner[i] == EC_NO_ID ? 0 : (double)members[i].pmf;
+        least = fmin(least, (double)members[i].pmf);
+        ec_triangle_normal(members[i].a, members[i].b, members[i].c, n);
+        flattest = fmin(flattest, ec_dot(first, n) / sqrt(ec_dot(first, first) * ec_dot(n, n)));
+    }
+    return least > FAINTEST * all && (paired > PAIRED * all || flattest > FLAT);
+}
+
+/* The body that begins with lamp i comes next, if it is a bulb; else only lamp i does. */
+static ec_result place_body(finder *f, ec_pack *pack, uint32_t i, ec_error *err)
+{
+    const uint32_t count = f->count[i], place = f->placed;
+    uint32_t n = 0, pairs;
+    f->order[f->placed++] = i;
+    if (count < LEAST || count > EC_LAMP_PAIRS_MOST) return EC_OK;
+    EC_FREED ec_light_data *members = malloc(count * sizeof *members);
+    EC_FREED uint32_t *ids = malloc(3 * (size_t)count * sizeof *ids);
+    if (!members || !ids) return ec_fail(err, "out of memory for a lamp of %u triangles", count);
+    uint32_t *partner = ids + count, *order = partner + count;
+    for (uint32_t k = i; k != EC_NO_ID; k = f->next[k]) {
+        members[n] = pack->lights[k];
+        ids[n++] = k;
+    }
+    EC_TRY(ec_lamp_pairs_match(members, count, partner, &pairs, err));
+    if (!is_even(members, count, partner)) return EC_OK;
+    ec_lamp_pairs_order(members, count, partner, order);
+    for (uint32_t k = 0; k < count; k++) {
+        pack->lights[ids[k]].kind = members[k].kind;
+        f->order[place + k] = ids[order[k]];
+        if (k) f->root[ids[k]] = EC_NO_ID; /* placed */
+    }
+    f->placed = place + count;
+    pack->bulbs[pack->bulb_count++] = (ec_bulb){place, count};
+    pack->lamp_pair_count += pairs;
+    return EC_OK;
+}
+
+ec_result ec_pack_bulbs(ec_pack *pack, ec_error *err)
+{
+    const uint32_t lamps = pack->light_count;
+    if (lamps < LEAST || lamps > LAMPS_MOST) return EC_OK;
+    EC_FREED uint32_t *words = malloc(4 * (size_t)lamps * sizeof *words);
+    pack->bulbs = malloc(lamps / LEAST * sizeof *pack->bulbs);
+    if (!words || !pack->bulbs) return ec_fail(err, "out of memory for %u lights", lamps);
+    finder f = {.pack = pack, .root = words, .next = words + lamps, .count = words + 2 * (size_t)lamps, .order = words + 3 * (size_t)lamps};
+    for (uint32_t i = 0; i < lamps; i++) f.root[i] = i, f.next[i] = EC_NO_ID, f.count[i] = 1;
+    EC_TRY(join_corners(&f, err));
+    for (uint32_t i = lamps; i-- > 0;) { /* from the back, so that lists begin with their roots */
+        const uint32_t root = root_of(f.root, i);
+        if (root == i) continue;
+        f.next[i] = f.next[root];
+        f.next[root] = i;
+        f.count[root]++;
+    }
+    for (uint32_t i = 0; i < lamps; i++)
+        if (f.root[i] != EC_NO_ID) EC_TRY(place_body(&f, pack, i, err));
+    return pack->bulb_count ? ec_lights_move(pack, f.order, err) : EC_OK;
+}

@@ -1,0 +1,72 @@
+/* Bulbs: lamps of one body that the light tree takes together where they are far away (host/pack/bulbs.c). Then the lamp is chosen by its power and by
+ * whether it faces the point (lamp_pairs.h), which costs less than the way down to a leaf of many. A bulb's record, in words from a node of the tree
+ * on: its first lamp's place in the table, how many they are, and of each of them in turn the first of 2^32 numbers that choose it. */
+#ifndef EC_LIB_BULB_H
+#define EC_LIB_BULB_H
+
+#include "../shared/light_tree.h"
+#include "lamp_pairs.h"
+
+typedef struct bulb {
+    global const uint *words;
+    lane_u at, first, count;
+    lane_u all; /* numbers there are for it: 2^30 at least */
+} bulb;
+
+/* The numbers of a bulb, `all`, made 2^shift times as many: so many that each lamp has its own. */
+EC_FN lane_u bulb_shift(lane_u all) { return max(clz(all), U(1)) - 1u; }
+
+EC_FN bulb bulb_at(global const float *tree, lane_i m, lane_u link, lane_u all)
+{
+    lane_u at = (m ? link & ~(EC_LIGHT_LEAF | EC_LIGHT_BULB) : U(0)) * EC_LIGHT_NODE_WORDS;
+    global const uint *words = (global const uint *)tree;
+    bulb b = {words, at, gather_u(words, at), m ? gather_u(words, at + 1u) : U(1), all};
+    return b;
+}
+
+/* Where the numbers of its lamp k begin; those of the last one end with all. */
+EC_FN lane_u bulb_edge(const bulb *b, lane_u k)
+{
+    lane_i is_end = k >= b->count;
+    lane_u edge = mul_hi(gather_u(b->words, b->at + 2u + (is_end ? U(0) : k)), b->all);
+    return is_end ? b->all : edge;
+}
+
+/* Lamp k has the numbers from *low to *high for p: its own, its pair's, or none. Returns the lamp that has them, k or its partner. */
+EC_FN lane_u bulb_faces(const bulb *b, const lights *l, lane_i m, v3 p, lane_u k, lane_u *low, lane_u *high)
+{
+    light_record one = light_load(l, m ? b->first + k : U(0));
+    lane_i paired = m & ((one.kind & EC_LIGHT_PAIRED) != 0u);
+    *low = bulb_edge(b, k);
+    *high = bulb_edge(b, k + 1u);
+    if (!any_lane(paired)) return k;
+    lane_i is_first = (one.kind & EC_LIGHT_PAIR_FIRST) != 0u;
+    lane_u partner = paired ? (is_first ? k + 1u : k - 1u) : k;
+    light_record other = light_load(l, m ? b->first + partner : U(0));
+    lane_i own = pair_faces(one.a, one.b, one.c, p), alone = paired & (own != pair_faces(other.a, other.b, other.c, p));
+    *low = (alone & !is_first) ? bulb_edge(b, partner) : *low;
+    *high = (alone & is_first) ? bulb_edge(b, k + 2u) : *high;
+    return (alone & !own) ? partner : k;
+}
+
+/* The lamp that number `rest` chooses for p; the numbers that do so are *low … *high - 1. */
+EC_FN lane_u bulb_choose(const bulb *b, const lights *l, lane_i m, v3 p, lane_u rest, lane_u *low, lane_u *high)
+{
+    lane_u k = U(0), last = b->count - 1u;
+    while (any_lane(m & (k < last))) {
+        lane_u middle = (k + last + 1u) >> 1u;
+        lane_i is_past = bulb_edge(b, middle) > rest;
+        last = is_past ? middle - 1u : last;
+        k = is_past ? k : middle;
+    }
+    return b->first + bulb_faces(b, l, m, p, k, low, high);
+}
+
+/* How many of all numbers choose the lamp at this place for p. */
+EC_FN lane_u bulb_numbers(const bulb *b, const lights *l, lane_i m, v3 p, lane_u place)
+{
+    lane_u low, high, k = m ? place - b->first : U(0), chosen = bulb_faces(b, l, m, p, k, &low, &high);
+    return chosen == k ? high - low : U(0);
+}
+
+#endif
