@@ -124,10 +124,13 @@ static bool joins_still_lamps(const ec_render_options *o, const ec_pack *pack)
     return o->integrator == EC_INTEGRATOR_PATH && ec_pipeline_joins(o, pack) && !pack->lamps_move;
 }
 
-static bool wants_light_tree(const ec_render_options *o, const ec_pack *pack)
+/* How lamps are chosen: by a tree, or by power and in pairs. */
+static ec_result prepare_lamps(const ec_render_options *o, ec_pack *pack, ec_error *err)
 {
-    if (!joins_still_lamps(o, pack) || o->light_choice == EC_LIGHTS_BY_POWER) return false;
-    return o->light_choice != EC_LIGHTS_AUTO || ec_pack_wants_light_tree(pack);
+    if (!joins_still_lamps(o, pack)) return EC_OK;
+    pack->by_tree = o->light_choice == EC_LIGHTS_BY_TREE;
+    if (o->light_choice == EC_LIGHTS_AUTO) EC_TRY(ec_pack_wants_light_tree(pack, &pack->by_tree, err));
+    return pack->by_tree ? ec_pack_bulbs(pack, err) : ec_pack_lamp_pairs(pack, err);
 }
 
 /* called_for: the scene itself, or that of which it is what is written out: rounding may not change effects. Which faces lie in one plane is found out
@@ -143,7 +146,7 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
         pack->effects.bits &= ~EC_FEATURE_INSTANCES;
         ec_effects_add(&pack->effects, &here);
     }
-    if (joins_still_lamps(o, pack)) EC_TRY(wants_light_tree(o, pack) ? ec_pack_bulbs(pack, err) : ec_pack_lamp_pairs(pack, err));
+    EC_TRY(prepare_lamps(o, pack, err));
     const ec_aim aim = o->integrator == EC_INTEGRATOR_LIGHT ? EC_AIM_SCENE : o->guiding ? EC_AIM_CASTERS_AND_SCENE : EC_AIM_CASTERS;
     if (o->light_paths > 0 || o->guiding) EC_TRY(ec_pack_casters(pack, aim, err));
     if (o->light_paths == EC_LIGHT_PATHS_AUTO) EC_TRY(ec_pack_caster_flux(pack, err));
@@ -152,10 +155,10 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
 }
 
 /* What takes time and says nothing of effects. */
-static ec_result finish_pack(const ec_render_options *o, ec_pack *pack, ec_error *err)
+static ec_result finish_pack(ec_pack *pack, ec_error *err)
 {
     EC_TRY(ec_pack_texels(pack, err));
-    return wants_light_tree(o, pack) ? ec_pack_light_tree(pack, err) : EC_OK;
+    return pack->by_tree ? ec_pack_light_tree(pack, err) : EC_OK;
 }
 
 /* The tree of lights is still to come, but not whether there is one: kernels can be built while it is. */
@@ -163,7 +166,7 @@ static void build_ahead(ec_cl *alone, const ec_cargo *cargo, const ec_render_opt
 {
     ec_render_effects effects = {.buffer_count = 0};
     ec_pack pack = cargo->pack; /* its arrays are the cargo's */
-    pack.light_node_count = wants_light_tree(o, &pack);
+    pack.light_node_count = pack.by_tree;
     ec_pipeline_effects(o, &pack, &effects);
     ec_build_ahead(alone, cargo, &effects, o->width, o->height, batch);
 }
@@ -173,7 +176,7 @@ ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *
 {
     EC_TRY(fill_pack(scene, called_for, o, &cargo->pack, err));
     if (alone) build_ahead(alone, cargo, o, batch);
-    EC_TRY(finish_pack(o, &cargo->pack, err));
+    EC_TRY(finish_pack(&cargo->pack, err));
     ec_pipeline_effects(o, &cargo->pack, &cargo->head.effects);
     return EC_OK;
 }
@@ -261,7 +264,7 @@ static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, cons
     ec_pack kept = {0};
     ec_cargo_head head = cargo->head;
     ec_result result = fill_pack(called_for, called_for, o, &kept, err);
-    if (result == EC_OK) result = finish_pack(o, &kept, err);
+    if (result == EC_OK) result = finish_pack(&kept, err);
     if (result == EC_OK) {
         ec_pipeline_effects(o, &kept, &head.effects);
         set_params(o, batch, &kept, head.effects.called.bits, &head.params);

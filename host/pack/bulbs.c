@@ -22,10 +22,9 @@ typedef struct corner {
 
 /* What finds bodies, by lamp. */
 typedef struct finder {
-    const ec_pack *pack;
-    uint32_t *root;                  /* a lamp of the same body that stands before it; itself: there is none */
-    uint32_t *first, *next, *count;  /* lists of members, of each first lamp of a body */
-    uint32_t *order, placed;         /* which light comes to each place */
+    uint32_t *root;          /* the first lamp of the same body; EC_NO_ID: it is placed */
+    uint32_t *next, *count;  /* the body's next lamp; how many there are, by its first one */
+    uint32_t *order, placed; /* which light comes to each place */
 } finder;
 
 static bool may_be(const ec_light_data *l)
@@ -47,15 +46,13 @@ static uint32_t root_of(uint32_t *root, uint32_t i)
     return i;
 }
 
-/* Lamps of one emission that share a corner are of one body; its root is the first of them. */
-static ec_result join_corners(finder *f, ec_error *err)
+static ec_result join_corners(const ec_pack *pack, uint32_t *root, ec_error *err)
 {
-    const ec_light_data *lights = f->pack->lights;
-    const uint32_t lamps = f->pack->light_count;
+    const ec_light_data *lights = pack->lights;
     uint32_t n = 0;
-    EC_FREED corner *corners = malloc(3 * (size_t)lamps * sizeof *corners);
-    if (!corners) return ec_fail(err, "out of memory for %u lights", lamps);
-    for (uint32_t i = 0; i < lamps; i++) {
+    EC_FREED corner *corners = malloc(3 * (size_t)pack->light_count * sizeof *corners);
+    if (!corners) return ec_fail(err, "out of memory for %u lights", pack->light_count);
+    for (uint32_t i = 0; i < pack->light_count; i++) {
         const float *at[3] = {lights[i].a, lights[i].b, lights[i].c};
         for (int k = 0; k < 3 && may_be(&lights[i]); k++) {
             corners[n] = (corner){.lamp = i};
@@ -66,10 +63,19 @@ static ec_result join_corners(finder *f, ec_error *err)
     qsort(corners, n, sizeof *corners, compare);
     for (uint32_t c = 1; c < n; c++) {
         if (memcmp(corners[c].at, corners[c - 1].at, sizeof corners[c].at)) continue;
-        const uint32_t a = root_of(f->root, corners[c - 1].lamp), b = root_of(f->root, corners[c].lamp);
+        const uint32_t a = root_of(root, corners[c - 1].lamp), b = root_of(root, corners[c].lamp);
         if (memcmp(lights[a].emission, lights[b].emission, sizeof lights[a].emission)) continue;
-        f->root[a > b ? a : b] = a > b ? b : a;
+        root[a > b ? a : b] = a > b ? b : a;
     }
+    return EC_OK;
+}
+
+ec_result ec_lamp_bodies(const ec_pack *pack, uint32_t *root, ec_error *err)
+{
+    const uint32_t lights = pack->light_count;
+    for (uint32_t i = 0; i < lights; i++) root[i] = i;
+    if (lights > 1 && lights <= LAMPS_MOST) EC_TRY(join_corners(pack, root, err));
+    for (uint32_t i = 0; i < lights; i++) root[i] = root_of(root, i);
     return EC_OK;
 }
 
@@ -124,11 +130,11 @@ ec_result ec_pack_bulbs(ec_pack *pack, ec_error *err)
     EC_FREED uint32_t *words = malloc(4 * (size_t)lamps * sizeof *words);
     pack->bulbs = malloc(lamps / LEAST * sizeof *pack->bulbs);
     if (!words || !pack->bulbs) return ec_fail(err, "out of memory for %u lights", lamps);
-    finder f = {.pack = pack, .root = words, .next = words + lamps, .count = words + 2 * (size_t)lamps, .order = words + 3 * (size_t)lamps};
-    for (uint32_t i = 0; i < lamps; i++) f.root[i] = i, f.next[i] = EC_NO_ID, f.count[i] = 1;
-    EC_TRY(join_corners(&f, err));
+    finder f = {.root = words, .next = words + lamps, .count = words + 2 * (size_t)lamps, .order = words + 3 * (size_t)lamps};
+    EC_TRY(ec_lamp_bodies(pack, f.root, err));
+    for (uint32_t i = 0; i < lamps; i++) f.next[i] = EC_NO_ID, f.count[i] = 1;
     for (uint32_t i = lamps; i-- > 0;) { /* from the back, so that lists begin with their roots */
-        const uint32_t root = root_of(f.root, i);
+        const uint32_t root = f.root[i];
         if (root == i) continue;
         f.next[i] = f.next[root];
         f.next[root] = i;

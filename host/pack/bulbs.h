@@ -5,6 +5,10 @@
 
 #include "pack/pack.h"
 
+/* Which body each light is of: the place of its first lamp. Lamp triangles of one emission that share a corner are of one body; everything else is one by
+ * itself, and so is each light where there are very many. root: room for pack->light_count, the caller's. */
+ec_result ec_lamp_bodies(const ec_pack *pack, uint32_t *root, ec_error *err);
+
 /* Puts the lamps of each bulb beside each other in the table, and in it those of each pair; the rest keeps its order. Where lamps stand still and the tree
  * is still to come. Before there are casters. */
 ec_result ec_pack_bulbs(ec_pack *pack, ec_error *err);

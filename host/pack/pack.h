@@ -54,6 +54,7 @@ typedef struct ec_pack {
     uint32_t *light_of_prim;       /* a triangle's place in lights, or EC_NO_ID; with a tree its lamp's trail, or 0 */
     uint32_t light_node_count;     /* 0: lights are chosen by power alone */
     ec_light_node *light_tree;
+    bool by_tree;                  /* lamps are to be chosen by a light tree */
     uint32_t bulb_count;
     ec_bulb *bulbs;                /* with a tree, in order: bulbs.h */
     uint32_t lamp_pair_count;      /* of lamps that face opposite ways: lamp_pairs.h */
@@ -122,12 +123,13 @@ ec_result ec_pack_map(const ec_environment *map, ec_packed_map *packed, ec_error
 void ec_packed_map_free(ec_packed_map *packed); /* zero-initialised is fine */
 ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean_luminance, ec_error *err);
 
-/* Is a tree worth its time: are there lamps far apart, by the scene's size and by their own? */
+/* Is a tree worth its time: are there lamps far apart, by the scene's size and by their own? Triangles of one body are one lamp. */
 #define EC_LIGHT_TREE_SPREAD 0.2 /* diagonal of the box around them, over the scene's radius */
 #define EC_LIGHT_TREE_SIZES 3.0  /* and over the size of one, the root of the mean square by power … */
+#define EC_LIGHT_TREE_BODY 0.5   /* diagonal of a body so large that each of its triangles is a lamp, over the scene's radius */
 #define EC_LIGHT_TREE_MANY 64    /* … where there are fewer than so many */
 #define EC_LIGHT_TREE_LEAST 0.002f /* of all power: beside what shines from far away less makes little noise */
-bool ec_pack_wants_light_tree(const ec_pack *pack);
+ec_result ec_pack_wants_light_tree(const ec_pack *pack, bool *wants, ec_error *err);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 

@@ -32,7 +32,8 @@ static bool wants_tree_of(int side, double size, double gap, double sky)
     ec_scene *scene = lamps(side, size, gap, sky);
     ec_pack pack;
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
-    bool wants = ec_pack_wants_light_tree(&pack);
+    bool wants = false;
+    CHECK_OK(ec_pack_wants_light_tree(&pack, &wants, &err), err);
     ec_pack_free(&pack);
     ec_scene_free(scene);
     return wants;
@@ -72,6 +73,8 @@ int main(void)
     CHECK(wants_tree_of(2, 0.5, 2.5, 0));
     CHECK(!wants_tree_of(2, 1.5, 2.5, 0)); /* panels all but next to each other */
     CHECK(!wants_tree_of(1, 2, 0, 0));
+    CHECK(!wants_tree_of(SIDE, 0.25, 0.25, 0)); /* one panel of many triangles */
+    CHECK(wants_tree_of(SIDE, 0.5, 0.5, 0));    /* one that is half of the scene */
     /* Lamps send pi 64 1e-4, the sky 4 pi^2 r^2 with a radius r of some 7: equal at a sky of 1e-5. */
     CHECK(wants_tree(0.5, 1e-5));
     CHECK(wants_tree(0.5, 2.5e-3)); /* 0.4 % */
