@@ -66,9 +66,9 @@ static void add_samplings(rung_list *list)
     if (ec_scene_casts(list->scene)) {
         begin(list, "light-paths", "Paths from the lights, instead of none");
         ec_cost_rung *chosen = add(list, "light-paths-guiding", "what auto takes if it pays");
-        chosen->options.light_paths = EC_LIGHT_PATHS_FEW;
+        chosen->options.light_paths = EC_LIGHT_PATHS_RARE;
         chosen->options.guiding = true;
-        add(list, "light-paths", "--light-paths %g", EC_LIGHT_PATHS_FEW)->options.light_paths = EC_LIGHT_PATHS_FEW;
+        add(list, "light-paths", "--light-paths %g", EC_LIGHT_PATHS_RARE)->options.light_paths = EC_LIGHT_PATHS_RARE;
         add(list, "guiding", "--guiding")->options.guiding = true;
     }
     begin(list, "sampling", "Sampling of directions, instead of mis");

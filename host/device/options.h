@@ -34,8 +34,8 @@ typedef enum ec_integrator {
 static inline bool ec_traces_paths(ec_integrator i) { return i == EC_INTEGRATOR_PATH || i == EC_INTEGRATOR_LIGHT; }
 
 #define EC_LIGHT_PATHS_MOST 16
-#define EC_LIGHT_PATHS_AUTO (-1.0) /* render/caustics.c decides: EC_LIGHT_PATHS_FEW, or none */
-#define EC_LIGHT_PATHS_FEW 0.0625
+#define EC_LIGHT_PATHS_AUTO (-1.0) /* render/caustics.c decides */
+#define EC_LIGHT_PATHS_RARE 0.25   /* for caustics that camera paths hardly ever meet */
 #define EC_LIGHT_PATHS_ALONE 1.0 /* of --integrator light */
 #define EC_WHITTED_DEPTH 10     /* segments of Whitted's trees where max_depth is 0 */
 #define EC_WHITTED_DEPTH_MOST 64 /* each takes 48 bytes a path in flight */

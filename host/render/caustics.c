@@ -36,7 +36,7 @@ static void note_rare(const ec_rare_kind *most, double variance, const ec_log *l
     char way[EC_RARE_WAY];
     ec_rare_way(most->through, most->light, way, sizeof way);
     ec_note(log, "caustics: paths %s are so rare that their noise would be %.0f %% at 64 samples a pixel; light paths are traced too, one for %.0f from the "
-                 "camera, and guide directions (--light-paths 0: none)", way, 12.5 * sqrt(variance), 1 / EC_LIGHT_PATHS_FEW);
+                 "camera, and guide directions (--light-paths 0: none)", way, 12.5 * sqrt(variance), 1 / EC_LIGHT_PATHS_RARE);
 }
 
 /* Are there caustics that paths have hardly ever met? */

@@ -149,7 +149,7 @@ static void begin_again(ec_render_state *r)
 static void choose_light_paths(ec_render_state *r, ec_caustics caustics)
 {
     if (!caustics) return;
-    r->chosen.light_paths = caustics == EC_CAUSTICS_RARE ? EC_LIGHT_PATHS_FEW : r->joined.number;
+    r->chosen.light_paths = caustics == EC_CAUSTICS_RARE ? EC_LIGHT_PATHS_RARE : r->joined.number;
     r->chosen.guiding |= caustics == EC_CAUSTICS_RARE;
 }
 

@@ -58,8 +58,8 @@ class LightPaths(OtherWay):
         run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
         chosen = json.loads(run.stdout)
         self.assertRegex(run.stderr, r'note: caustics: paths through "ring" to "lamp" .*--light-paths 0')
-        self.assertEqual((chosen["light_paths"], chosen["guiding"]), (0.0625, True))
-        self.assertEqual(chosen["image_sha256"], self.render(*job, "--light-paths", "0.0625", "--guiding")["image_sha256"])
+        self.assertEqual((chosen["light_paths"], chosen["guiding"]), (0.25, True))
+        self.assertEqual(chosen["image_sha256"], self.render(*job, "--light-paths", "0.25", "--guiding")["image_sha256"])
         for other in (["--light-paths", "0"], ["--clamp", "10"], ["--sample", "bsdf"]):
             with self.subTest(other=other):
                 self.assertIsNone(self.render(*job, *other)["light_paths"])
@@ -113,7 +113,7 @@ class LightPaths(OtherWay):
         seen["nodes"].append({"mesh": len(seen["meshes"]) - 1})
         shutil.copy(os.path.join(os.path.dirname(RING), "ring.bin"), self.folder)
         job = [write_gltf(self.path("seen.gltf"), seen), "--size", "24x18", "--spp", "16", "--eye", "0.9,3.2,2.6"]
-        self.assertEqual(self.render(*job, "--look-at", "0,0,0")["light_paths"], 0.0625)
+        self.assertEqual(self.render(*job, "--look-at", "0,0,0")["light_paths"], 0.25)
         self.assertIsNone(self.render(*job, "--look-at", "0,6.8,0")["light_paths"])
 
     @full
@@ -121,7 +121,7 @@ class LightPaths(OtherWay):
         """A job with --error that goes on, or is shared out, chooses as the whole."""
         job = [RING, "--size", "24x18"]
         found = self.render(*job, "--error", "40%")
-        self.assertEqual((found["adaptive"], found["light_paths"]), (True, 0.0625))
+        self.assertEqual((found["adaptive"], found["light_paths"]), (True, 0.25))
         self.assertLessEqual(found["error_bound"], 0.4)
         self.assert_slices_and_resume(job)
         self.render(*job, "--error", "60%", "--checkpoint", self.path("e.exr"))
