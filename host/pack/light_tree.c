@@ -39,7 +39,7 @@ static uint32_t levels_of(uint32_t count)
     return levels;
 }
 
-static uint32_t record_nodes(uint32_t lamps) { return (2 + lamps + EC_LIGHT_NODE_WORDS - 1) / EC_LIGHT_NODE_WORDS; }
+static uint32_t record_nodes(uint32_t lamps) { return (2 + 2 * lamps + EC_LIGHT_NODE_WORDS - 1) / EC_LIGHT_NODE_WORDS; }
 
 /* Nodes below one of an item of so many lamps. */
 static uint32_t nodes_below(uint32_t lamps) { return lamps > 1 ? 2 * (lamps - 1) + record_nodes(lamps) : 0; }
@@ -121,10 +121,13 @@ static void write_record(const ec_light_set *set, const ec_bulb *bulb, ec_light_
     double weights[EC_LAMP_PAIRS_MOST];
     uint32_t *words = (uint32_t *)memset(record, 0, record_nodes(bulb->count) * sizeof *record);
     for (uint32_t i = 0; i < bulb->count; i++) weights[i] = set->bounds[bulb->first + i].power;
-    ec_distribution_share(weights, bulb->count, 0, (uint64_t)1 << 32, table, weights);
+    ec_distribution_build(weights, bulb->count, table, weights);
     words[0] = set->ids[bulb->first];
     words[1] = bulb->count;
-    for (uint32_t i = 0; i < bulb->count; i++) words[2 + i] = table[i].first;
+    for (uint32_t i = 0; i < bulb->count; i++) {
+        words[2 + i] = table[i].first;
+        words[2 + bulb->count + i] = table[i].guide;
+    }
 }
 
 static void grow(const builder *b, task t);

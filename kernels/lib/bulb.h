@@ -1,6 +1,7 @@
 /* Bulbs: lamps of one body that the light tree takes together where they are far away (host/pack/bulbs.c). Then the lamp is chosen by its power and by
  * whether it faces the point (lamp_pairs.h), which costs less than the way down to a leaf of many. A bulb's record, in words from a node of the tree
- * on: its first lamp's place in the table, how many they are, and of each of them in turn the first of 2^32 numbers that choose it. */
+ * on: its first lamp's place in the table, how many they are, of each of them in turn the first of 2^32 numbers that choose it, and as
+ * many guides (distribution.h). */
 #ifndef EC_LIB_BULB_H
 #define EC_LIB_BULB_H
 
@@ -52,7 +53,11 @@ EC_FN lane_u bulb_faces(const bulb *b, const lights *l, lane_i m, v3 p, lane_u k
 /* The lamp that number `rest` chooses for p; the numbers that do so are *low … *high - 1. */
 EC_FN lane_u bulb_choose(const bulb *b, const lights *l, lane_i m, v3 p, lane_u rest, lane_u *low, lane_u *high)
 {
-    lane_u k = U(0), last = b->count - 1u;
+    /* Of as many equal parts of all numbers that in which `rest` lies, by one at most: entries from that before it to that behind. */
+    lane_u end = b->count - 1u, guides = b->at + 2u + b->count;
+    lane_u part = int_to_lane_u(to_lane_i(to_lane_f(rest) / to_lane_f(b->all) * to_lane_f(b->count)));
+    lane_u last = gather_u(b->words, guides + min(part + 1u, end));
+    lane_u k = part < 2u ? U(0) : gather_u(b->words, guides + (part < 2u ? U(0) : part - 2u));
     while (any_lane(m & (k < last))) {
         lane_u middle = (k + last + 1u) >> 1u;
         lane_i is_past = bulb_edge(b, middle) > rest;

@@ -47,14 +47,14 @@ EC_FN lane_f light_node_weight(quad place, quad cone, quad rest, v3 p, lane_f *d
     return c < -EC_TREE_DARK ? F(0.0f) : rest.a * max(c, F(EC_TREE_DARK));
 }
 
-/* How many of `all` numbers the first of two children gets, and where both lead. */
-EC_FN lane_u light_tree_share(global const float *tree, lane_u child, v3 p, lane_u all, lane_u *first, lane_u *second)
+/* How many of `all` numbers the first of two children gets, and where both lead. at_root: they are the root's, on all lanes. */
+EC_FN lane_u light_tree_share(global const float *tree, lane_u child, bool at_root, v3 p, lane_u all, lane_u *first, lane_u *second)
 {
     lane_u at = child * EC_LIGHT_NODE_WORDS;
     lane_f da, db;
-    quad a = gather_quad(tree, at + 8u), b = gather_quad(tree, at + 20u);
-    lane_f wa = light_node_weight(gather_quad(tree, at), gather_quad(tree, at + 4u), a, p, &da, first);
-    lane_f wb = light_node_weight(gather_quad(tree, at + 12u), gather_quad(tree, at + 16u), b, p, &db, second);
+    quad a = gather_quad_if(at_root, tree, at + 8u), b = gather_quad_if(at_root, tree, at + 20u);
+    lane_f wa = light_node_weight(gather_quad_if(at_root, tree, at), gather_quad_if(at_root, tree, at + 4u), a, p, &da, first);
+    lane_f wb = light_node_weight(gather_quad_if(at_root, tree, at + 12u), gather_quad_if(at_root, tree, at + 16u), b, p, &db, second);
     lane_f ia = wa * db, ib = wb * da, sum = ia + ib;
     lane_i good = (sum > 0.0f) & is_finite_bits(sum), dark = (wa == 0.0f) & (wb == 0.0f);
     lane_f share = good ? ia / sum : F(0.5f);
@@ -68,9 +68,11 @@ EC_FN lane_u light_tree_share(global const float *tree, lane_u child, v3 p, lane
 EC_FN lane_u light_tree_choose(const lights *l, lane_i m, v3 p, lane_u rest, uint numbers, lane_u r, lane_f *pmf, lane_f *left)
 {
     lane_u link = U(1u), all = U(numbers);
+    bool at_root = true;
     *pmf = F(1.0f / 2147483648.0f);
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
-        lane_u first, second, share = light_tree_share(l->tree, going ? link : U(1u), p, all, &first, &second);
+        lane_u first, second, share = light_tree_share(l->tree, going ? link : U(1u), at_root, p, all, &first, &second);
+        at_root = false;
         lane_i is_first = rest < share;
         rest = (going & !is_first) ? rest - share : rest;
         all = going ? (is_first ? share : all - share) : all;
@@ -113,9 +115,11 @@ EC_FN lane_u light_tree_end(global const float *tree, lane_i m, lane_u child, la
 EC_FN lane_f light_tree_pmf(const lights *l, lane_i m, v3 p, uint numbers, lane_u trail)
 {
     lane_u link = U(1u), all = U(numbers);
+    bool at_root = true;
     lane_f pmf = F(1.0f / 2147483648.0f);
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
-        lane_u first, second, share = light_tree_share(l->tree, going ? link : U(1u), p, all, &first, &second);
+        lane_u first, second, share = light_tree_share(l->tree, going ? link : U(1u), at_root, p, all, &first, &second);
+        at_root = false;
         lane_i is_first = (trail & 1u) == 0u;
         trail = going ? trail >> 1 : trail;
         all = going ? (is_first ? share : all - share) : all;

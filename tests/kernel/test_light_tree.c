@@ -135,7 +135,7 @@ int main(void)
     make_lamps();
     make_bulbs();
     const ec_light_set set = {LAMPS, bounds, ids, 2, bulbs};
-    CHECK(ec_light_tree_nodes(&set) == 2 * LAMPS - 1 + 13 + 6 && 2 * LAMPS + 18 < sizeof nodes / sizeof *nodes);
+    CHECK(ec_light_tree_nodes(&set) == 2 * LAMPS - 1 + 26 + 11 && 2 * LAMPS + 36 < sizeof nodes / sizeof *nodes);
     CHECK_OK(ec_light_tree_build(&set, nodes, trails, &err), err);
     int widths = kernel_widths(&cl);
     uint32_t unlit = 0;
