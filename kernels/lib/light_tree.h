@@ -68,7 +68,7 @@ EC_FN lane_u light_tree_share(global const float *tree, lane_u child, bool at_ro
 EC_FN lane_u light_tree_choose(const lights *l, lane_i m, v3 p, lane_u rest, uint numbers, lane_u r, lane_f *pmf, lane_f *left)
 {
     lane_u link = U(1u), all = U(numbers);
-    bool at_root = true;
+    bool at_root = LANES > 1;
     *pmf = F(1.0f / 2147483648.0f);
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
         lane_u first, second, share = light_tree_share(l->tree, going ? link : U(1u), at_root, p, all, &first, &second);
@@ -115,7 +115,7 @@ EC_FN lane_u light_tree_end(global const float *tree, lane_i m, lane_u child, la
 EC_FN lane_f light_tree_pmf(const lights *l, lane_i m, v3 p, uint numbers, lane_u trail)
 {
     lane_u link = U(1u), all = U(numbers);
-    bool at_root = true;
+    bool at_root = LANES > 1;
     lane_f pmf = F(1.0f / 2147483648.0f);
     for (lane_i going = m; any_lane(going); going = m & (link < EC_LIGHT_LEAF)) {
         lane_u first, second, share = light_tree_share(l->tree, going ? link : U(1u), at_root, p, all, &first, &second);
