@@ -7,7 +7,6 @@
 #include "base/freed.h"
 #include "base/vec3.h"
 #include "pack/lamp_pairs.h"
-#include "pack/light_order.h"
 
 #define LEAST 8               /* lamps: fewer are soon told apart by the tree */
 #define LAMPS_MOST (1u << 18) /* in all: their corners are sorted */
