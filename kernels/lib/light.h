@@ -272,7 +272,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     else id = distribution_pick_few(l->shares, count, r1, &first, &share);
     lane_u rest = r1 - first;
     lane_f u1 = choice_rest(rest, share, r1), chance = F(1.0f);
-    if (HAS(LIGHT_TREE) && l->tree) {
+    if (lights_have_tree(l)) {
         lane_i m_lamp = m & (id + 1u == count);
         if (any_lane(m_lamp)) {
             lane_f pmf, left;
@@ -285,7 +285,7 @@ EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m
     light_record one = light_load(l, id);
     one.pmf *= chance;
     one.pdf_a *= chance;
-    if (HAS(LAMP_PAIRS) && !(HAS(LIGHT_TREE) && l->tree)) light_choose_of_pair(l, m, p, &one, &id, &u1);
+    if (HAS(LAMP_PAIRS) && !lights_have_tree(l)) light_choose_of_pair(l, m, p, &one, &id, &u1);
     one.pmf *= light_share_scale(params, one.kind);
     one.pdf_a *= light_share_of_lamp(params);
     if (HAS(MOTION) && g->motion) light_move(g, &one);

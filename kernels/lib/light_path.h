@@ -202,7 +202,7 @@ EC_FN lane_f light_path_joined_pdf(const lights *l, const geometry *g, lane_i m,
     light_record one = light_load(l, id);
     lane_u type = one.kind & EC_LIGHT_KIND_MASK;
     lane_f chance = F(1.0f);
-    if (HAS(LIGHT_TREE) && l->tree) {
+    if (lights_have_tree(l)) {
         lane_i near = m & (type != EC_KIND_DIRECTIONAL) & (type != EC_KIND_ENVIRONMENT);
         if (any_lane(near)) {
             lane_f pmf = light_tree_pmf(l, near, p, params->light_tree_numbers, gather_u(l->emission, id + 3u * params->light_count));
@@ -218,7 +218,7 @@ EC_FN lane_f light_path_joined_pdf(const lights *l, const geometry *g, lane_i m,
             v3 way = v3_sub(p, source), n = v3_normalize(v3_cross(v3_sub(h.p1, h.p0), v3_sub(h.p2, h.p0)));
             h.light_pdf_a *= chance;
             lane_i paired = is & ((one.kind & EC_LIGHT_PAIRED) != 0u);
-            if (HAS(LAMP_PAIRS) && !(HAS(LIGHT_TREE) && l->tree) && any_lane(paired)) {
+            if (HAS(LAMP_PAIRS) && !lights_have_tree(l) && any_lane(paired)) {
                 light_record other = light_load(l, paired ? pair_partner(one.kind, id) : U(0));
                 lane_f own = pair_chance(one.a, one.b, one.c, one.pmf, &other, p);
                 h.light_pdf_a *= paired ? own : F(1.0f);

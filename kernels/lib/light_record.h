@@ -15,6 +15,8 @@ typedef struct lights {
     global const uint *emission; /* with LIGHT_PATHS: which light sends them (light_path.h) */
 } lights;
 
+EC_FN bool lights_have_tree(const lights *l) { return HAS(LIGHT_TREE) && l->tree; }
+
 /* One light's 16 words. */
 typedef struct light_record {
     v3 a, b, c, emission;

@@ -354,10 +354,11 @@ class Info(Case):
                      "memory", "BVH"]:
             self.assertRegex(run.stdout, rf"(?m)^{word} ")
 
-    def test_pairs_of_lamps_where_there_is_no_tree(self):
-        for choice, expected in (("power", {"lamp-pairs"}), ("tree", {"light-tree"})):
-            with self.subTest(choice=choice):
-                self.assertEqual({"lamp-pairs", "light-tree"} & set(self.info(RING, "--light-choice", choice)["effects"]), expected)
+    def test_pairs_of_lamps_with_a_tree_and_without(self):
+        for job, expected in (((RING, "--light-choice", "power"), {"lamp-pairs"}), ((RING, "--light-choice", "tree"), {"lamp-pairs", "light-tree"}),
+                              ((CORNELL, "--light-choice", "tree"), {"light-tree"})):
+            with self.subTest(job=job):
+                self.assertEqual({"lamp-pairs", "light-tree"} & set(self.info(*job)["effects"]), expected)
 
     def test_what_casts_caustics(self):
         found = self.assert_ok(eclat("info", RING)).stdout
