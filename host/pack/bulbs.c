@@ -78,6 +78,22 @@ ec_result ec_lamp_bodies(const ec_pack *pack, uint32_t *root, ec_error *err)
     return EC_OK;
 }
 
+/* Is it small for the scene? Of what is not, little is far away. */
+static bool is_small(const ec_light_data *members, uint32_t count, float scene_radius)
+{
+    const double most = EC_LIGHT_TREE_BODY * (double)scene_radius;
+    double across2 = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        double low = INFINITY, high = -INFINITY;
+        for (uint32_t i = 0; i < count; i++) {
+            const double at[3] = {members[i].a[axis], members[i].b[axis], members[i].c[axis]};
+            for (int k = 0; k < 3; k++) low = fmin(low, at[k]), high = fmax(high, at[k]);
+        }
+        across2 += (high - low) * (high - low);
+    }
+    return across2 <= most * most;
+}
+
 /* Is the lamp that shines on a far point well chosen by power? */
 static bool is_even(const ec_light_data *members, uint32_t count, const uint32_t *partner)
 {
@@ -108,6 +124,7 @@ static ec_result place_body(finder *f, ec_pack *pack, uint32_t i, ec_error *err)
         members[n] = pack->lights[k];
         ids[n++] = k;
     }
+    if (!is_small(members, count, pack->scene_radius)) return EC_OK;
     EC_TRY(ec_lamp_pairs_match(members, count, partner, &pairs, err));
     if (!is_even(members, count, partner)) return EC_OK;
     ec_lamp_pairs_order(members, count, partner, order);

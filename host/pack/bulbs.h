@@ -1,5 +1,5 @@
 /* Bulbs: lamp triangles that share corners and are of one emission, and of which the lamp that shines on a far point is as well chosen by its power as by
- * the light tree: closed bodies, whose triangles are pairs (lamp_pairs.h), and panels. */
+ * the light tree: closed bodies, whose triangles are pairs (lamp_pairs.h), and panels; none larger than EC_LIGHT_TREE_BODY says. */
 #ifndef EC_PACK_BULBS_H
 #define EC_PACK_BULBS_H
 

@@ -36,6 +36,7 @@ static void check_scene(void)
     add_ball(w, dim, (double[3]){10, 0, 0}, 6, 1);
     add_ball(w, dim, (double[3]){20, 0, 0}, 6, 0.5);
     for (int i = 0; i < 16; i++) gltf_quad(w, dim, (double[3]){i % 4, 20, i / 4}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1});
+    for (int i = 0; i < 16; i++) gltf_quad(w, dim, (double[3]){5 * (i % 4), -9, 5 * (i / 4)}, (double[3]){5, 0, 0}, (double[3]){0, 0, 5}); /* large */
     ec_pack pack = pack_of(w, "bulbs");
     ec_error err = {0};
     const uint32_t all = pack.light_count;
