@@ -23,7 +23,7 @@ static void swap(float *a, float *b)
 }
 
 /* Equal for every order of the corners that means the same emitter. */
-static corners corners_of(const ec_prim *p, bool two_sided)
+static corners corners_of(const ec_prim *p)
 {
     corners c;
     memcpy(c.v[0], p->v0, sizeof c.v[0]);
@@ -35,7 +35,6 @@ static corners corners_of(const ec_prim *p, bool two_sided)
             swap(c.v[0], c.v[1]);
             swap(c.v[1], c.v[2]);
         }
-    if (two_sided && compare(c.v[2], c.v[1]) < 0) swap(c.v[1], c.v[2]);
     return c;
 }
 
@@ -61,7 +60,7 @@ static uint32_t find_or_add(const ec_scene *scene, const ec_pack *pack, uint32_t
 {
     const ec_prim *p = &pack->prims[prim];
     bool two_sided = is_two_sided(scene, p);
-    corners own = corners_of(p, two_sided);
+    corners own = corners_of(p);
     for (uint64_t at = hash_of(&own) & mask;; at = (at + 1) & mask) {
         if (!table[at]) {
             table[at] = prim + 1;
@@ -69,7 +68,7 @@ static uint32_t find_or_add(const ec_scene *scene, const ec_pack *pack, uint32_t
         }
         const ec_prim *q = &pack->prims[table[at] - 1];
         if (is_two_sided(scene, q) != two_sided) continue;
-        corners other = corners_of(q, two_sided);
+        corners other = corners_of(q);
         if (!memcmp(&own, &other, sizeof own)) return table[at] - 1;
     }
 }

@@ -6,9 +6,9 @@
 
 #include "pack/pack.h"
 
-/* For every triangle of an emitting material the first one that emits where it does, often itself: same corners, and the same
- * front or both two-sided. Rays meet only that one, so light sampling must count it once. malloc'ed; other entries are
- * undefined. Lamps back to back or shifted in their plane stay two: where rays meet only one of them, light sampling finds more. */
+/* For every triangle of an emitting material the first one that emits where it does, often itself: same corners, the same
+ * front, and both two-sided or neither. Rays meet only that one, so light sampling must count it once. malloc'ed; other entries are
+ * undefined. Lamps back to back or shifted in their plane stay two: of such a ray meets the one that faces it (kernels/lib/coplanar.h). */
 ec_result ec_coincident_find(const ec_scene *scene, const ec_pack *pack, const bool *emits, uint32_t **first, ec_error *err);
 
 #endif

@@ -103,7 +103,7 @@ static ec_result flattened(int rank, ec_scene **scene, ec_error *err)
 static ec_result singular_nodes_case(ec_selftest *t, ec_error *err)
 {
     static const char *const names[3] = {"a point", "a line", "a disc"};
-    ec_render_options o = ec_shot_options(t, 8, 256);
+    ec_render_options o = ec_shot_options(t, 8, 8192);
     for (int rank = 0; rank < 3; rank++) {
         ec_scene *scene;
         EC_TRY(flattened(rank, &scene, err));
