@@ -64,8 +64,8 @@ static void make_bulbs(void)
     for (uint32_t i = 0; i < 64; i++) {
         ec_light_data *l = &lamps[600 + i];
         *l = (ec_light_data){.kind = EC_KIND_TRIANGLE, .a = {i % 8 * 0.1f, i / 8 * 0.1f, 5}};
-        for (int k = 0; k < 3; k++) l->b[k] = l->a[k] + (k == 0) * 0.1f, l->c[k] = l->a[k] + (k == 1) * 0.1f;
-        bounds[600 + i] = ec_light_bounds_of(l, 0.01);
+        for (int k = 0; k < 3; k++) l->b[k] = l->a[k] + (k == 1) * 0.1f, l->c[k] = l->a[k] + (k == 0) * 0.1f; /* looks down on most points */
+        bounds[600 + i] = ec_light_bounds_of(l, 10);
     }
 }
 
