@@ -7,13 +7,14 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/freed.h"
 #include "device/ahead.h"
 #include "device/light_batch.h"
 #include "device/light_share.h"
 #include "device/pipeline.h"
 #include "device/pixel_filter.h"
-#include "pack/distribution.h"
 #include "pack/bulbs.h"
+#include "pack/distribution.h"
 #include "pack/lamp_pairs.h"
 
 static void add_accel_buffers(ec_cargo *cargo, uint32_t which, const ec_accel *accel, bool owned)
@@ -128,9 +129,13 @@ static bool joins_still_lamps(const ec_render_options *o, const ec_pack *pack)
 static ec_result prepare_lamps(const ec_render_options *o, ec_pack *pack, ec_error *err)
 {
     if (!joins_still_lamps(o, pack)) return EC_OK;
-    pack->by_tree = o->light_choice == EC_LIGHTS_BY_TREE;
-    if (o->light_choice == EC_LIGHTS_AUTO) EC_TRY(ec_pack_wants_light_tree(pack, &pack->by_tree, err));
-    return pack->by_tree ? ec_pack_bulbs(pack, err) : ec_pack_lamp_pairs(pack, err);
+    if (o->light_choice == EC_LIGHTS_BY_POWER) return ec_pack_lamp_pairs(pack, err);
+    EC_FREED uint32_t *root = malloc((pack->light_count + (size_t)1) * sizeof *root);
+    if (!root) return ec_fail(err, "out of memory for %u lights", pack->light_count);
+    EC_TRY(ec_lamp_bodies(pack, root, err));
+    pack->by_tree = true;
+    if (o->light_choice == EC_LIGHTS_AUTO) EC_TRY(ec_pack_wants_light_tree(pack, root, &pack->by_tree, err));
+    return pack->by_tree ? ec_pack_bulbs(pack, root, err) : ec_pack_lamp_pairs(pack, err);
 }
 
 /* called_for: the scene itself, or that of which it is what is written out: rounding may not change effects. Which faces lie in one plane is found out

@@ -7,6 +7,7 @@
 #include "base/freed.h"
 #include "base/vec3.h"
 #include "pack/lamp_pairs.h"
+#include "pack/light_bounds.h"
 
 #define LEAST 8               /* lamps: fewer are soon told apart by the tree */
 #define LAMPS_MOST (1u << 18) /* in all: their corners are sorted */
@@ -82,16 +83,12 @@ ec_result ec_lamp_bodies(const ec_pack *pack, uint32_t *root, ec_error *err)
 static bool is_small(const ec_light_data *members, uint32_t count, float scene_radius)
 {
     const double most = EC_LIGHT_TREE_BODY * (double)scene_radius;
-    double across2 = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        double low = INFINITY, high = -INFINITY;
-        for (uint32_t i = 0; i < count; i++) {
-            const double at[3] = {members[i].a[axis], members[i].b[axis], members[i].c[axis]};
-            for (int k = 0; k < 3; k++) low = fmin(low, at[k]), high = fmax(high, at[k]);
-        }
-        across2 += (high - low) * (high - low);
+    ec_light_bounds all = {.power = 0};
+    for (uint32_t i = 0; i < count; i++) {
+        const ec_light_bounds one = ec_light_bounds_of(&members[i], members[i].pmf);
+        ec_light_bounds_add(&all, &one);
     }
-    return across2 <= most * most;
+    return ec_light_bounds_size2(&all) <= most * most;
 }
 
 /* Is the lamp that shines on a far point well chosen by power? */
@@ -139,7 +136,7 @@ static ec_result place_body(finder *f, ec_pack *pack, uint32_t i, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_pack_bulbs(ec_pack *pack, ec_error *err)
+ec_result ec_pack_bulbs(ec_pack *pack, const uint32_t *root, ec_error *err)
 {
     const uint32_t lamps = pack->light_count;
     if (lamps < LEAST || lamps > LAMPS_MOST) return EC_OK;
@@ -147,14 +144,13 @@ ec_result ec_pack_bulbs(ec_pack *pack, ec_error *err)
     pack->bulbs = malloc(lamps / LEAST * sizeof *pack->bulbs);
     if (!words || !pack->bulbs) return ec_fail(err, "out of memory for %u lights", lamps);
     finder f = {.root = words, .next = words + lamps, .count = words + 2 * (size_t)lamps, .order = words + 3 * (size_t)lamps};
-    EC_TRY(ec_lamp_bodies(pack, f.root, err));
-    for (uint32_t i = 0; i < lamps; i++) f.next[i] = EC_NO_ID, f.count[i] = 1;
+    for (uint32_t i = 0; i < lamps; i++) f.root[i] = root[i], f.next[i] = EC_NO_ID, f.count[i] = 1;
     for (uint32_t i = lamps; i-- > 0;) { /* from the back, so that lists begin with their roots */
-        const uint32_t root = f.root[i];
-        if (root == i) continue;
-        f.next[i] = f.next[root];
-        f.next[root] = i;
-        f.count[root]++;
+        const uint32_t first = root[i];
+        if (first == i) continue;
+        f.next[i] = f.next[first];
+        f.next[first] = i;
+        f.count[first]++;
     }
     for (uint32_t i = 0; i < lamps; i++)
         if (f.root[i] != EC_NO_ID) EC_TRY(place_body(&f, pack, i, err));

@@ -9,8 +9,8 @@
  * itself, and so is each light where there are very many. root: room for pack->light_count, the caller's. */
 ec_result ec_lamp_bodies(const ec_pack *pack, uint32_t *root, ec_error *err);
 
-/* Puts the lamps of each bulb beside each other in the table, and in it those of each pair; the rest keeps its order. Where lamps stand still and the tree
+/* Puts the lamps of each bulb beside each other in the table, and in it those of each pair; the rest keeps its order. root: of ec_lamp_bodies. Where lamps stand still and the tree
  * is still to come. Before there are casters. */
-ec_result ec_pack_bulbs(ec_pack *pack, ec_error *err);
+ec_result ec_pack_bulbs(ec_pack *pack, const uint32_t *root, ec_error *err);
 
 #endif

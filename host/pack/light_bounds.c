@@ -77,7 +77,7 @@ void ec_light_bounds_add(ec_light_bounds *to, const ec_light_bounds *other)
     to->two_sided |= other->two_sided;
 }
 
-static double size2(const ec_light_bounds *b)
+double ec_light_bounds_size2(const ec_light_bounds *b)
 {
     double sum = 0;
     for (int k = 0; k < 3; k++) sum += (b->high[k] - b->low[k]) * (b->high[k] - b->low[k]);
@@ -90,7 +90,7 @@ double ec_light_bounds_cost(const ec_light_bounds *b)
     if (!(b->power > 0)) return 0;
     double o = acos(b->cos_spread), w = fmin(o + 0.5 * PI, PI), so = sin(o), co = b->cos_spread;
     double spread = 2 * PI * (1 - co) + 0.5 * PI * (2 * w * so - cos(o - 2 * w) - 2 * o * so + co);
-    return b->power * spread * size2(b);
+    return b->power * spread * ec_light_bounds_size2(b);
 }
 
 ec_light_node ec_light_bounds_node(const ec_light_bounds *b, double most_power)

@@ -18,6 +18,8 @@ typedef struct ec_light_bounds {
 
 ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power); /* a triangle, point or spot */
 void ec_light_bounds_add(ec_light_bounds *to, const ec_light_bounds *other);
+/* The squared diagonal of the box. */
+double ec_light_bounds_size2(const ec_light_bounds *bounds);
 /* The likely cost of the lamps as a node of their own: power, size and spread (Conty Estevez and Kulla 2018, equation 1). */
 double ec_light_bounds_cost(const ec_light_bounds *bounds);
 /* Everything but the link; never smaller than the bounds, in float. */

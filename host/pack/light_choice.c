@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/freed.h"
-#include "pack/bulbs.h"
 #include "pack/casters.h"
 #include "pack/distribution.h"
 #include "pack/light_bounds.h"
@@ -19,64 +18,34 @@ static uint32_t lamp_count(const ec_pack *pack)
     return count;
 }
 
-static double square_across(const double low[3], const double high[3])
-{
-    double sum = 0;
-    for (int k = 0; k < 3; k++) sum += (high[k] - low[k]) * (high[k] - low[k]);
-    return sum;
-}
-
-typedef struct box {
-    double low[3], high[3], power;
-} box;
-
-static void widen(box *b, const box *other)
-{
-    if (!(b->power > 0)) *b = *other;
-    else {
-        for (int k = 0; k < 3; k++) b->low[k] = fmin(b->low[k], other->low[k]), b->high[k] = fmax(b->high[k], other->high[k]);
-        b->power += other->power;
-    }
-}
-
-static box box_of(const ec_light_data *l)
-{
-    const ec_light_bounds bounds = ec_light_bounds_of(l, l->pmf);
-    box b = {.power = bounds.power};
-    memcpy(b.low, bounds.low, sizeof b.low);
-    memcpy(b.high, bounds.high, sizeof b.high);
-    return b;
-}
-
 /* A tree takes its time at every surface (a sixth to three quarters of a sample's). That is well spent where lamps are in different places; of
  * a bulb of many triangles, or of the two of a large panel, all are as near, and power alone is as good. */
-ec_result ec_pack_wants_light_tree(const ec_pack *pack, bool *wants, ec_error *err)
+ec_result ec_pack_wants_light_tree(const ec_pack *pack, const uint32_t *root, bool *wants, ec_error *err)
 {
     const uint32_t count = pack->light_count;
     const double radius2 = (double)pack->scene_radius * (double)pack->scene_radius;
     uint32_t lamps = 0;
     double size2 = 0;
-    box all = {.power = 0};
+    ec_light_bounds all = {.power = 0};
     *wants = false;
     if (lamp_count(pack) < 2 || pack->lamp_share < EC_LIGHT_TREE_LEAST) return EC_OK;
-    EC_FREED uint32_t *root = malloc(count * sizeof *root);
-    EC_FREED box *bodies = calloc(count, sizeof *bodies);
-    if (!root || !bodies) return ec_fail(err, "out of memory for %u lights", count);
-    EC_TRY(ec_lamp_bodies(pack, root, err));
+    EC_FREED ec_light_bounds *bodies = calloc(count, sizeof *bodies);
+    if (!bodies) return ec_fail(err, "out of memory for %u lights", count);
     for (uint32_t i = 0; i < count; i++) {
         if (ec_light_is_far(&pack->lights[i])) continue;
-        const box one = box_of(&pack->lights[i]);
-        widen(&bodies[root[i]], &one);
-        widen(&all, &one);
+        const ec_light_bounds one = ec_light_bounds_of(&pack->lights[i], pack->lights[i].pmf);
+        ec_light_bounds_add(&bodies[root[i]], &one);
+        ec_light_bounds_add(&all, &one);
     }
     for (uint32_t i = 0; i < count; i++) {
         if (ec_light_is_far(&pack->lights[i])) continue;
-        const box *body = &bodies[root[i]], one = box_of(&pack->lights[i]);
-        const bool is_large = square_across(body->low, body->high) > EC_LIGHT_TREE_BODY * EC_LIGHT_TREE_BODY * radius2;
-        size2 += one.power * (is_large ? square_across(one.low, one.high) : square_across(body->low, body->high));
+        const ec_light_bounds one = ec_light_bounds_of(&pack->lights[i], pack->lights[i].pmf);
+        const double body2 = ec_light_bounds_size2(&bodies[root[i]]);
+        const bool is_large = body2 > EC_LIGHT_TREE_BODY * EC_LIGHT_TREE_BODY * radius2;
+        size2 += one.power * (is_large ? ec_light_bounds_size2(&one) : body2);
         lamps += is_large || root[i] == i;
     }
-    const double spread2 = square_across(all.low, all.high);
+    const double spread2 = ec_light_bounds_size2(&all);
     *wants = lamps > 1 && spread2 > EC_LIGHT_TREE_SPREAD * EC_LIGHT_TREE_SPREAD * radius2
              && (lamps >= EC_LIGHT_TREE_MANY || spread2 * all.power > EC_LIGHT_TREE_SIZES * EC_LIGHT_TREE_SIZES * size2);
     return EC_OK;

@@ -129,7 +129,8 @@ ec_result ec_pack_environment(const ec_scene *scene, ec_pack *pack, double *mean
 #define EC_LIGHT_TREE_BODY 0.5   /* diagonal of a body so large that each of its triangles is a lamp, over the scene's radius */
 #define EC_LIGHT_TREE_MANY 64    /* … where there are fewer than so many */
 #define EC_LIGHT_TREE_LEAST 0.002f /* of all power: beside what shines from far away less makes little noise */
-ec_result ec_pack_wants_light_tree(const ec_pack *pack, bool *wants, ec_error *err);
+/* root: of ec_lamp_bodies. */
+ec_result ec_pack_wants_light_tree(const ec_pack *pack, const uint32_t *root, bool *wants, ec_error *err);
 /* Makes the tree; densities in lights and prims are then those of a lamp that the tree has chosen. */
 ec_result ec_pack_light_tree(ec_pack *pack, ec_error *err);
 

@@ -11,19 +11,22 @@
 typedef struct bulb {
     global const uint *words;
     lane_u at, first, count;
-    lane_u all; /* numbers there are for it: 2^30 at least */
+    lane_u all;   /* numbers there are for it: 2^30 at least, so that each lamp has its own */
+    lane_u shift; /* 2^shift times as many as the tree had for it */
 } bulb;
 
-/* The numbers of a bulb, `all`, made 2^shift times as many: so many that each lamp has its own. */
-EC_FN lane_u bulb_shift(lane_u all) { return max(clz(all), U(1)) - 1u; }
-
+/* The bulb of a link, for which the tree has so many numbers. */
 EC_FN bulb bulb_at(global const float *tree, lane_i m, lane_u link, lane_u all)
 {
+    lane_u shift = m ? max(clz(all), U(1)) - 1u : U(0);
     lane_u at = (m ? link & ~(EC_LIGHT_LEAF | EC_LIGHT_BULB) : U(0)) * EC_LIGHT_NODE_WORDS;
     global const uint *words = (global const uint *)tree;
-    bulb b = {words, at, gather_u(words, at), m ? gather_u(words, at + 1u) : U(1), all};
+    bulb b = {words, at, gather_u(words, at), m ? gather_u(words, at + 1u) : U(1), all << shift, shift};
     return b;
 }
+
+/* The share that one of its numbers is of one of the tree's. */
+EC_FN lane_f bulb_unit(const bulb *b) { return as_lane_f((127u - b->shift) << 23u); }
 
 /* Where the numbers of its lamp k begin; those of the last one end with all. */
 EC_FN lane_u bulb_edge(const bulb *b, lane_u k)
@@ -42,7 +45,7 @@ EC_FN lane_u bulb_faces(const bulb *b, const lights *l, lane_i m, v3 p, lane_u k
     *high = bulb_edge(b, k + 1u);
     if (!any_lane(paired)) return k;
     lane_i is_first = (one.kind & EC_LIGHT_PAIR_FIRST) != 0u;
-    lane_u partner = paired ? (is_first ? k + 1u : k - 1u) : k;
+    lane_u partner = paired ? pair_partner(one.kind, k) : k;
     light_record other = light_load(l, m ? b->first + partner : U(0));
     lane_i own = pair_faces(one.a, one.b, one.c, p), alone = paired & (own != pair_faces(other.a, other.b, other.c, p));
     *low = (alone & !is_first) ? bulb_edge(b, partner) : *low;
@@ -53,11 +56,11 @@ EC_FN lane_u bulb_faces(const bulb *b, const lights *l, lane_i m, v3 p, lane_u k
 /* The lamp that number `rest` chooses for p; the numbers that do so are *low … *high - 1. */
 EC_FN lane_u bulb_choose(const bulb *b, const lights *l, lane_i m, v3 p, lane_u rest, lane_u *low, lane_u *high)
 {
-    /* Of as many equal parts of all numbers that in which `rest` lies, by one at most: entries from that before it to that behind. */
+    /* The guide of the bucket that `rest` falls into bounds the bisection. Floats may miss the bucket by one, so its neighbours' guides do. */
     lane_u end = b->count - 1u, guides = b->at + 2u + b->count;
-    lane_u part = int_to_lane_u(to_lane_i(to_lane_f(rest) / to_lane_f(b->all) * to_lane_f(b->count)));
-    lane_u last = gather_u(b->words, guides + min(part + 1u, end));
-    lane_u k = part < 2u ? U(0) : gather_u(b->words, guides + (part < 2u ? U(0) : part - 2u));
+    lane_u bucket = int_to_lane_u(to_lane_i(to_lane_f(rest) / to_lane_f(b->all) * to_lane_f(b->count)));
+    lane_u last = gather_u(b->words, guides + min(bucket + 1u, end));
+    lane_u k = bucket < 2u ? U(0) : gather_u(b->words, guides + (bucket < 2u ? U(0) : bucket - 2u));
     while (any_lane(m & (k < last))) {
         lane_u middle = (k + last + 1u) >> 1u;
         lane_i is_past = bulb_edge(b, middle) > rest;

@@ -85,11 +85,10 @@ EC_FN lane_u light_tree_choose(const lights *l, lane_i m, v3 p, lane_u rest, uin
     lane_u lamp = m ? link & ~EC_LIGHT_LEAF : U(0u);
     lane_i is_bulb = m & ((link & EC_LIGHT_BULB) != 0u);
     if (HAS(LAMP_PAIRS) && any_lane(is_bulb)) {
-        lane_u low, high, shift = is_bulb ? bulb_shift(all) : U(0);
-        rest = rest << shift | (hash_u(r + link) >> 1u) >> (31u - shift);
-        bulb b = bulb_at(l->tree, is_bulb, link, all << shift);
-        lane_u chosen = bulb_choose(&b, l, is_bulb, p, rest, &low, &high);
-        *pmf *= as_lane_f((127u - shift) << 23u);
+        bulb b = bulb_at(l->tree, is_bulb, link, all);
+        rest = rest << b.shift | (hash_u(r + link) >> 1u) >> (31u - b.shift);
+        lane_u low, high, chosen = bulb_choose(&b, l, is_bulb, p, rest, &low, &high);
+        *pmf *= bulb_unit(&b);
         lamp = is_bulb ? chosen : lamp;
         rest = is_bulb ? rest - low : rest;
         all = is_bulb ? high - low : all;
@@ -130,11 +129,10 @@ EC_FN lane_f light_tree_pmf(const lights *l, lane_i m, v3 p, uint numbers, lane_
     }
     lane_i is_bulb = m & ((link & EC_LIGHT_BULB) != 0u);
     if (HAS(LAMP_PAIRS) && any_lane(is_bulb)) {
-        lane_u shift = is_bulb ? bulb_shift(all) : U(0);
-        bulb b = bulb_at(l->tree, is_bulb, link, all << shift);
+        bulb b = bulb_at(l->tree, is_bulb, link, all);
         lane_u place = light_tree_end(l->tree, is_bulb, (link & ~(EC_LIGHT_LEAF | EC_LIGHT_BULB)) - 2u, trail);
         lane_u numbers_of_lamp = bulb_numbers(&b, l, is_bulb, p, place);
-        pmf *= as_lane_f((127u - shift) << 23u);
+        pmf *= bulb_unit(&b);
         all = is_bulb ? numbers_of_lamp : all;
     }
     return pmf * to_lane_f(all);

@@ -40,7 +40,10 @@ static void check_scene(void)
     ec_pack pack = pack_of(w, "bulbs");
     ec_error err = {0};
     const uint32_t all = pack.light_count;
-    CHECK_OK(ec_pack_bulbs(&pack, &err), err);
+    uint32_t root[1024];
+    CHECK(all <= 1024);
+    CHECK_OK(ec_lamp_bodies(&pack, root, &err), err);
+    CHECK_OK(ec_pack_bulbs(&pack, root, &err), err);
     CHECK_MSG(pack.bulb_count == 3 && pack.light_count == all, "%u bulbs", pack.bulb_count);
     uint32_t lamps = 0, firsts = 0, wrong = 0;
     for (uint32_t b = 0; b < pack.bulb_count; b++) {

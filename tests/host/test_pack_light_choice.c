@@ -1,7 +1,7 @@
 /* tier: quick */
 /* When --light-choice auto takes the tree: lamps far apart that give a part of the light worth its time. And what a tree leaves
  * to the sky. */
-#include "pack/pack.h"
+#include "pack/bulbs.h"
 #include "gltf/model.h"
 #include "support/test.h"
 
@@ -33,7 +33,10 @@ static bool wants_tree_of(int side, double size, double gap, double sky)
     ec_pack pack;
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
     bool wants = false;
-    CHECK_OK(ec_pack_wants_light_tree(&pack, &wants, &err), err);
+    uint32_t root[2 * SIDE * SIDE + 1];
+    CHECK(pack.light_count <= sizeof root / sizeof *root);
+    CHECK_OK(ec_lamp_bodies(&pack, root, &err), err);
+    CHECK_OK(ec_pack_wants_light_tree(&pack, root, &wants, &err), err);
     ec_pack_free(&pack);
     ec_scene_free(scene);
     return wants;
