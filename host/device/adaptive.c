@@ -154,6 +154,7 @@ bool ec_allotment_is_even(const ec_allotment *a, const ec_film *film)
 static uint32_t shortest(const ec_allotment *a, const ec_film *film)
 {
     uint32_t least = UINT32_MAX;
+#pragma omp parallel for reduction(min : least) if (a->pixels > EC_FILM_MANY)
     for (uint32_t i = 0; i < a->pixels; i++) {
         const uint32_t step = due(a, i, samples_of(a, film, i));
         if (step && step < least) least = step;

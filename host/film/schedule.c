@@ -12,13 +12,15 @@ static uint64_t start_of(uint64_t stride)
 
 static uint32_t length_of(uint64_t stride) { return (uint32_t)(start_of(stride + 1) - start_of(stride)); }
 
-/* The last stride that starts at or before sample n. */
+static uint32_t log2_of(uint64_t n) { return 63 - (uint32_t)__builtin_clzll(n); }
+
+/* The last stride that starts at or before sample n. Adaptive renders ask for every pixel in every pass. */
 static uint64_t stride_at(uint64_t n)
 {
     if (n >= 512) return QUARTERED + (n - 512) / EC_BATCH_MOST;
-    uint64_t stride = 0;
-    while (start_of(stride + 1) <= n) stride++;
-    return stride;
+    if (n < 8) return n ? log2_of(n) + 1 : 0;
+    const uint64_t octave = log2_of(n) - 3;
+    return DOUBLING + 4 * octave + (n >> (octave + 1)) - 4;
 }
 
 static bool is_quarter(uint64_t n)
