@@ -29,14 +29,40 @@ static bool is_error(const char *line, size_t length)
     return false;
 }
 
+/* Where line n of the source is, by the #line before it. */
+static void place_of(const char *source, unsigned n, char *place, size_t size)
+{
+    unsigned line = n, named;
+    char file[256] = "kernels";
+    for (unsigned at = 1; source && *source && at < n; at++) {
+        if (sscanf(source, "#line %u \"%255[^\"]\"", &named, file) == 2) line = named + n - at - 1;
+        source += strcspn(source, "\n");
+        source += *source == '\n';
+    }
+    snprintf(place, size, "%s:%u", file, line);
+}
+
+/* NVIDIA's compiler counts lines from the start of the source, whatever #line says. Returns how much of the line the place stands for. */
+static size_t put_right(const char *line, const char *source, char *place, size_t size)
+{
+    unsigned n;
+    int read = 0;
+    *place = 0;
+    if (sscanf(line, "<kernel>:%u%n:", &n, &read) < 1) return 0;
+    place_of(source, n, place, size);
+    return (size_t)read;
+}
+
 /* Appends up to *lines lines of the log that are errors, or that are not. */
-static void append_lines(char *text, size_t size, const char *log, bool errors, int *lines)
+static void append_lines(char *text, size_t size, const char *log, const char *source, bool errors, int *lines)
 {
     size_t used = strlen(text);
     while (*log && *lines > 0) {
         size_t length = strcspn(log, "\n");
         if (length && is_error(log, length) == errors) {
-            int put = snprintf(text + used, size - used, "\n  %.*s", (int)length, log);
+            char place[300];
+            const size_t skip = put_right(log, source, place, sizeof place);
+            int put = snprintf(text + used, size - used, "\n  %s%.*s", place, (int)(length - skip), log + skip);
             if (put < 0 || (size_t)put >= size - used) {
                 text[used] = 0; /* no half lines */
                 return;
@@ -56,13 +82,13 @@ static const char *remedy(const ec_cl *cl, const char *log)
     return "its compiler names no error: is its disk full, or its folder not yours? POCL_CACHE_DIR=FOLDER names another";
 }
 
-ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *log, cl_int code, ec_error *err)
+ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *source, const char *log, cl_int code, ec_error *err)
 {
     ec_fail(err, "kernels %s do not compile on %s: %s (%d); %s", label, cl->info.name, ec_cl_error_name(code), code, remedy(cl, log));
     if (!err || !log) return EC_FAILED;
     int lines = EC_LOG_LINES;
-    append_lines(err->text, sizeof err->text, log, true, &lines);
-    append_lines(err->text, sizeof err->text, log, false, &lines);
+    append_lines(err->text, sizeof err->text, log, source, true, &lines);
+    append_lines(err->text, sizeof err->text, log, source, false, &lines);
     return EC_FAILED;
 }
 

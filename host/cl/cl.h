@@ -162,6 +162,8 @@ ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, ui
  * ec_buffer_read or ec_cl_finish says so, with the label (a text that lives as long). PoCL compiles a kernel once for
  * each local size and once more for launches of 65536 items and over: keep a kernel to one of each. */
 ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local, ec_error *err);
+/* Two-dimensional where there is more than one row: each has `global` work-items. */
+ec_result ec_kernel_run_rows(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t rows, uint32_t local, ec_error *err);
 /* pace.c: on cards launches are cut into pieces that take no longer than half a second, to the same results. They stay small unless somebody
  * says how many of the work-items with this label had something to do, before they run or after. */
 void ec_cl_busy(ec_cl *cl, const char *label, uint64_t items);

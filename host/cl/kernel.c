@@ -32,9 +32,15 @@ ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, ui
     return EC_OK;
 }
 
-static cl_int enqueue(ec_cl *cl, cl_kernel kernel, size_t first, size_t items, size_t group, cl_event *event)
+/* Work-items of the first dimension from `first` on, and of the second, which a launch of one row has none of. */
+typedef struct piece {
+    size_t first, items, rows;
+} piece;
+
+static cl_int enqueue(ec_cl *cl, cl_kernel kernel, const piece *p, size_t group, cl_event *event)
 {
-    return clEnqueueNDRangeKernel(cl->queue, kernel, 1, first ? &first : NULL, &items, &group, 0, NULL, event);
+    const size_t offset[2] = {p->first, 0}, global[2] = {p->items, p->rows}, local[2] = {group, 1};
+    return clEnqueueNDRangeKernel(cl->queue, kernel, p->rows > 1 ? 2 : 1, p->first ? offset : NULL, global, local, 0, NULL, event);
 }
 
 /* The largest power of two that the driver allows for this kernel: a card's registers may not hold more of its work-items at once. */
@@ -47,32 +53,37 @@ static size_t group_most(const ec_cl *cl, cl_kernel kernel)
 }
 
 /* local is a power of two. No kernel asks how large its group is. */
-static ec_result run_piece(ec_cl *cl, const char *label, ec_pace *pace, cl_kernel kernel, size_t first, size_t items, size_t local, ec_error *err)
+static ec_result run_piece(ec_cl *cl, const char *label, ec_pace *pace, cl_kernel kernel, const piece *p, size_t local, ec_error *err)
 {
     cl_event event;
-    cl_int code = enqueue(cl, kernel, first, items, local, &event);
+    cl_int code = enqueue(cl, kernel, p, local, &event);
     if (code == CL_INVALID_WORK_GROUP_SIZE) {
         const size_t most = group_most(cl, kernel);
-        if (most < local) code = enqueue(cl, kernel, first, items, most, &event);
+        if (most < local) code = enqueue(cl, kernel, p, most, &event);
     }
     EC_TRY(ec_cl_check(code, "clEnqueueNDRangeKernel", label, err));
     return ec_cl_launched(cl, event, label, pace, err);
 }
 
 /* No kernel asks for the offset of a launch or for its size. */
-ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local,
-                        ec_error *err) {
+ec_result ec_kernel_run_rows(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t rows, uint32_t local, ec_error *err)
+{
     if (global == 0) return EC_OK;
     const uint64_t items = (global + local - 1) / local * local;
     ec_pace *pace = ec_pace_of(cl, label);
-    if (!pace) return run_piece(cl, label, NULL, kernel, 0, (size_t)items, local, err);
+    if (!pace) return run_piece(cl, label, NULL, kernel, &(piece){.items = (size_t)items, .rows = rows}, local, err);
     cl->paces.launches++;
     for (uint64_t first = 0, count; first < items; first += count) {
-        count = ec_pace_piece(pace, items - first, local);
+        count = ec_pace_piece(pace, (items - first) * rows, (uint64_t)local * rows) / rows;
         cl->paces.pieces++;
-        EC_TRY(run_piece(cl, label, pace, kernel, (size_t)first, (size_t)count, local, err));
+        EC_TRY(run_piece(cl, label, pace, kernel, &(piece){(size_t)first, (size_t)count, rows}, local, err));
     }
     return EC_OK;
+}
+
+ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local, ec_error *err)
+{
+    return ec_kernel_run_rows(cl, label, kernel, global, 1, local, err);
 }
 
 /* For tests and self-tests. */

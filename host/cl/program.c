@@ -64,7 +64,7 @@ static ec_result build_from_source(const build *b, cl_program *program, ec_error
     code = clBuildProgram(made, 1, &b->cl->info.id, b->options, NULL, NULL);
     char *log = ec_build_log(b->cl, made);
     ec_result result = ec_build_log_dump(b->label, b->source, b->options, log, err);
-    if (code != CL_SUCCESS) result = ec_build_log_fail(b->cl, b->label, log, code, err);
+    if (code != CL_SUCCESS) result = ec_build_log_fail(b->cl, b->label, b->source, log, code, err);
     if (result == EC_OK) *program = made;
     else clReleaseProgram(made);
     free(log);

@@ -39,6 +39,7 @@
 
 #include "film/pixel.h"
 #include "film/statistics.h"
+#include "film/threads.h"
 
 /* Numbers of the replicates that have samples; how many. */
 static uint32_t list_replicates(const ec_film *film, uint32_t list[EC_REPLICATES_MOST])
@@ -77,7 +78,7 @@ static void half_of_piece(const ec_film *film, uint32_t half, uint64_t first, ui
 void ec_half(const ec_film *film, uint32_t half, float scale, uint32_t fields, float *out)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
-#pragma omp parallel for if (pixels > EC_FILM_MANY)
+#pragma omp parallel for if (ec_film_is_many(pixels))
     for (uint64_t first = 0; first < pixels; first += EC_PIXELS)
         half_of_piece(film, half, first, pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS, (double)scale, fields, out + fields * first);
 }

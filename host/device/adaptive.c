@@ -7,6 +7,7 @@
 
 #include "film/neighbourhood.h"
 #include "film/pixel.h"
+#include "film/threads.h"
 #include "device/batch_source.h"
 
 #define RADIUS 3        /* 48 pixels around: with the pilot's replicates they know a variance to a tenth or so */
@@ -28,7 +29,7 @@ uint32_t ec_pixel_place(const ec_params *params, uint32_t number)
 static void look_at_variances(const ec_film *film, float *variance)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
-#pragma omp parallel for if (pixels > EC_FILM_MANY)
+#pragma omp parallel for if (ec_film_is_many(pixels))
     for (uint64_t first = 0; first < pixels; first += EC_PIXELS) {
         const uint64_t count = pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS;
         ec_pixel piece[EC_PIXELS];
@@ -106,7 +107,7 @@ static void weigh(ec_allotment *a, const ec_film *film)
 {
     double mean = 0;
     look_at_variances(film, a->variance);
-#pragma omp parallel for if (a->pixels > EC_FILM_MANY)
+#pragma omp parallel for if (ec_film_is_many(a->pixels))
     for (uint32_t i = 0; i < a->pixels; i++) a->weight[i] = (float)sqrt(variance_around(film, a->variance, a->place[i]));
     for (uint32_t i = 0; i < a->pixels; i++) mean += a->weight[i] / a->pixels;
     normalise(a, mean);
@@ -154,7 +155,7 @@ bool ec_allotment_is_even(const ec_allotment *a, const ec_film *film)
 static uint32_t shortest(const ec_allotment *a, const ec_film *film)
 {
     uint32_t least = UINT32_MAX;
-#pragma omp parallel for reduction(min : least) if (a->pixels > EC_FILM_MANY)
+#pragma omp parallel for reduction(min : least) if (ec_film_is_many(a->pixels))
     for (uint32_t i = 0; i < a->pixels; i++) {
         const uint32_t step = due(a, i, samples_of(a, film, i));
         if (step && step < least) least = step;

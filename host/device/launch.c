@@ -18,6 +18,15 @@ uint32_t ec_local_size(const ec_device_info *device)
     return device->type & CL_DEVICE_TYPE_CPU ? EC_LOCAL_SIZE : EC_LOCAL_SIZE_OF_CARDS;
 }
 
+/* Cards go over as many entries of each part of the queue as any of them may hold: a million work-items without a path take as long as a late
+ * bounce's few with one. 0: over all. */
+static uint64_t work_items_a_part(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t items, uint32_t local)
+{
+    if (stage->busy < EC_ARG_SCALAR_COUNT || !p->held || p->cl->info.type & CL_DEVICE_TYPE_CPU) return 0;
+    const uint64_t lanes = p->wave / items, most = (p->held + lanes - 1) / lanes, rounded = (most + local - 1) / local * local;
+    return rounded * lanes <= p->params.part ? rounded : 0;
+}
+
 /* That carry so many paths, pixels or triangles. */
 static uint64_t work_items(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t count)
 {
@@ -41,7 +50,10 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32
     }
     const uint64_t items = ec_pipeline_items(id, accel, p->kernels.lanes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
     if (stage->busy < EC_ARG_SCALAR_COUNT) ec_cl_busy(p->cl, stage->label, work_items(p, stage, scalars[stage->busy]));
-    return ec_kernel_run(p->cl, stage->label, kernel, items, ec_local_size(&p->cl->info), err);
+    const uint32_t local = ec_local_size(&p->cl->info);
+    const uint64_t of_part = work_items_a_part(p, stage, items, local);
+    if (of_part) return ec_kernel_run_rows(p->cl, stage->label, kernel, of_part, EC_PARTS, local, err);
+    return ec_kernel_run(p->cl, stage->label, kernel, items, local, err);
 }
 
 ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *scalars, ec_error *err)

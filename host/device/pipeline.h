@@ -20,6 +20,7 @@ typedef struct ec_pipeline {
     ec_counters counters;         /* the host's copy */
     ec_render_effects effects;
     uint32_t lanes, wave, triangle_count;
+    uint32_t held;                /* at most, by a part of a queue in the segment under way; 0: nobody knows */
     uint32_t room;                /* paths that the buffers of the wave hold; a wave of the first kernels has fewer (tiers.h) */
     uint32_t first_room;          /* those that should have fitted the device; room is smaller where it had no memory for them */
     uint64_t wave_bytes;          /* of the wave's buffers, which drivers may not have given yet */

@@ -9,6 +9,8 @@ static ec_result begin_segment(ec_pipeline *p, ec_error *err)
 {
     ec_counters *counters = &p->counters;
     memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
+    p->held = 0;
+    for (uint32_t k = 0; k < EC_PARTS; k++) p->held = counters->rays[0][k * EC_PART_STRIDE] > p->held ? counters->rays[0][k * EC_PART_STRIDE] : p->held;
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err);
 }
 
@@ -16,6 +18,7 @@ static ec_result begin_segment(ec_pipeline *p, ec_error *err)
 static ec_result end_segment(ec_pipeline *p, ec_stage_id shade, ec_error *err)
 {
     ec_counters *counters = &p->counters;
+    p->held = 0;
     EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
     for (uint32_t step = 0; step < EC_SEGMENT; step++) {
         p->rays += ec_pipeline_total(counters->rays[step]) + ec_pipeline_total(counters->shadows[step]);

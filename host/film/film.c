@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film/threads.h"
+
 static uint64_t pixels_of(const ec_film *film) { return (uint64_t)film->width * film->height; }
 
 ec_result ec_film_create(ec_film *film, uint32_t width, uint32_t height, uint32_t replicates, ec_error *err)
@@ -102,7 +104,7 @@ ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *pl
     enum { PIECES = 64 };
     uint64_t invalid = 0;
     EC_TRY(start_counting(film, err));
-#pragma omp parallel for reduction(+ : invalid) if (count > EC_FILM_MANY)
+#pragma omp parallel for reduction(+ : invalid) if (ec_film_is_many(count))
     for (uint64_t k = 0; k < PIECES; k++)
         invalid += add_entries(film, batch, places, piece_start(places, count, k, PIECES), piece_start(places, count, k + 1, PIECES), samples);
     film->invalid_count += invalid;
@@ -117,7 +119,7 @@ ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pi
     const double own = ec_schedule_batch(film->replicates, film->aov_batches).samples - cut;
     const double share = own / (own + (double)ec_schedule_samples(film->replicates, film->aov_batches));
     const bool is_first = film->aov_batches++ == 0;
-#pragma omp parallel for if (pixels > EC_FILM_MANY)
+#pragma omp parallel for if (ec_film_is_many(pixels))
     for (uint64_t i = 0; i < values; i++) film->aov[i] = is_first ? features[i] : (float)(film->aov[i] + ((double)features[i] - film->aov[i]) * share);
     return EC_OK;
 }

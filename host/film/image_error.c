@@ -45,6 +45,7 @@
 
 #include "film/pixel.h"
 #include "film/statistics.h"
+#include "film/threads.h"
 
 #define MANY 1e6   /* bright samples: of more the number is as good as known */
 #define TWO 2.0    /* bright samples of a pixel, by their fourth powers: of fewer there is one */
@@ -123,7 +124,7 @@ void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums)
     for (uint32_t first = 0; first < film->height; first += ROWS) {
         const uint32_t count = film->height - first < ROWS ? film->height - first : ROWS;
         memset(rows, 0, sizeof rows);
-#pragma omp parallel for if ((uint64_t)film->width * film->height > EC_FILM_MANY)
+#pragma omp parallel for if (ec_film_is_many((uint64_t)film->width * film->height))
         for (uint32_t k = 0; k < count; k++) sum_row(film, first + k, &rows[k]);
         for (uint32_t k = 0; k < count; k++) add_row(&rows[k], sums);
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "film/pixel.h"
+#include "film/threads.h"
 
 ec_result ec_film_set_layers(ec_film *film, const ec_layers *layers, ec_error *err)
 {
@@ -20,7 +21,7 @@ ec_result ec_film_set_layers(ec_film *film, const ec_layers *layers, ec_error *e
 void ec_film_layer_batch(const ec_film *film, uint32_t layer, const float *layers, uint64_t positions, float *batch)
 {
     const uint64_t stride = 3ull * film->layers.count;
-#pragma omp parallel for if (positions > EC_FILM_MANY)
+#pragma omp parallel for if (ec_film_is_many(positions))
     for (uint64_t i = 0; i < positions; i++) {
         float *to = batch + EC_BATCH_FIELDS * i;
         memset(to, 0, EC_BATCH_FIELDS * sizeof *to);

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film/threads.h"
+
 bool ec_sums_create(ec_sums *s, uint32_t replicates, uint64_t pixels)
 {
     *s = (ec_sums){replicates, pixels, calloc(pixels, 3 * replicates * sizeof(float)), calloc(pixels, 3 * sizeof(float))};
@@ -57,14 +59,14 @@ uint32_t ec_sums_add_pixel(const ec_sums *s, const float *batch, uint32_t replic
 uint64_t ec_sums_add(const ec_sums *s, const float *batch, uint32_t replicate, double share, uint64_t pixels)
 {
     uint64_t invalid = 0;
-#pragma omp parallel for reduction(+ : invalid) if (pixels > EC_FILM_MANY)
+#pragma omp parallel for reduction(+ : invalid) if (ec_film_is_many(pixels))
     for (uint64_t p = 0; p < pixels; p++) invalid += ec_sums_add_pixel(s, batch + EC_BATCH_FIELDS * p, replicate, share, p);
     return invalid;
 }
 
 void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, uint64_t pixels)
 {
-#pragma omp parallel for if (pixels > EC_FILM_MANY)
+#pragma omp parallel for if (ec_film_is_many(pixels))
     for (uint64_t p = 0; p < pixels; p++) {
         for (uint32_t r = 0; r < into->replicates; r++)
             for (int c = 0; c < 3 && share[r] > 0; c++) move(ec_sums_mean(into, r, p) + c, ec_sums_mean(next, r, p)[c], share[r]);

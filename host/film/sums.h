@@ -10,9 +10,6 @@
 #include "film/schedule.h"
 #include "shared/params.h"
 
-/* Pixels of a film that are worth threads: idle ones spin for some milliseconds after each loop (libgomp). */
-#define EC_FILM_MANY (1u << 18)
-
 typedef struct ec_sums {
     uint32_t replicates; /* R */
     uint64_t stride;     /* pixels from one replicate's to the next's: those without samples take no memory until they have some */

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "device/adaptive.h"
 #include "film/layer_films.h"
+#include "film/threads.h"
 #include "render/render_state.h"
 
 uint64_t ec_render_order_samples(const ec_render_state *r)
@@ -44,7 +45,7 @@ static float *batch_features(const ec_render_state *r) { return r->aov ? r->aov 
 static uint64_t clear_unreached(float *mean, float *features, float *layers, uint32_t layer_count, uint64_t pixels, uint8_t *unsampled)
 {
     uint64_t missing = 0;
-#pragma omp parallel for reduction(+ : missing) if (pixels > EC_FILM_MANY)
+#pragma omp parallel for reduction(+ : missing) if (ec_film_is_many(pixels))
     for (uint64_t i = 0; i < pixels; i++) {
         unsampled[i] = mean[EC_BATCH_FIELDS * i] == EC_NOT_REACHED;
         if (!unsampled[i]) continue;

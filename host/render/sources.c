@@ -2,11 +2,16 @@
 
 #include <stdlib.h>
 
+#include "film/threads.h"
+
 ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_sources *s, ec_render_stats *stats, ec_error *err)
 {
     s->devices = devices;
     s->count = s->unloaded = count;
     for (uint32_t i = 0; i < count; i++) EC_TRY(ec_pipeline_lanes(&devices[i], lanes, &stats->lanes, err)); /* before the work of what follows */
+    bool cards_alone = count > 0;
+    for (uint32_t i = 0; i < count; i++) cards_alone &= !(devices[i].info.type & CL_DEVICE_TYPE_CPU);
+    ec_film_beside_cards(cards_alone);
     s->recruits = calloc(count + 1u, sizeof *s->recruits); /* there may be none, but peers */
     return s->recruits ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
 }

@@ -6,6 +6,8 @@
 #include "../shared/path_state.h"
 #include "math.h"
 
+/* The entry that a work-item begins at. A launch goes over all entries, or has a second dimension, the parts, and goes over the first of each. */
+EC_FN uint queue_entry(uint part, uint lanes) { return get_global_id(0) * lanes + get_global_id(1) * part; }
 /* How many entries of i's part stand at i or after it. */
 EC_FN uint queue_left(global const uint *counts, uint part, uint i)
 {

@@ -128,7 +128,7 @@ kernel void ec_intersect_bvh8(constant ec_params *params, uint seed, uint first_
                               uint bounce, uint step, global const ec_counters *counters, uint sorts,
                               global const float *paths, global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
-    uint first = get_global_id(0), wave = params->wave;
+    uint first = queue_entry(params->part, 1), wave = params->wave;
     if (first >= wave) return;
     turns t = turns_of(queue_left(counters->rays[step], params->part, first), params->part, first);
     const accel a = ACCEL_ARGUMENTS;
@@ -162,7 +162,7 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
                             volatile global uint *invalid, global const float *shadows, global float *radiance,
                             ACCEL_PARAMETERS, FILTER_PARAMETERS, global const float *normals, global const float *tangents)
 {
-    uint first = get_global_id(0), wave = params->wave;
+    uint first = queue_entry(params->part, 1), wave = params->wave;
     if (first >= wave) return;
     turns t = turns_of(queue_left(counters->shadows[step], params->part, first), params->part, first);
     const accel a = ACCEL_ARGUMENTS;

@@ -17,7 +17,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
                                          global const ec_counters *counters, uint sorts, global const float *paths,
                                          global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
+    uint i = queue_entry(params->part, LANES), wave = params->wave;
     if (i >= wave) return;
     uint order[EC_SORTED];
     uint count = item_rays(counters->rays[step], paths, wave, params->part, EC_PATH_OX, EC_PATH_DX, i, SORTS, order);
@@ -59,7 +59,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                                        global const float *shadows, global float *radiance, ACCEL_PARAMETERS,
                                        FILTER_PARAMETERS, global const float *normals, global const float *tangents)
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
+    uint i = queue_entry(params->part, LANES), wave = params->wave;
     if (i >= wave) return;
     uint order[EC_SORTED];
     uint count = item_rays(counters->shadows[step], shadows, wave, params->part, EC_SHADOW_OX, EC_SHADOW_DX, i, SORTS, order);

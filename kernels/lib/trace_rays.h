@@ -40,7 +40,7 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
                                          global const ec_counters *counters, uint sorts, global const float *paths,
                                          global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
 {
-    uint i = get_global_id(0), wave = params->wave;
+    uint i = queue_entry(params->part, 1), wave = params->wave;
     if (i >= wave || !queue_left(counters->rays[step], params->part, i)) return;
     global const float *p = paths + i;
     ray8 q = ray8_make(p[EC_PATH_OX * wave], p[EC_PATH_OY * wave], p[EC_PATH_OZ * wave], p[EC_PATH_DX * wave],
@@ -74,7 +74,7 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
                                        global const float *shadows, global float *radiance, ACCEL_PARAMETERS,
                                        FILTER_PARAMETERS, global const float *normals, global const float *tangents)
 {
-    uint i = get_global_id(0), wave = params->wave;
+    uint i = queue_entry(params->part, 1), wave = params->wave;
     if (i >= wave || !queue_left(counters->shadows[step], params->part, i)) return;
     global const float *p = shadows + i;
     ray8 q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],

@@ -74,7 +74,7 @@ kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, gl
                      global const uint *emission_table, global const float *guide_table, global const uint *light_groups,
                      global const uint *parts, global const float *camera_keys)
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
+    uint i = queue_entry(params->part, LANES), wave = params->wave;
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;

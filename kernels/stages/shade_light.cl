@@ -31,7 +31,7 @@ kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pix
                            global const uint *environment_table, global const float *light_tree, global const float *lamp_parts,
                            global const uint *emission_table, global float *photons, uint path_count, global const float *guide_table)
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
+    uint i = queue_entry(params->part, LANES), wave = params->wave;
     if (i >= wave) return;
     uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
     if (!left) return;

@@ -36,6 +36,15 @@ class Launches(Case):
         self.assertEqual(launches["pieces"], launches["count"])  # there is little to do
         self.assertGreater(launches["longest_seconds"], 0)
 
+    def test_late_bounces_go_over_what_is_left(self):
+        """A card's launches have the parts of the queue as a second dimension, and go over as many entries of each as any still has."""
+        for lanes in ("1", "8"):
+            with self.subTest(lanes=lanes):
+                options = "--size", "64x64", "--spp", "64", "--lanes", lanes, "--rr", "1", "--max-depth", "20"
+                whole, _ = self.render("whole.exr", *options)
+                late, _ = self.render("late.exr", *options, ECLAT_DEVICE_TYPE="gpu")
+                self.assertEqual((late["image_sha256"], late["rays"]), (whole["image_sha256"], whole["rays"]))
+
     def test_the_host_waits_once_in_eight_bounces(self):
         """Queues are counted on the device: three launches a bounce, and some before and after, for each time that the host asks."""
         if "ECLAT_FAULT_SHIM" not in os.environ:

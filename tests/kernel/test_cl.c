@@ -1,5 +1,6 @@
 /* tier: quick */
 /* host/cl: builds and their logs, kernels and buffers. */
+#include "cl/build_log.h"
 #include "support/cl_case.h"
 
 static char folder[4096]; /* everything this test writes */
@@ -35,6 +36,17 @@ static void broken_source_says_where(ec_cl *cl)
     CHECK(cl->cache_hits == 0 && size_of("doubler.log") >= 0);
     cl->cache = EC_CACHE_AUTO;
     unsetenv("ECLAT_DUMP_KERNELS");
+}
+
+/* What NVIDIA's compiler says of it (driver 580.159, November 2026). */
+static void lines_counted_from_the_start_are_put_right(const ec_cl *cl)
+{
+    static const char source[] = "#line 1 \"kernels/stages/shade.cl\"\n#line 41 \"kernels/lib/bsdf.h\"\n\nfloat f(float x);\n#line 2 \"kernels/stages/shade.cl\"\n}\n";
+    ec_error err = {0};
+    CHECK(ec_build_log_fail(cl, "shade", source, "<kernel>:4:31: error: undeclared\n  here\n<kernel>:6:1: error: brace\n", CL_BUILD_PROGRAM_FAILURE, &err) == EC_FAILED);
+    CHECK_MSG(strstr(err.text, "\n  kernels/lib/bsdf.h:42:31: error: undeclared\n  kernels/stages/shade.cl:2:1: error: brace\n    here"), "%s", err.text);
+    ec_build_log_fail(cl, "shade", "float f;\n", "<kernel>:1:2: error: a\n<built-in>: error: b\n", CL_BUILD_PROGRAM_FAILURE, &err);
+    CHECK_MSG(strstr(err.text, "\n  kernels:1:2: error: a\n  <built-in>: error: b"), "%s", err.text);
 }
 
 static void unknown_kernel_is_named(ec_cl *cl)
@@ -118,6 +130,7 @@ int main(void)
     ec_error err = {0};
     if (!cl_folder(folder)) TEST_SKIP("no folder %s", folder);
     if (!cl_open(getenv("ECLAT_DEVICE"), &cl)) return 1;
+    lines_counted_from_the_start_are_put_right(&cl);
     broken_source_says_where(&cl);
     unknown_kernel_is_named(&cl);
     programs_are_kept_where_asked(&cl);
