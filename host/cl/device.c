@@ -118,8 +118,11 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
     EC_TRY(forced_type(&type, err));
     EC_TRY(ec_workaround_check(err));
     cl_int code = clGetPlatformIDs(64, platforms, &found);
-    if (code == EC_PLATFORM_NOT_FOUND_KHR || (code == CL_SUCCESS && found == 0))
-        return ec_drivers_explain(err) ? EC_FAILED : ec_fail(err, "no OpenCL driver is installed; " EC_INSTALL_HINT);
+    if (code == EC_PLATFORM_NOT_FOUND_KHR || (code == CL_SUCCESS && found == 0)) {
+        char unnamed[256];
+        if (ec_drivers_explain(err)) return EC_FAILED;
+        return ec_fail(err, "no OpenCL driver is installed; %s", ec_drivers_unnamed(unnamed, sizeof unnamed) ? unnamed : EC_INSTALL_HINT);
+    }
     EC_TRY(ec_cl_check(code, "clGetPlatformIDs", NULL, err));
     ec_result result = EC_OK;
     for (cl_uint i = 0; i < found && i < 64 && result == EC_OK; i++)

@@ -1,4 +1,4 @@
-/* An ICD loader keeps silent of drivers that it cannot load. */
+/* An ICD loader keeps silent of drivers that it cannot load, and of those that it is not told of. */
 #include "cl/drivers.h"
 
 #include <dirent.h>
@@ -9,6 +9,8 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "cl/cl.h"
 
 #define VENDORS "/etc/OpenCL/vendors"
 
@@ -63,4 +65,35 @@ bool ec_drivers_explain(ec_error *err)
     if (!ends_with(wanted, ".icd")) return (!strchr(wanted, '/') || access(wanted, F_OK) == 0) && explain_library(NULL, wanted, err);
     char icd[PATH_MAX];
     return explain_file(wanted, err) || (snprintf(icd, sizeof icd, VENDORS "/%s", wanted) < (int)sizeof icd && explain_file(icd, err));
+}
+
+/* A container gets the driver's libraries from outside, but the files that name them to the loader are its image's. */
+static const struct {
+    const char *platform, *library, *icd;
+} brought_in[] = {{"NVIDIA", "libnvidia-opencl.so.1", "nvidia.icd"}};
+
+static bool has_platform(const char *name)
+{
+    cl_platform_id platforms[64];
+    cl_uint count = 0;
+    if (clGetPlatformIDs(64, platforms, &count) != CL_SUCCESS) return false;
+    for (cl_uint i = 0; i < count && i < 64; i++) {
+        char own[256] = "";
+        clGetPlatformInfo(platforms[i], CL_PLATFORM_NAME, sizeof own, own, NULL);
+        if (strstr(own, name)) return true;
+    }
+    return false;
+}
+
+bool ec_drivers_unnamed(char *text, size_t size)
+{
+    for (size_t i = 0; i < sizeof brought_in / sizeof *brought_in; i++) {
+        void *driver = has_platform(brought_in[i].platform) ? NULL : dlopen(brought_in[i].library, RTLD_LAZY | RTLD_LOCAL);
+        if (!driver) continue;
+        dlclose(driver);
+        snprintf(text, size, "%s's driver is here, but the OpenCL loader is not told of it; to use its devices: echo %s >" VENDORS "/%s",
+                 brought_in[i].platform, brought_in[i].library, brought_in[i].icd);
+        return true;
+    }
+    return false;
 }

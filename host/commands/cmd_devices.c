@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "cl/cl.h"
+#include "cl/drivers.h"
 #include "commands/command.h"
 #include "report/device_report.h"
 
@@ -25,6 +26,8 @@ static ec_result run(ec_call *call, ec_error *err)
         ec_warn(&call->listener->log, "%s", reason.text);
         report.why = reason.text;
     }
+    char unnamed[256];
+    if (ec_drivers_unnamed(unnamed, sizeof unnamed)) ec_warn(&call->listener->log, "%s", unnamed);
     ec_result result = EC_OK;
     if (call->json) result = ec_device_report_json(&report, call->listener->to, err);
     else ec_device_report_text(&report, call->listener->to);

@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "cl/drivers.h"
 #include "jobs/backdrop.h"
 #include "jobs/blank.h"
 #include "jobs/denoise_choice.h"
@@ -155,15 +156,21 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
+/* A picture that takes a hundred times as long as it need is worth a word. */
+static void warn_of_unnamed(const ec_render_job *job)
+{
+    char text[256];
+    if (!strcmp(job->device_why, "first CPU") && ec_drivers_unnamed(text, sizeof text)) ec_warn(&job->listener->log, "%s", text);
+}
+
 ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
 {
     const char *wanted = job->request->device;
-    job->device_count = 1;
-    if (!job->takes_several) return ec_device_find(wanted, job->devices, job->device_indices, &job->device_why, err);
-    EC_TRY(ec_device_find_several(wanted, job->devices, job->device_indices, EC_DEVICES_MOST, &job->device_count,
+    EC_TRY(ec_device_find_several(wanted, job->devices, job->device_indices, job->takes_several ? EC_DEVICES_MOST : 1, &job->device_count,
                                   &job->device_why, err));
     if (job->request->plan_ranks && job->device_count > 1)
         return ec_fail(err, "--plan takes one device, which stands for those of all machines; name one with --device");
+    warn_of_unnamed(job);
     if (job->ranks) ec_ranks_share_devices(job->ranks, job->devices, job->device_indices, &job->device_count);
     return EC_OK;
 }

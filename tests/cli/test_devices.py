@@ -1,6 +1,8 @@
 # tier: quick
 """eclat devices."""
 import json
+import os
+import shutil
 import unittest
 
 from support import CORNELL, Case, eclat, read_exr
@@ -68,6 +70,20 @@ class Devices(Case):
     def test_no_device_at_all_is_one_clear_line(self):
         line = self.assert_one_error(eclat("devices", env={"OCL_ICD_VENDORS": self.folder}), 1)
         self.assertIn("pocl-opencl-icd", line)
+
+    def test_a_driver_that_the_loader_is_not_told_of(self):
+        """As in containers that get NVIDIA's libraries from outside: what stands in for the driver is any library."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        shutil.copy(os.environ["ECLAT_FAULT_SHIM"], self.path("libnvidia-opencl.so.1"))
+        brought_in = {"LD_LIBRARY_PATH": self.folder, "ECLAT_DEVICE": ""}
+        mend = "NVIDIA's driver is here, but the OpenCL loader is not told of it; to use its devices: echo libnvidia-opencl.so.1 >/etc/OpenCL/vendors/nvidia.icd"
+        self.assertEqual(self.assert_ok(eclat("devices", env=brought_in)).stderr, f"eclat: warning: {mend}\n")
+        picture = "render", CORNELL, "--size", "24x24", "--spp", "8", "-q", "-o", self.path("a.exr")
+        self.assertEqual(self.assert_ok(eclat(*picture, env=brought_in)).stderr, f"eclat: warning: {mend}\n")
+        self.assertEqual(self.assert_ok(eclat(*picture, "--device", "0", env=brought_in)).stderr, "")
+        line = self.assert_one_error(eclat("devices", env={**brought_in, "OCL_ICD_VENDORS": self.path("none")}), 1)
+        self.assertIn("no OpenCL driver is installed; " + mend, line)
 
 
 if __name__ == "__main__":
