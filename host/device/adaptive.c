@@ -151,33 +151,62 @@ bool ec_allotment_is_even(const ec_allotment *a, const ec_film *film)
     return true;
 }
 
+/* Pixels that one thread looks at: the shortest stride that any of them is due, and how many of that length. */
+typedef struct share {
+    uint32_t first, end, step, strides;
+} share;
+enum { SHARES = 64 };
+
+/* How many of pixel number i's next strides, all as long as the first, it is due. In which strides a pixel goes on depends on nothing but its samples,
+ * and so do its bits. */
+static uint32_t strides_due(const ec_allotment *a, const ec_film *film, uint32_t i, uint32_t *step)
+{
+    uint32_t has = samples_of(a, film, i), count = 0;
+    *step = due(a, i, has);
+    for (uint32_t next = *step; next && next == *step; count++) next = due(a, i, has += next);
+    return count;
+}
+
+static void look(const ec_allotment *a, const ec_film *film, share *s)
+{
+    s->step = UINT32_MAX;
+    s->strides = 0;
+    for (uint32_t i = s->first; i < s->end; i++) {
+        uint32_t step, count = strides_due(a, film, i, &step);
+        if (!step || step > s->step) continue;
+        s->strides = count + (step == s->step ? s->strides : 0);
+        s->step = step;
+    }
+}
+
 /* The shortest stride that any pixel is due. */
-static uint32_t shortest(const ec_allotment *a, const ec_film *film)
+static uint32_t look_at_all(const ec_allotment *a, const ec_film *film, share shares[SHARES])
 {
     uint32_t least = UINT32_MAX;
-#pragma omp parallel for reduction(min : least) if (ec_film_is_many(a->pixels))
-    for (uint32_t i = 0; i < a->pixels; i++) {
-        const uint32_t step = due(a, i, samples_of(a, film, i));
-        if (step && step < least) least = step;
+#pragma omp parallel for if (ec_film_is_many(a->pixels))
+    for (uint32_t k = 0; k < SHARES; k++) {
+        shares[k].first = (uint32_t)((uint64_t)a->pixels * k / SHARES);
+        shares[k].end = (uint32_t)((uint64_t)a->pixels * (k + 1) / SHARES);
+        look(a, film, &shares[k]);
     }
+    for (uint32_t k = 0; k < SHARES; k++) least = shares[k].step < least ? shares[k].step : least;
     return least;
 }
 
-/* The next strides that pixel number i is due, as long as they are the pass's: in which strides a pixel goes on depends on nothing but its
- * samples, and so do its bits. False where there is no room, or not so many samples are left; then the pass is full. */
-static bool enter(ec_allotment *a, const ec_film *film, uint32_t i, double most, ec_pass *pass)
+/* Strides of the pass, from the list's stride `at` on, as far as `most` of them. */
+static void enter(ec_allotment *a, const ec_film *film, const share *s, uint32_t samples, uint64_t at, uint64_t most)
 {
-    for (uint32_t has = samples_of(a, film, i); due(a, i, has) == pass->samples; has += pass->samples) {
-        const uint32_t count = pass->count + a->replicates;
-        if (count > a->room || (pass->count && count * (double)pass->samples > most)) return false;
-        for (uint32_t r = 0; r < a->replicates; r++, pass->count++) {
-            uint32_t *entry = a->list + EC_LIST_WORDS * pass->count;
-            entry[0] = i + r * a->pixels;
-            entry[1] = has;
-            a->places[pass->count] = a->place[i];
-        }
+    for (uint32_t i = s->first; i < s->end && at < most; i++) {
+        uint32_t step, count = strides_due(a, film, i, &step), has = samples_of(a, film, i);
+        if (step != samples) continue;
+        for (; count > 0 && at < most; count--, at++, has += samples)
+            for (uint32_t r = 0; r < a->replicates; r++) {
+                uint32_t *entry = a->list + EC_LIST_WORDS * (at * a->replicates + r);
+                entry[0] = i + r * a->pixels;
+                entry[1] = has;
+                a->places[at * a->replicates + r] = a->place[i];
+            }
     }
-    return true;
 }
 
 /* When all have what they are due at a power of 2, beyond the pilot, whose weights these are, variances are known better. */
@@ -190,10 +219,18 @@ static void rise(ec_allotment *a, const ec_film *film)
 
 ec_pass ec_allotment_pass(ec_allotment *a, const ec_film *film, double most)
 {
-    ec_pass pass = {0};
-    while ((pass.samples = shortest(a, film)) == UINT32_MAX) rise(a, film);
-    for (uint32_t i = 0; i < a->pixels && enter(a, film, i, most, &pass); i++) continue;
-    return pass;
+    share shares[SHARES];
+    uint64_t starts[SHARES + 1] = {0};
+    uint32_t step;
+    while ((step = look_at_all(a, film, shares)) == UINT32_MAX) rise(a, film);
+    const double allowed = floor(most / ((double)step * a->replicates)), room = floor((double)a->room / a->replicates);
+    const uint64_t strides_most = (uint64_t)fmax(fmin(allowed, room), 1);
+    for (uint32_t k = 0; k < SHARES; k++) starts[k + 1] = starts[k] + (shares[k].step == step ? shares[k].strides : 0);
+#pragma omp parallel for if (ec_film_is_many(a->pixels))
+    for (uint32_t k = 0; k < SHARES; k++)
+        if (shares[k].step == step) enter(a, film, &shares[k], step, starts[k], strides_most);
+    const uint64_t strides = starts[SHARES] < strides_most ? starts[SHARES] : strides_most;
+    return (ec_pass){.count = (uint32_t)(strides * a->replicates), .samples = step};
 }
 
 void ec_allotment_free(ec_allotment *a)

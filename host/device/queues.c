@@ -9,8 +9,9 @@
 /* A slot has R, G, B, and again of indirect light where it is kept apart, or of each layer. */
 static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3 + 3 * p->params.layer_count + (p->params.layer_ids ? 3 : 0); }
 
-/* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads, and few enough for queues that stay in
- * the cache. (On two cores waves of 2^18 take 0 to 17 % longer than those of 2^16, and those of 2^14 20 % longer in a small scene.) */
+/* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads, and few enough for queues that
+ * stay in the cache. (On two cores waves of 2^18 take 0 to 17 % longer than those of 2^16, and those of 2^14 20 % longer in a small scene. An
+ * H100 takes 4.4 times as long for waves of 2^16 as for 2^20, 2 % longer for 2^22, 16 % for 2^23.) */
 static uint64_t wanted_wave(const ec_device_info *device)
 {
     uint64_t wave = (uint64_t)1 << 16;

@@ -126,7 +126,7 @@ extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
 const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features);
 
 #define EC_LOCAL_SIZE 16 /* one fixed local size a kernel: PoCL compiles again for each new one */
-#define EC_LOCAL_SIZE_OF_CARDS 64 /* whose threads go in step by 32 or 64: fewer in a group leave the rest idle */
+#define EC_LOCAL_SIZE_OF_CARDS 64 /* whose threads go in step by 32 or 64. On an H100 128 are as fast, 32 and 256 take 3 to 13 % longer */
 uint32_t ec_local_size(const ec_device_info *device);
 
 #endif

@@ -76,6 +76,32 @@ static void check_bias(void)
     CHECK_MSG(fabs(mean - 1) <= 4 * se && se < 0.003, "mean %g +- %g", mean, se);
 }
 
+/* A pass of fewer samples is the beginning of the same list, of whole pixels. */
+static void check_limited_passes(void)
+{
+    static uint32_t whole[EC_LIST_WORDS * PIXELS * EC_REPLICATES];
+    const ec_params params = {.width = WIDTH, .height = HEIGHT};
+    ec_film film = {0};
+    ec_allotment a;
+    ec_error err;
+    CHECK_OK(ec_film_create(&film, WIDTH, HEIGHT, EC_REPLICATES, &err), err);
+    for (uint32_t k = 0; !ec_schedule_has_pilot(EC_REPLICATES, k); k++)
+        CHECK_OK(ec_film_add(&film, k, draw_batch(NULL, PIXELS, ec_schedule_batch(EC_REPLICATES, k).samples), &err), err);
+    CHECK_OK(ec_allot(&film, &params, &a, &err), err);
+    const ec_pass all = ec_allotment_pass(&a, &film, INFINITY);
+    const uint32_t one = EC_REPLICATES * all.samples; /* samples of a pixel's stride */
+    CHECK(all.count > 100 * EC_REPLICATES);
+    memcpy(whole, a.list, sizeof *whole * EC_LIST_WORDS * all.count);
+    for (uint32_t strides = 0; strides < 100; strides += strides < 5 ? 1 : 19)
+        for (uint32_t more = 0; more < one; more += one - 1) {
+            const ec_pass pass = ec_allotment_pass(&a, &film, (double)strides * one + more);
+            CHECK_MSG(pass.samples == all.samples && pass.count == EC_REPLICATES * (strides ? strides : 1), "%u entries for %u strides", pass.count, strides);
+            CHECK(!memcmp(whole, a.list, sizeof *whole * EC_LIST_WORDS * pass.count));
+        }
+    ec_allotment_free(&a);
+    ec_film_destroy(&film);
+}
+
 /* ---- renders ---- */
 
 enum { SIZE = 64 };
@@ -184,6 +210,7 @@ static void check_overflow(void)
 int main(void)
 {
     check_bias();
+    check_limited_passes();
     check_overflow();
     check_renders(OWN_SCENE("ring/ring.gltf"));
     check_renders(OWN_SCENE("cornell-box/cornell-box.gltf"));
