@@ -45,11 +45,11 @@ static void place_of(const char *source, unsigned n, char *place, size_t size)
 /* NVIDIA's compiler counts lines from the start of the source, whatever #line says. Returns how much of the line the place stands for. */
 static size_t put_right(const char *line, const char *source, char *place, size_t size)
 {
-    unsigned n;
+    char number[10]; /* %u would look for one on the next line too */
     int read = 0;
     *place = 0;
-    if (sscanf(line, "<kernel>:%u%n:", &n, &read) < 1) return 0;
-    place_of(source, n, place, size);
+    if (sscanf(line, "<kernel>:%9[0-9]%n", number, &read) < 1) return 0;
+    place_of(source, (unsigned)strtoul(number, NULL, 10), place, size);
     return (size_t)read;
 }
 

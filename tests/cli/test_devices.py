@@ -82,6 +82,9 @@ class Devices(Case):
         picture = "render", CORNELL, "--size", "24x24", "--spp", "8", "-q", "-o", self.path("a.exr")
         self.assertEqual(self.assert_ok(eclat(*picture, env=brought_in)).stderr, f"eclat: warning: {mend}\n")
         self.assertEqual(self.assert_ok(eclat(*picture, "--device", "0", env=brought_in)).stderr, "")
+        drivers = "/etc/OpenCL/vendors"
+        if os.path.isdir(drivers):  # who names a folder has chosen
+            self.assertEqual(self.assert_ok(eclat("devices", env={**brought_in, "OCL_ICD_VENDORS": drivers})).stderr, "")
         line = self.assert_one_error(eclat("devices", env={**brought_in, "OCL_ICD_VENDORS": self.path("none")}), 1)
         self.assertIn("no OpenCL driver is installed; " + mend, line)
 
