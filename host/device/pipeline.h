@@ -72,8 +72,9 @@ ec_integrate ec_integrate_paths;   /* wave.c */
 ec_integrate ec_integrate_whitted; /* whitted.c */
 ec_integrate ec_integrate_raster;  /* raster.c */
 
-/* queues.c: the sum of a queue's parts; the first paths, one part after the other; which queue is read and which written */
+/* queues.c: the sum of a queue's parts, and the most that one holds; the first paths, one part after the other; which queue is read and which written */
 uint64_t ec_pipeline_total(const uint32_t *parts);
+uint32_t ec_pipeline_fullest(const uint32_t *parts);
 void ec_pipeline_fill_parts(ec_pipeline *pipeline, uint32_t paths);
 void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
 

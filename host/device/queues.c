@@ -191,6 +191,13 @@ uint64_t ec_pipeline_total(const uint32_t *parts)
     return sum;
 }
 
+uint32_t ec_pipeline_fullest(const uint32_t *parts)
+{
+    uint32_t most = 0;
+    for (int k = 0; k < EC_PARTS; k++) most = parts[k * EC_PART_STRIDE] > most ? parts[k * EC_PART_STRIDE] : most;
+    return most;
+}
+
 void ec_pipeline_swap_queues(ec_pipeline *p, uint32_t bounce)
 {
     p->buffers[EC_ARG_PATHS] = p->path_queues[bounce & 1];

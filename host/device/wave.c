@@ -9,8 +9,7 @@ static ec_result begin_segment(ec_pipeline *p, ec_error *err)
 {
     ec_counters *counters = &p->counters;
     memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
-    p->held = 0;
-    for (uint32_t k = 0; k < EC_PARTS; k++) p->held = counters->rays[0][k * EC_PART_STRIDE] > p->held ? counters->rays[0][k * EC_PART_STRIDE] : p->held;
+    p->held = ec_pipeline_fullest(counters->rays[0]);
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err);
 }
 
