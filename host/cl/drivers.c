@@ -72,15 +72,12 @@ static const struct {
     const char *platform, *library, *icd;
 } brought_in[] = {{"NVIDIA", "libnvidia-opencl.so.1", "nvidia.icd"}};
 
-/* Where it is told of a driver that offers no platform, there is no such device; and who sets OCL_ICD_VENDORS, and has a platform, has chosen. */
-static bool is_told(const char *platform, const char *icd)
+/* Who sets OCL_ICD_VENDORS, and has a platform, has chosen. */
+static bool is_offered(const char *platform)
 {
     cl_platform_id platforms[64];
     cl_uint count = 0;
-    char path[PATH_MAX];
     const char *wanted = getenv("OCL_ICD_VENDORS");
-    snprintf(path, sizeof path, VENDORS "/%s", icd);
-    if (access(path, F_OK) == 0) return true;
     if (clGetPlatformIDs(64, platforms, &count) != CL_SUCCESS) return false;
     for (cl_uint i = 0; i < count && i < 64; i++) {
         char own[256] = "";
@@ -90,12 +87,21 @@ static bool is_told(const char *platform, const char *icd)
     return count > 0 && wanted && *wanted;
 }
 
+/* Does the machine have the library, and the loader no file that names it? Where it has one and finds no platform, there is no such device. */
+static bool is_untold(const char *library, const char *icd)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, VENDORS "/%s", icd);
+    if (access(path, F_OK) == 0) return false;
+    void *driver = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
+    if (driver) dlclose(driver);
+    return driver != NULL;
+}
+
 bool ec_drivers_unnamed(char *text, size_t size)
 {
     for (size_t i = 0; i < sizeof brought_in / sizeof *brought_in; i++) {
-        void *driver = is_told(brought_in[i].platform, brought_in[i].icd) ? NULL : dlopen(brought_in[i].library, RTLD_LAZY | RTLD_LOCAL);
-        if (!driver) continue;
-        dlclose(driver);
+        if (!is_untold(brought_in[i].library, brought_in[i].icd) || is_offered(brought_in[i].platform)) continue;
         snprintf(text, size, "%s's driver is here, but the OpenCL loader is not told of it; to use its devices: echo %s >" VENDORS "/%s",
                  brought_in[i].platform, brought_in[i].library, brought_in[i].icd);
         return true;
