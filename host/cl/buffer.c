@@ -122,6 +122,14 @@ ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t by
     return ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err);
 }
 
+ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err)
+{
+    cl_event event;
+    cl_int code = clEnqueueWriteBuffer(cl->queue, buffer, CL_FALSE, 0, bytes, from, 0, NULL, &event);
+    EC_TRY(ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err));
+    return ec_cl_launched(cl, event, "writing a buffer", NULL, err);
+}
+
 ec_result ec_buffer_read_rows(ec_cl *cl, cl_mem buffer, uint64_t pitch, uint64_t bytes, uint32_t rows, void *to, ec_error *err)
 {
     const size_t origin[3] = {0}, region[3] = {bytes, rows, 1};

@@ -50,6 +50,7 @@ ec_result ec_pipeline_read_invalid(ec_pipeline *p, uint32_t counts[EC_STAGE_COUN
 void ec_pipeline_destroy(ec_pipeline *p)
 {
     if (!p->cl) return;
+    clFinish(p->cl->queue); /* after an error counters may still be on their way */
     ec_kernel_set_release(&p->kernels);
     ec_compiler_leave(&p->compiler);
     for (int a = 0; a < EC_ACCEL_COUNT; a++)

@@ -10,7 +10,7 @@ static ec_result begin_segment(ec_pipeline *p, ec_error *err)
     ec_counters *counters = &p->counters;
     memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
     p->held = ec_pipeline_fullest(counters->rays[0]);
-    return ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err);
+    return ec_buffer_send(p->cl, p->buffers[EC_ARG_COUNTERS], sizeof *counters, counters, err);
 }
 
 /* rays[0] then says what is left. */

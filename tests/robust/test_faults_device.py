@@ -11,7 +11,7 @@ from tiers import full
 
 HARMLESS = ["clGetPlatformInfo", "clGetDeviceInfo", "clGetProgramBuildInfo", "clGetProgramInfo"]  # a render may do without
 CACHED = ["clCreateProgramWithBinary", "clBuildProgram"]  # and without its cache: where the driver's binaries are kept, sources stand by
-CLOSING = 2  # buffers that are unmapped once all that they held is in the picture: samples and features
+CLOSING = {"clEnqueueUnmapMemObject": 2, "clFinish": 1}  # the last calls, when all is in the picture: samples and features are unmapped, nothing is under way
 LOST = {"CL_OUT_OF_RESOURCES": -5, "CL_INVALID_COMMAND_QUEUE": -36, "CL_DEVICE_NOT_AVAILABLE": -2}
 KEPT = re.compile(r"the render failed after (\d+) samples a pixel: .*; the picture so far is written$")
 
@@ -44,7 +44,7 @@ class Device(FaultCase):
         super().setUp()
         self.known = {}
         self.keeps_binaries = False
-        self.closing = 0
+        self.closing = {}
         for samples in range(1, 5):
             self.pictures(samples)
 
@@ -58,7 +58,7 @@ class Device(FaultCase):
     def test_any_call_fails(self):
         counts = self.count_calls()
         self.keeps_binaries = "clCreateProgramWithBinary" in counts
-        self.closing = counts["clEnqueueUnmapMemObject"] - CLOSING
+        self.closing = {call: counts[call] - last for call, last in CLOSING.items()}
         calls = [call for call in counts if call.startswith("cl") and call != "close"]
         self.assertGreater(len(calls), 15)
         kept = at_once(self.fail_once, [(call, n, -5) for call in calls for n in spread(counts[call], self.most)])
@@ -68,7 +68,7 @@ class Device(FaultCase):
         run, folder = self.run_with(f"{call}{n}{code}{len(more)}", call=call, at=n, code=code, **more)
         with self.subTest(call=call, n=n, code=code, more=more):
             another = call == "clGetDeviceIDs" and n > 2  # of a second driver, where one is installed: the first one's device does
-            if call == "clEnqueueUnmapMemObject" and n > self.closing:
+            if n > self.closing.get(call, n):
                 self.assertEqual([run.returncode, self.check_files(folder)], [0, {"a.exr": "new", "a.png": "new"}])
                 self.assertEqual(read_exr(os.path.join(folder, "a.exr"))[1]["R"], self.pictures(4))
                 return None
