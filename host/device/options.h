@@ -44,8 +44,8 @@ static inline bool ec_traces_paths(ec_integrator i) { return i == EC_INTEGRATOR_
 typedef enum ec_pixel_filter { EC_FILTER_BOX, EC_FILTER_BLACKMAN_HARRIS } ec_pixel_filter;
 #define EC_FILTER_WIDTH 1.5 /* as Cycles has it */
 
-/* Kernels that take long to compile: beside the render, which begins with others (tiers.h), or first. */
-typedef enum ec_compile { EC_COMPILE_AUTO /* $ECLAT_COMPILE, else beside */, EC_COMPILE_BESIDE, EC_COMPILE_FIRST, EC_COMPILE_COUNT } ec_compile;
+/* Kernels that take long to compile: beside the render, which begins with others (tiers.h), first, or not at all. */
+typedef enum ec_compile { EC_COMPILE_AUTO /* $ECLAT_COMPILE, else beside */, EC_COMPILE_BESIDE, EC_COMPILE_FIRST, EC_COMPILE_NARROW, EC_COMPILE_COUNT } ec_compile;
 
 typedef struct ec_render_options {
     uint32_t width, height;     /* pixels */

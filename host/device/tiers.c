@@ -25,17 +25,18 @@ static ec_kernel_set universal_set(const ec_pipeline *p)
     return (ec_kernel_set){.lanes = 1, .wave = ec_pipeline_narrow_wave(p, features), .features = features, .calls = true, .accels = accels};
 }
 
-static bool is_beside(ec_compile compile)
+static ec_compile when_to_compile(ec_compile compile)
 {
     const char *wanted = getenv("ECLAT_COMPILE");
-    return compile == EC_COMPILE_BESIDE || (compile == EC_COMPILE_AUTO && !(wanted && !strcmp(wanted, "first")));
+    if (compile != EC_COMPILE_AUTO || !wanted) return compile;
+    return !strcmp(wanted, "first") ? EC_COMPILE_FIRST : !strcmp(wanted, "narrow") ? EC_COMPILE_NARROW : EC_COMPILE_BESIDE;
 }
 
 /* Only where it pays, and where the bits are known not to depend on it. Who asks for a width gets it. */
 static bool may_begin_narrow(const ec_pipeline *p, const ec_cargo_head *head)
 {
     return ec_compiles_late(p->cl) && ec_device_rounds(&p->cl->info) && !head->fast_math && !head->lanes && p->lanes > 1 &&
-           is_beside(head->compile) && ec_pipeline_narrow_wave(p, p->effects.built);
+           when_to_compile(head->compile) != EC_COMPILE_FIRST && ec_pipeline_narrow_wave(p, p->effects.built);
 }
 
 /* Not ray trees: they would need a stack of branches for glass that the scene may not have. */
@@ -74,7 +75,17 @@ static const ec_compile_job *rasterisers_job(const ec_pipeline *p, candidate *c)
     return is_wanted ? &c->job : NULL;
 }
 
-/* Chooses the set to begin with, and has the fast one compiled, and then the universal ones for scenes to come. */
+/* In another process: the fast kernels for this render, and then the universal ones for scenes to come. */
+static bool compile_beside(ec_pipeline *p, candidate *c, bool wants_universal)
+{
+    const ec_compile_job *wanted[3] = {&c[EC_BEGUN_FAST].job}, *raster = p->integrator == EC_INTEGRATOR_RASTER ? NULL : rasterisers_job(p, &c[RASTERISER]);
+    uint32_t count = 1;
+    if (raster) wanted[count++] = raster;
+    if (wants_universal) wanted[count++] = &c[EC_BEGUN_UNIVERSAL].job;
+    return ec_compiler_start(wanted, count, &p->compiler, NULL) == EC_OK;
+}
+
+/* Chooses the set to begin with. */
 static ec_begun choose(ec_pipeline *p, const ec_cargo_head *head, candidate *c)
 {
     p->waves_until_fast = head->waves_until_fast;
@@ -82,11 +93,9 @@ static ec_begun choose(ec_pipeline *p, const ec_cargo_head *head, candidate *c)
     if (p->is_narrow) return EC_BEGUN_NARROW;
     if (!may_begin_narrow(p, head) || is_compiled(p, &c[EC_BEGUN_FAST])) return EC_BEGUN_FAST;
     const bool may = may_be_universal(p), has_universal = may && is_compiled(p, &c[EC_BEGUN_UNIVERSAL]);
-    const ec_compile_job *wanted[3] = {&c[EC_BEGUN_FAST].job}, *raster = p->integrator == EC_INTEGRATOR_RASTER ? NULL : rasterisers_job(p, &c[RASTERISER]);
-    uint32_t count = 1;
-    if (raster) wanted[count++] = raster;
-    if (may && !has_universal) wanted[count++] = &c[EC_BEGUN_UNIVERSAL].job;
-    p->is_narrow = ec_compiler_start(wanted, count, &p->compiler, NULL) == EC_OK;
+    const bool is_to_stay = when_to_compile(head->compile) == EC_COMPILE_NARROW;
+    if (is_to_stay) p->waves_until_fast = UINT32_MAX;
+    p->is_narrow = is_to_stay || compile_beside(p, c, may && !has_universal);
     if (!p->is_narrow) return EC_BEGUN_FAST;
     return has_universal && !is_compiled(p, &c[EC_BEGUN_NARROW]) ? EC_BEGUN_UNIVERSAL : EC_BEGUN_NARROW;
 }

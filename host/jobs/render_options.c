@@ -261,7 +261,7 @@ const ec_option ec_render_rows[] = {
      .help = "OpenCL device: its number in eclat devices, or part of its name; for several, a list such as 0,2, or all",
      .otherwise = "$ECLAT_DEVICE, else the first GPU, else the first CPU"},
     {.name = "compile", .metavar = "WHEN", EC_CHOSEN(options.compile, ec_compile_names), .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
-     .help = "when to compile kernels that the driver does not have yet: beside (a render begins with kernels that compile sooner) or first; the image is the same",
+     .help = "when to compile kernels that the driver does not have yet: beside (a render begins with narrow kernels, which compile sooner), first, or not at all: narrow, for small images; the image is the same",
      .otherwise = "auto: $ECLAT_COMPILE, else beside"},
     {.name = "lanes", .metavar = "N", EC_STORED(LANES, options.lanes), .choices = ec_lanes_names, .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
      .help = "paths per work-item: 1, 4, 8, 16 or auto; the image is the same", .otherwise = "auto"},

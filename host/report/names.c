@@ -6,7 +6,7 @@
 #include "image/image.h"
 #include "render/render.h"
 
-const char *const ec_compile_names[] = {[EC_COMPILE_AUTO] = "auto", [EC_COMPILE_BESIDE] = "beside", [EC_COMPILE_FIRST] = "first", NULL};
+const char *const ec_compile_names[] = {[EC_COMPILE_AUTO] = "auto", [EC_COMPILE_BESIDE] = "beside", [EC_COMPILE_FIRST] = "first", [EC_COMPILE_NARROW] = "narrow", NULL};
 const char *const ec_begun_names[] = {[EC_BEGUN_FAST] = "fast", [EC_BEGUN_NARROW] = "narrow", [EC_BEGUN_UNIVERSAL] = "universal", NULL};
 const char *const ec_instancing_names[] = {
     [EC_INSTANCING_AUTO] = "auto", [EC_INSTANCING_OFF] = "off", [EC_INSTANCING_ON] = "on", NULL};

@@ -21,8 +21,9 @@ ENVIRONMENT = dict(os.environ)
 ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
 ENVIRONMENT["ECLAT_COMPILE"] = "first"  # no processes that outlive a test; test_compile has its own
 
-# The same kernels for every scene, in all tests that want them: see case_with_all_effects.
-QUICK = ("--effects", "all", "--lanes", "4")
+# The same kernels for every scene, of small pictures; NARROW: kernels of their own, where options make the others compile again, for long.
+NARROW = ("--compile", "narrow")
+QUICK = ("--effects", "all", *NARROW)
 
 
 def eclat(*arguments, cwd=None, env=None, timeout=300, program=None, **options):

@@ -9,7 +9,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
 from hard_scene import Scene
-from support import QUICK, Case, eclat
+from support import Case, eclat
 
 IOR, ALBEDO, LE, SUN = 1.5, 0.8, 100, 3
 MATT = {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [ALBEDO] * 3 + [1]}, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}

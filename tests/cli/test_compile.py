@@ -88,6 +88,15 @@ class Compile(Case):
         self.assertGreater(report["fast_kernels_after_seconds"], 0)
         self.assertEqual(report["image_sha256"], self.render("--compile", "first", spp=40000)[0]["image_sha256"])
 
+    def test_narrow_ones_to_the_end(self):
+        """Nothing is compiled but what compiles soonest, and fast ones that are there are taken."""
+        report, said = self.render("--compile", "narrow", spp=64)
+        self.skip_unless_late(report)
+        self.assertEqual((report["first_kernels"], report["fast_kernels_after_seconds"], children(self.cache)), ("narrow", None, []))
+        self.assertIn(FIRST_LINE, said)
+        self.assertEqual(self.render("--compile", "first", spp=64)[0]["image_sha256"], report["image_sha256"])
+        self.assertEqual(self.render("--compile", "narrow")[0]["first_kernels"], "fast")
+
     def end_children_after(self, files):
         """Once a compiler has begun, and so many more files are in the cache, or none compiles any more."""
         def count():

@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
 from hard_scene import Scene
-from support import QUICK, Case, eclat, read_exr
+from support import NARROW, Case, eclat, read_exr
 
 SIZE = 48
 TURN = [0.3, 0.4, 0.2, math.sqrt(1 - 0.3 ** 2 - 0.4 ** 2 - 0.2 ** 2)]
@@ -51,7 +51,7 @@ class Coplanar(Case):
         for k, (_, mesh) in enumerate(faces):
             scene.add(material=k, **mesh)
         out = self.path("out.exr")
-        self.assert_ok(eclat("render", scene.write(self.path("scene.gltf")), "-q", *QUICK, "--size", f"{SIZE}x{SIZE}", "--spp", "1",
+        self.assert_ok(eclat("render", scene.write(self.path("scene.gltf")), "-q", *NARROW, "--size", f"{SIZE}x{SIZE}", "--spp", "1",
                              "--replicates", "1", "-o", out, *options))
         channels = read_exr(out)[1]
         return list(zip(channels["R"], channels["G"]))

@@ -5,7 +5,7 @@ import os
 import struct
 import zlib
 
-from support import Case, data_uri, eclat, read_exr, write_gltf
+from support import QUICK, Case, data_uri, eclat, read_exr, write_gltf
 
 QUAD = [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0]  # two triangles that face +z
 UV = ("TEXCOORD_0", 2, [0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1])
@@ -121,7 +121,7 @@ class HardCase(Case):
     """One set of kernels for all scenes (--effects all), compiled once; of four lanes, which Intel's compiler does in 18 s of processor
     time. With its own 16 it is still busy after 80 s. The bits are the same."""
 
-    def render(self, scene, *options, invalid=0, size="16x16", spp="16", kernels=("--effects", "all", "--lanes", "4")):
+    def render(self, scene, *options, invalid=0, size="16x16", spp="16", kernels=QUICK):
         path = scene if isinstance(scene, str) else scene.write(self.path("scene.gltf"))
         picture = self.path("picture.exr")
         run = self.assert_ok(eclat("render", path, *kernels, "--size", size, "--spp", spp, "--channels", "all", "--json", "-o", picture, *options, timeout=900))

@@ -65,7 +65,7 @@ static void check_scene(const char *what, const ec_scene *scene, uint64_t all_sc
         o.grid_density = densities[i];
         check_one(scene, &expected, &o, what);
     }
-    o = case_with_all_effects(base_options());
+    o = case_quick(case_with_all_effects(base_options()));
     check_one(scene, &expected, &o, what);
     case_free(&expected);
 }
