@@ -10,7 +10,7 @@ import os
 import struct
 import unittest
 
-from support import NARROW, QUICK, SHARED, Case, data_uri, eclat, read_exr, write_gltf
+from support import NARROW, SHARED, Case, data_uri, eclat, read_exr, write_gltf
 from tiers import full
 
 STILLS = 8
@@ -223,7 +223,7 @@ class Motion(Case):
         b = Builder()
         b.animate(b.add(GLOW, rotation=turn(1, 20)), "rotation", [turn(1, 20), turn(1, 20)])
         b.animate(b.camera(2), "translation", [(0, 0, 5), (0, 0, 5)])
-        scene, common = b.write(self.path("still.gltf")), ["--animation", "all", "--size", "16x16", "--spp", "4", *QUICK]
+        scene, common = b.write(self.path("still.gltf")), ["--animation", "all", "--size", "16x16", "--spp", "4", *NARROW]
         stats, _ = self.render(scene, "--shutter", "0:1", *common)
         self.assertNotIn("motion-blur", self.called_for(stats))
         self.assertEqual(stats["image_sha256"], self.sha(scene, "--at", "0.5", *common))
@@ -250,7 +250,7 @@ class Motion(Case):
         b.animate(b.add(GLOW), "scale", [(0, 0, 0), (1, 1, 1)])
         b.animate(b.add(GREY, translation=[0, .5, .5]), "scale", [(1, 1, 1), (0, 0, 0), (1, 1, 1)], times=(0.0, 0.5, 1.0))
         b.camera(1)
-        stats, planes = self.render(b.write(self.path("grow.gltf")), "--animation", "all", "--shutter", "0:1", "--size", "16x16", "--spp", "64", *QUICK)
+        stats, planes = self.render(b.write(self.path("grow.gltf")), "--animation", "all", "--shutter", "0:1", "--size", "16x16", "--spp", "64", *NARROW)
         self.assertEqual(stats["invalid_samples"], 0)
         self.assertGreater(max(planes["G"]), 0.3)
 
