@@ -14,7 +14,7 @@ static ec_result take_replicate(ec_cost_runner *runner, ec_film *film, ec_sessio
     runner->stopped = !batch->complete;
     if (runner->stopped) return EC_OK;
     runner->invalid += batch->invalid;
-    EC_TRY(ec_film_add_features(film, batch->features, runner->pixels, 0, err));
+    EC_TRY(ec_film_add_features(film, batch->features, runner->pixels, 0, true, err));
     return ec_film_add(film, batch->replicate, batch->batch, err);
 }
 

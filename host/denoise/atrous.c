@@ -18,12 +18,12 @@ typedef struct work {
     cl_int width, height;
 } work;
 
-static ec_result set_up(work *w, const ec_device_info *device, const ec_film *film, ec_error *err)
+static ec_result set_up(work *w, const ec_device_info *device, ec_error *err)
 {
     EC_TRY(ec_cl_open(device, &w->cl, err));
     EC_TRY(ec_program_build(&w->cl, "atrous", ec_kernel_source("atrous"), "-DLANES=1 -DFEATURES=0", &w->program, err));
     EC_TRY(ec_kernel_create(w->program, "ec_atrous", &w->kernel, err));
-    EC_TRY(ec_buffer_create(&w->cl, "features", w->pixels * EC_AOV_FIELDS * sizeof(float), film->aov, &w->features, err));
+    EC_TRY(ec_buffer_create(&w->cl, "features", w->pixels * EC_AOV_FIELDS * sizeof(float), NULL, &w->features, err));
     for (int i = 0; i < 2; i++) EC_TRY(ec_buffer_create(&w->cl, "colours", w->pixels * 4 * sizeof(float), NULL, &w->colours[i], err));
     return EC_OK;
 }
@@ -51,25 +51,28 @@ static ec_result run_passes(work *w, ec_error *err)
     return EC_OK;
 }
 
-static ec_result filter_half(work *w, const ec_film *film, uint32_t half, float scale, float *colours, float *rgb, ec_error *err)
+/* room: EC_FILM_FEATURES floats a pixel. */
+static ec_result filter_half(work *w, const ec_film *film, uint32_t half, float scale, float *room, float *rgb, ec_error *err)
 {
     const uint64_t bytes = w->pixels * 4 * sizeof(float);
-    ec_half(film, half, scale, 4, colours);
-    EC_TRY(ec_buffer_write(&w->cl, w->colours[0], 0, bytes, colours, err));
+    ec_film_features_of(film, half, 0, w->pixels, room);
+    EC_TRY(ec_buffer_write(&w->cl, w->features, 0, w->pixels * EC_FILM_FEATURES * sizeof(float), room, err));
+    ec_half(film, half, scale, 4, room);
+    EC_TRY(ec_buffer_write(&w->cl, w->colours[0], 0, bytes, room, err));
     EC_TRY(run_passes(w, err));
-    EC_TRY(ec_buffer_read(&w->cl, w->colours[PASSES % 2], 0, bytes, colours, err));
+    EC_TRY(ec_buffer_read(&w->cl, w->colours[PASSES % 2], 0, bytes, room, err));
     for (uint64_t i = 0; i < w->pixels; i++)
-        for (uint64_t c = 0; c < 3; c++) rgb[3 * i + c] = colours[4 * i + c];
+        for (uint64_t c = 0; c < 3; c++) rgb[3 * i + c] = room[4 * i + c];
     return EC_OK;
 }
 
 ec_result ec_atrous(const ec_device_info *device, const ec_film *film, float scale, float *const half[2], ec_error *err)
 {
     work w = {.pixels = (uint64_t)film->width * film->height, .width = (cl_int)film->width, .height = (cl_int)film->height};
-    float *colours = malloc(w.pixels * 4 * sizeof *colours);
-    ec_result result = colours ? set_up(&w, device, film, err) : ec_fail(err, "out of memory for denoising %u x %u pixels", film->width, film->height);
-    for (uint32_t h = 0; result == EC_OK && h < 2; h++) result = filter_half(&w, film, h, scale, colours, half[h], err);
+    float *room = malloc(w.pixels * EC_FILM_FEATURES * sizeof *room);
+    ec_result result = room ? set_up(&w, device, err) : ec_fail(err, "out of memory for denoising %u x %u pixels", film->width, film->height);
+    for (uint32_t h = 0; result == EC_OK && h < 2; h++) result = filter_half(&w, film, h, scale, room, half[h], err);
     take_down(&w);
-    free(colours);
+    free(room);
     return result;
 }

@@ -9,6 +9,7 @@
 #include "denoise/clean.h"
 #include "denoise/oidn.h"
 #include "denoise/oidn_find.h"
+#include "film/pixel.h"
 
 enum { SCALE_MOST = 120 }; /* as a power of two, in floats */
 enum { CLEAN_GUIDES = 64 }; /* samples a pixel of the features from which on they are better than smoothed ones */
@@ -77,16 +78,30 @@ static void free_all(work *w)
     free(w->clean.error);
 }
 
-static void take_guides(work *w)
+static void take_guides(work *w, uint32_t half)
 {
-    for (uint64_t i = 0; i < pixels_of(w); i++)
-        for (uint64_t c = 0; c < 3; c++) {
-            w->albedo[3 * i + c] = w->film->aov[EC_FILM_FEATURES * i + c];
-            w->normal[3 * i + c] = w->film->aov[EC_FILM_FEATURES * i + 3 + c];
+    float features[EC_FILM_FEATURES * EC_PIXELS];
+    for (uint64_t first = 0; first < pixels_of(w); first += EC_PIXELS) {
+        const uint64_t count = pixels_of(w) - first < EC_PIXELS ? pixels_of(w) - first : EC_PIXELS;
+        ec_film_features_of(w->film, half, first, count, features);
+        for (uint64_t i = 0; i < 3 * count; i++) {
+            const float *from = features + EC_FILM_FEATURES * (i / 3) + i % 3;
+            w->albedo[3 * first + i] = from[0];
+            w->normal[3 * first + i] = from[3];
         }
+    }
 }
 
-/* Both halves, by the same guides. */
+/* Each by itself. */
+static ec_result smooth_guides(work *w, ec_oidn *oidn, ec_oidn_image image, ec_error *err)
+{
+    image.color = image.normal = NULL, image.albedo = w->albedo;
+    EC_TRY(ec_oidn_filter(oidn, &image, err));
+    image.albedo = NULL, image.normal = w->normal;
+    return ec_oidn_filter(oidn, &image, err);
+}
+
+/* Each half by its own guides: they have to be as independent of the other half, by which it is judged, as its colours are. */
 static ec_result filter_by_oidn(work *w, ec_oidn *oidn, ec_error *err)
 {
     const ec_film *film = w->film;
@@ -94,15 +109,13 @@ static ec_result filter_by_oidn(work *w, ec_oidn *oidn, ec_error *err)
     while (pixels_of(w) > effort->pixels) effort++;
     const bool is_smoothed = effort->smooths && ec_schedule_samples(film->replicates, film->aov_batches) < CLEAN_GUIDES;
     ec_oidn_image image = {.width = film->width, .height = film->height, .has_clean_guides = true, .quality = effort->quality};
-    take_guides(w);
-    image.albedo = w->albedo;
-    if (is_smoothed) EC_TRY(ec_oidn_filter(oidn, &image, err));
-    image.albedo = NULL, image.normal = w->normal;
-    if (is_smoothed) EC_TRY(ec_oidn_filter(oidn, &image, err));
-    image.albedo = w->albedo;
     for (uint32_t h = 0; h < 2; h++) {
+        if (h == 0 || film->aov_even) {
+            take_guides(w, h);
+            if (is_smoothed) EC_TRY(smooth_guides(w, oidn, image, err));
+        }
         ec_half(film, h, w->scale, 3, w->half[h]);
-        image.color = w->half[h];
+        image.color = w->half[h], image.albedo = w->albedo, image.normal = w->normal;
         EC_TRY(ec_oidn_filter(oidn, &image, err));
     }
     return EC_OK;

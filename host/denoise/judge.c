@@ -30,8 +30,8 @@
  * 2 Var p (B^2 + Var p) but for the third moment. With q, with s for Var p and with an estimate of (Var p)^2 that is made of four different replicates,
  * 2 ((q - s) s + (Var p)^2 (n + 1) / (n - 1)) has that expectation, whatever the fourth moment is. The variance of q is twice that less 2 (Var p)^2.
  *
- * The guides are the same for both halves and made of some of their samples; what comes of that is less than these trials can see:
- * tests/cli/denoise_seeds.py. */
+ * A denoiser's guides are of the samples of its half alone. With those of all samples D(a) knows something of b's noise, at edges above all: squared
+ * errors of furnace/spheres were stated 14 % too low at 16 samples (100 seeds, 5.8 standard errors). */
 #include "denoise/judge.h"
 
 #include <math.h>

@@ -29,6 +29,7 @@ void ec_film_destroy(ec_film *film)
     for (uint32_t i = 0; i < film->part_count; i++) ec_film_part_free(&film->parts[i]);
     free(film->parts);
     free(film->aov);
+    free(film->aov_even);
     free(film->unsampled);
     free(film->counts);
     free(film->rare);
@@ -111,17 +112,47 @@ ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *pl
     return EC_OK;
 }
 
-ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, uint32_t cut, ec_error *err)
+/* Samples that features are of, in every step-th replicate from r on. */
+static double feature_samples(const ec_film *film, uint32_t r, uint32_t step)
+{
+    const uint32_t end = film->aov_batches, last = end ? (end - 1) % film->replicates : 0;
+    const bool is_cut = film->cut && end == ec_film_end(film) && last % step == r;
+    uint64_t samples = 0;
+    for (; r < film->replicates; r += step) samples += ec_schedule_share(film->replicates, r, 0, end);
+    return (double)samples - (is_cut ? film->cut : 0);
+}
+
+static ec_result average(const ec_film *film, float **mean, const float *features, uint64_t pixels, double before, double own, ec_error *err)
 {
     const uint64_t values = pixels * EC_FILM_FEATURES;
-    if (!film->aov) film->aov = calloc(pixels_of(film), EC_FILM_FEATURES * sizeof *film->aov);
-    if (!film->aov) return ec_fail(err, "out of memory for the first-hit features");
-    const double own = ec_schedule_batch(film->replicates, film->aov_batches).samples - cut;
-    const double share = own / (own + (double)ec_schedule_samples(film->replicates, film->aov_batches));
-    const bool is_first = film->aov_batches++ == 0;
+    if (!*mean) *mean = calloc(pixels_of(film), EC_FILM_FEATURES * sizeof **mean);
+    float *to = *mean;
+    if (!to) return ec_fail(err, "out of memory for the first-hit features");
 #pragma omp parallel for if (ec_film_is_many(pixels))
-    for (uint64_t i = 0; i < values; i++) film->aov[i] = is_first ? features[i] : (float)(film->aov[i] + ((double)features[i] - film->aov[i]) * share);
+    for (uint64_t i = 0; i < values; i++) to[i] = before == 0 ? features[i] : (float)(to[i] + ((double)features[i] - to[i]) * (own / (own + before)));
     return EC_OK;
+}
+
+ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, uint32_t cut, bool by_halves, ec_error *err)
+{
+    const ec_batch_range batch = ec_schedule_batch(film->replicates, film->aov_batches);
+    const double own = batch.samples - cut;
+    if (batch.replicate % 2 == 0 && (film->aov_batches ? film->aov_even != NULL : by_halves))
+        EC_TRY(average(film, &film->aov_even, features, pixels, feature_samples(film, 0, 2), own, err));
+    EC_TRY(average(film, &film->aov, features, pixels, feature_samples(film, 0, 1), own, err));
+    film->aov_batches++;
+    return EC_OK;
+}
+
+/* With n samples in all, of them e in even replicates, the sum of the odd ones is n all - e even. */
+void ec_film_features_of(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, float *out)
+{
+    const float *all = film->aov + EC_FILM_FEATURES * first, *even = film->aov_even ? film->aov_even + EC_FILM_FEATURES * first : NULL;
+    const double odd = feature_samples(film, 1, 2), share = odd > 0 ? feature_samples(film, 0, 2) / odd : 0;
+    const float *from = even && half == 0 ? even : all;
+    memcpy(out, from, count * EC_FILM_FEATURES * sizeof *out);
+    if (!even || half == 0) return;
+    for (uint64_t i = 0; i < count * EC_FILM_FEATURES; i++) out[i] = (float)(all[i] + ((double)all[i] - even[i]) * share);
 }
 
 ec_result ec_film_create_like(ec_film *film, const ec_film *like, uint32_t rows, ec_error *err)
@@ -144,6 +175,7 @@ ec_result ec_film_create_like(ec_film *film, const ec_film *like, uint32_t rows,
         film->part_count++;
     }
     if (like->aov) made = made && (film->aov = malloc(pixels * EC_FILM_FEATURES * sizeof *film->aov));
+    if (like->aov_even) made = made && (film->aov_even = malloc(pixels * EC_FILM_FEATURES * sizeof *film->aov_even));
     if (like->counts) made = made && (film->counts = malloc(pixels * sizeof *film->counts));
     film->layers = like->layers;
     if (like->layer_films) made = made && (film->layer_films = calloc(like->layers.count, sizeof *film->layer_films));
@@ -169,6 +201,8 @@ void ec_film_copy_rows(ec_film *film, uint32_t to, const ec_film *from, uint32_t
     }
     if (film->aov && from->aov)
         memcpy(film->aov + EC_FILM_FEATURES * here, from->aov + EC_FILM_FEATURES * there, pixels * EC_FILM_FEATURES * sizeof *film->aov);
+    if (film->aov_even && from->aov_even)
+        memcpy(film->aov_even + EC_FILM_FEATURES * here, from->aov_even + EC_FILM_FEATURES * there, pixels * EC_FILM_FEATURES * sizeof *film->aov_even);
     if (film->counts && from->counts) memcpy(film->counts + here, from->counts + there, pixels * sizeof *film->counts);
     for (uint32_t k = 0; film->layer_films && k < film->layers.count; k++)
         ec_film_copy_rows(&film->layer_films[k], to, &from->layer_films[k], first, rows);

@@ -42,6 +42,7 @@ typedef struct ec_film {
     /* First-hit features: the average over batches [0, aov_batches), each by its samples. albedo 3, normal 3, depth 1, alpha 1 per pixel; NULL: none.
      * Owned. */
     float *aov;
+    float *aov_even;              /* the same of even replicates' batches, so that each half has its own for a denoiser; NULL: they share aov. Owned */
     uint32_t aov_batches;
     /* Set only where the render was stopped within its first batch: 1 for pixels that have no sample. malloc'ed. */
     uint8_t *unsampled;
@@ -78,8 +79,12 @@ ec_result ec_film_add_cut(ec_film *film, uint32_t index, uint32_t cut, const flo
 void ec_film_set_cut(ec_film *film, uint32_t cut);
 
 /* First-hit features of batch `aov_batches`, which is `cut` samples short, EC_FILM_FEATURES floats a pixel, of the first `pixels` of them; 0
- * elsewhere. */
-ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, uint32_t cut, ec_error *err);
+ * elsewhere. by_halves: of even
+ * replicates apart, too; the first batch decides. */
+ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, uint32_t cut, bool by_halves, ec_error *err);
+
+/* Those of the replicates of one half, 0 the even ones and 1 the odd ones, where they are apart, else of all: EC_FILM_FEATURES floats a pixel. */
+void ec_film_features_of(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, float *out);
 
 /* The first batch of a picture that was stopped within it: the first `pixels` of it may have a sample. */
 ec_result ec_film_add_begun(ec_film *film, const float *batch, uint64_t pixels, ec_error *err);

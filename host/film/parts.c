@@ -243,8 +243,9 @@ ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err)
     if (!film->rare) film->rare = from->rare, from->rare = NULL;
     if (film->aov) return EC_OK;
     film->aov = from->aov;
+    film->aov_even = from->aov_even;
     film->aov_batches = from->aov_batches;
-    from->aov = NULL;
+    from->aov = from->aov_even = NULL;
     return EC_OK;
 }
 

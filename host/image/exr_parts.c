@@ -73,7 +73,8 @@ static int part_named(const ec_exr_file *file, const char *name)
 
 bool ec_exr_has(const ec_exr_file *file, const char *part, const char *channel)
 {
-    return ec_exr_channel(&file->input, part_named(file, part), channel) != NULL;
+    const int index = part_named(file, part);
+    return index >= 0 && ec_exr_channel(&file->input, index, channel) != NULL;
 }
 
 ec_result ec_exr_fill(ec_exr_file *file, const char *name, const ec_exr_room *rooms, uint32_t count, ec_error *err)

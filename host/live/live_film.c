@@ -100,7 +100,7 @@ ec_result ec_live_film_take(ec_live_film *p, ec_session *session, bool (*go_on)(
                               .features = features, .batch = p->room};
     if (result == EC_OK) result = ec_session_take(session, &batch, err);
     *complete = result == EC_OK && batch.complete;
-    if (result == EC_OK && *complete && features) result = ec_film_add_features(&p->film, features, (uint64_t)p->film.width * p->film.height, 0, err);
+    if (result == EC_OK && *complete && features) result = ec_film_add_features(&p->film, features, (uint64_t)p->film.width * p->film.height, 0, p->limits.denoise, err);
     free(features);
     if (result != EC_OK || !*complete) return result;
     EC_TRY(cut ? ec_film_add_cut(&p->film, index, cut, p->room, err) : ec_film_add(&p->film, index, p->room, err));

@@ -72,7 +72,7 @@ static ec_result add_begun(ec_render_state *r, ec_error *err)
     memset(unsampled + reached, 1, pixels - reached);
     const uint64_t missing = clear_unreached(r->source->mean, batch_features(r), r->layers, r->film->layers.count, reached, unsampled);
     r->under_way = (reached - missing) * ec_render_order_samples(r);
-    EC_TRY(ec_film_add_features(r->film, batch_features(r), reached, 0, err));
+    EC_TRY(ec_film_add_features(r->film, batch_features(r), reached, 0, r->options->denoise, err));
     for (uint32_t k = 0; k < r->film->layers.count; k++) {
         ec_film_layer_batch(r->film, k, r->layers, reached, r->layer);
         EC_TRY(ec_film_add_begun(&r->film->layer_films[k], r->layer, reached, err));
@@ -84,7 +84,7 @@ static ec_result add_begun(ec_render_state *r, ec_error *err)
 /* The last ones make room for the batch, before that goes into the film. */
 static ec_result add_features(ec_render_state *r, ec_error *err)
 {
-    EC_TRY(ec_film_add_features(r->film, batch_features(r), r->order.count, r->order.cut, err));
+    EC_TRY(ec_film_add_features(r->film, batch_features(r), r->order.count, r->order.cut, r->options->denoise, err));
     return r->source->end_features && r->past.next + 1 == r->feature_batches ? r->source->end_features(r->source, err) : EC_OK;
 }
 

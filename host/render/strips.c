@@ -18,7 +18,7 @@ ec_strip_need ec_strip_needs(const ec_render_options *o)
     const uint64_t film = o->slice_end ? ec_film_bytes(replicates, o->slice_first, o->slice_end) : ec_film_bytes(replicates, 0, batches);
     const uint64_t batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES, layers = o->layers.count, mattes = o->layers.mattes ? EC_MATTE_BYTES : 0;
     const uint64_t light = o->adaptive && o->light_paths > 0 ? film : 0; /* kept apart */
-    const uint64_t pixel = film * (1 + layers) + light + features, fresh = batch + features + layers * EC_LAYER_BYTES, beside = layers ? layers * EC_LAYER_BYTES + batch : 0;
+    const uint64_t pixel = film * (1 + layers) + light + features * (o->denoise ? 2 : 1), fresh = batch + features + layers * EC_LAYER_BYTES, beside = layers ? layers * EC_LAYER_BYTES + batch : 0;
     return (ec_strip_need){.host = pixel + fresh + beside + mattes, .device = fresh, .column = rows * pixel + room + planes + coded};
 }
 

@@ -3,7 +3,7 @@
  * Part "picture": what viewers show; first-hit features are read from its channels A, albedo, normal and depth. Its attribute eclat.state
  * is a JSON object: state.c. Part "sums N" for each part of the film: R, G and B of each replicate, and the tail of the samples (film/sums.h); or
  * what a single batch tells. Pixels with counts of their own have "count" there. Parts "layer K sums N" are the same of the K-th layer, from 1 on; of what light paths bring, where that is apart, K is one more than there are layers. Part "allotment": "weight", by pixel number. Part
- * "under way": what the batch that is not complete tells. */
+ * "features of even replicates" is of films that have them apart. Part "under way": what the batch that is not complete tells. */
 #ifndef EC_STORE_LAYOUT_H
 #define EC_STORE_LAYOUT_H
 
@@ -35,6 +35,7 @@ typedef struct ec_channel_name {
 uint32_t ec_sum_channels(const ec_sums *sums, const uint32_t *counts, ec_channel_name names[EC_SUM_CHANNELS], ec_channel channels[EC_SUM_CHANNELS]);
 uint32_t ec_batch_channels(const float *batch, ec_channel channels[EC_BATCH_FIELDS]);
 
+#define EC_PART_EVEN "features of even replicates"
 enum { EC_PART_NAME = 40 };
 void ec_sum_part_name(uint32_t layer, uint32_t index, char name[EC_PART_NAME]); /* layer 0: the picture */
 

@@ -124,15 +124,15 @@ static ec_result read_under_way(ec_exr_file *file, const char *path, ec_stored *
     return result;
 }
 
-static ec_result read_features(ec_exr_file *file, const char *path, ec_film *film, ec_error *err)
+static ec_result read_features(ec_exr_file *file, const char *path, const char *part, const ec_film *film, float **features, ec_error *err)
 {
     ec_exr_room rooms[EC_FEATURE_CHANNELS];
-    if (!ec_exr_has(file, "picture", ec_channel_name_of(EC_PLANE_FEATURES, 0))) return EC_OK;
-    film->aov = malloc((uint64_t)film->width * film->height * EC_FEATURE_CHANNELS * sizeof(float));
-    if (!film->aov) return no_memory(path, err);
+    if (!ec_exr_has(file, part, ec_channel_name_of(EC_PLANE_FEATURES, 0))) return EC_OK;
+    *features = malloc((uint64_t)film->width * film->height * EC_FEATURE_CHANNELS * sizeof(float));
+    if (!*features) return no_memory(path, err);
     for (uint32_t i = 0; i < EC_FEATURE_CHANNELS; i++)
-        rooms[i] = (ec_exr_room){ec_channel_name_of(EC_PLANE_FEATURES, i), film->aov + i, EC_FEATURE_CHANNELS};
-    return ec_exr_fill(file, "picture", rooms, EC_FEATURE_CHANNELS, err);
+        rooms[i] = (ec_exr_room){ec_channel_name_of(EC_PLANE_FEATURES, i), *features + i, EC_FEATURE_CHANNELS};
+    return ec_exr_fill(file, part, rooms, EC_FEATURE_CHANNELS, err);
 }
 
 ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
@@ -158,7 +158,8 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);
     if (result == EC_OK) s->film.invalid_count = state.invalid_count, s->film.limit = state.limit;
-    if (result == EC_OK && state.aov_batches) result = read_features(file, path, &s->film, err);
+    if (result == EC_OK && state.aov_batches) result = read_features(file, path, "picture", &s->film, &s->film.aov, err);
+    if (result == EC_OK && s->film.aov) result = read_features(file, path, EC_PART_EVEN, &s->film, &s->film.aov_even, err);
     if (s->film.aov) s->film.aov_batches = state.aov_batches;
     free(state.parts);
     free(state.light_parts);

@@ -185,6 +185,36 @@ static void features_are_averaged(void)
     ec_film_destroy(&film);
 }
 
+/* Batches of 1 sample and, from the ninth on, of 2; the last one has 1 of these. */
+static void features_of_halves(void)
+{
+    for (int by_halves = 0; by_halves < 2; by_halves++) {
+        enum { BATCHES = 11 };
+        ec_film film = filled_by(4, BATCHES - 1, value);
+        ec_error err;
+        float features[EC_FILM_FEATURES * P], half[EC_FILM_FEATURES * P];
+        double sums[2][EC_FILM_FEATURES * P] = {{0}}, samples[2] = {0};
+        for (int b = 0; b < BATCHES; b++) {
+            const uint32_t cut = b == BATCHES - 1, own = ec_schedule_batch(4, (uint32_t)b).samples - cut;
+            for (int i = 0; i < EC_FILM_FEATURES * P; i++) features[i] = value(b, i, 0), sums[b % 2][i] += own * features[i];
+            samples[b % 2] += own;
+            films_add_features_by(&film, features, cut, by_halves);
+        }
+        CHECK_OK(films_add_cut(&film, BATCHES - 1, 1, batch_of(BATCHES - 1, value), &err), err);
+        CHECK(samples[0] == 7 && samples[1] == 6 && (film.aov_even != NULL) == by_halves);
+        ec_film rows = {0};
+        CHECK_OK(ec_film_create_like(&rows, &film, H, &err), err);
+        ec_film_copy_rows(&rows, 0, &film, 0, H);
+        for (uint32_t h = 0; h < 2; h++) {
+            ec_film_features_of(&rows, h, 0, P, half);
+            for (int i = 0; i < EC_FILM_FEATURES * P; i++)
+                CHECK_NEAR(half[i], by_halves ? sums[h][i] / samples[h] : (sums[0][i] + sums[1][i]) / (samples[0] + samples[1]), 1e-5);
+        }
+        ec_film_destroy(&rows);
+        ec_film_destroy(&film);
+    }
+}
+
 /* Mean 100, standard deviation 0.1; sums of squares in float gave a negative variance here. */
 static float steady(int batch, int pixel, int channel)
 {
@@ -332,6 +362,7 @@ int main(void)
     some_pixels_go_on();
     pixels_go_on_twice();
     features_are_averaged();
+    features_of_halves();
     variance_survives_a_large_mean();
     resolves_mean_and_standard_error();
     error_never_lies_about_corner_cases();

@@ -2,7 +2,9 @@
 /* A pass of the à-trous filter against one in double, over a picture of noise, edges of albedo, normal and depth, and a pixel as bright as floats go far.
  * A weight is a product of numbers from 0 to 1, each 1 less a quotient of 12 roundings at most; a sum has 25 of them. And what it is for: an
  * even picture stays, nothing crosses an edge, the variance falls. */
+#include "denoise/atrous.h"
 #include "kernel/kernel_run.h"
+#include "support/films.h"
 #include "shared/path_state.h"
 
 enum { WIDTH = 29, HEIGHT = 21, PIXELS = WIDTH * HEIGHT };
@@ -101,6 +103,32 @@ static void check_purpose(ec_cl *cl, cl_program program)
     CHECK(after < before / 4);
 }
 
+/* A half is filtered by its own colours and features alone: it is judged by the other half. */
+static void check_halves(const ec_cl *cl)
+{
+    enum { SIDE = 16, COUNT = SIDE * SIDE };
+    static float halves[2][2][3 * COUNT], given[4][EC_FILM_FEATURES * COUNT], colours[4][3 * COUNT];
+    for (int b = 0; b < 4; b++) {
+        for (int i = 0; i < 3 * COUNT; i++) colours[b][i] = (float)test_random();
+        for (int i = 0; i < EC_FILM_FEATURES * COUNT; i++) given[b][i] = (float)test_random();
+    }
+    for (int run = 0; run < 2; run++) {
+        ec_film film = {0};
+        ec_error err;
+        float *const half[2] = {halves[run][0], halves[run][1]};
+        CHECK_OK(ec_film_create(&film, SIDE, SIDE, 4, &err), err);
+        for (uint32_t b = 0; b < 4; b++) {
+            for (int i = 0; run && b % 2 && i < EC_FILM_FEATURES * COUNT; i++) given[b][i] += (float)(i % 7);
+            films_add_features_by(&film, given[b], 0, true);
+            CHECK_OK(films_add(&film, b, colours[b], &err), err);
+        }
+        CHECK_OK(ec_atrous(&cl->info, &film, 1, half, &err), err);
+        ec_film_destroy(&film);
+    }
+    CHECK(!memcmp(halves[0][0], halves[1][0], sizeof halves[0][0]));
+    CHECK(memcmp(halves[0][1], halves[1][1], sizeof halves[0][1]));
+}
+
 int main(void)
 {
     ec_cl cl;
@@ -113,6 +141,7 @@ int main(void)
         for (int i = 0; i < PIXELS; i++) check_pixel(i % WIDTH, i / WIDTH, apart);
     }
     if (program) check_purpose(&cl, program);
+    check_halves(&cl);
     if (program) clReleaseProgram(program);
     ec_cl_close(&cl);
     TEST_END();

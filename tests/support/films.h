@@ -40,11 +40,13 @@ static inline ec_result films_add(ec_film *film, uint32_t index, const float *rg
 }
 
 /* A batch's first-hit features, EC_FILM_FEATURES a pixel. */
-static inline void films_add_features(ec_film *film, const float *features)
+static inline void films_add_features_by(ec_film *film, const float *features, uint32_t cut, bool by_halves)
 {
     ec_error err;
-    if (ec_film_add_features(film, features, (uint64_t)film->width * film->height, 0, &err) != EC_OK) exit(1);
+    if (ec_film_add_features(film, features, (uint64_t)film->width * film->height, cut, by_halves, &err) != EC_OK) exit(1);
 }
+
+static inline void films_add_features(ec_film *film, const float *features) { films_add_features_by(film, features, 0, false); }
 
 static inline ec_pixel films_pixel(const ec_film *film, uint64_t p)
 {
