@@ -32,11 +32,12 @@ static ec_compile when_to_compile(ec_compile compile)
     return !strcmp(wanted, "first") ? EC_COMPILE_FIRST : !strcmp(wanted, "narrow") ? EC_COMPILE_NARROW : EC_COMPILE_BESIDE;
 }
 
-/* Only where it pays, and where the bits are known not to depend on it. Who asks for a width gets it. */
+/* Who asks for a width gets it. To change kernels later pays where the driver compiles late, and takes bits that are known not to depend on it. */
 static bool may_begin_narrow(const ec_pipeline *p, const ec_cargo_head *head)
 {
-    return ec_compiles_late(p->cl) && ec_device_rounds(&p->cl->info) && !head->fast_math && !head->lanes && p->lanes > 1 &&
-           when_to_compile(head->compile) != EC_COMPILE_FIRST && ec_pipeline_narrow_wave(p, p->effects.built);
+    const ec_compile when = when_to_compile(head->compile);
+    return !head->fast_math && !head->lanes && p->lanes > 1 && ec_pipeline_narrow_wave(p, p->effects.built) &&
+           (when == EC_COMPILE_NARROW || (when != EC_COMPILE_FIRST && ec_compiles_late(p->cl) && ec_device_rounds(&p->cl->info)));
 }
 
 /* Not ray trees: they would need a stack of branches for glass that the scene may not have. */
@@ -94,7 +95,7 @@ static ec_begun choose(ec_pipeline *p, const ec_cargo_head *head, candidate *c)
     if (!may_begin_narrow(p, head) || is_compiled(p, &c[EC_BEGUN_FAST])) return EC_BEGUN_FAST;
     const bool may = may_be_universal(p), has_universal = may && is_compiled(p, &c[EC_BEGUN_UNIVERSAL]);
     const bool is_to_stay = when_to_compile(head->compile) == EC_COMPILE_NARROW;
-    if (is_to_stay) p->waves_until_fast = UINT32_MAX;
+    if (is_to_stay) p->waves_until_fast = UINT32_MAX; /* no picture has as many */
     p->is_narrow = is_to_stay || compile_beside(p, c, may && !has_universal);
     if (!p->is_narrow) return EC_BEGUN_FAST;
     return has_universal && !is_compiled(p, &c[EC_BEGUN_NARROW]) ? EC_BEGUN_UNIVERSAL : EC_BEGUN_NARROW;

@@ -149,10 +149,9 @@ void ec_film_features_of(const ec_film *film, uint32_t half, uint64_t first, uin
 {
     const float *all = film->aov + EC_FILM_FEATURES * first, *even = film->aov_even ? film->aov_even + EC_FILM_FEATURES * first : NULL;
     const double odd = feature_samples(film, 1, 2), share = odd > 0 ? feature_samples(film, 0, 2) / odd : 0;
-    const float *from = even && half == 0 ? even : all;
-    memcpy(out, from, count * EC_FILM_FEATURES * sizeof *out);
-    if (!even || half == 0) return;
-    for (uint64_t i = 0; i < count * EC_FILM_FEATURES; i++) out[i] = (float)(all[i] + ((double)all[i] - even[i]) * share);
+    const uint64_t values = count * EC_FILM_FEATURES;
+    if (!even || half == 0) memcpy(out, even ? even : all, values * sizeof *out);
+    else for (uint64_t i = 0; i < values; i++) out[i] = (float)(all[i] + ((double)all[i] - even[i]) * share);
 }
 
 ec_result ec_film_create_like(ec_film *film, const ec_film *like, uint32_t rows, ec_error *err)

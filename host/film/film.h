@@ -79,8 +79,7 @@ ec_result ec_film_add_cut(ec_film *film, uint32_t index, uint32_t cut, const flo
 void ec_film_set_cut(ec_film *film, uint32_t cut);
 
 /* First-hit features of batch `aov_batches`, which is `cut` samples short, EC_FILM_FEATURES floats a pixel, of the first `pixels` of them; 0
- * elsewhere. by_halves: of even
- * replicates apart, too; the first batch decides. */
+ * elsewhere. by_halves: of even replicates apart, too; the first batch decides. */
 ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, uint32_t cut, bool by_halves, ec_error *err);
 
 /* Those of the replicates of one half, 0 the even ones and 1 the odd ones, where they are apart, else of all: EC_FILM_FEATURES floats a pixel. */

@@ -21,7 +21,7 @@ ENVIRONMENT = dict(os.environ)
 ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
 ENVIRONMENT["ECLAT_COMPILE"] = "first"  # no processes that outlive a test; test_compile has its own
 
-# The same kernels for every scene, of small pictures; NARROW: kernels of their own, where options make the others compile again, for long.
+# NARROW: kernels for the scene alone. QUICK: kernels with all effects, which every scene can share, unless options (motion, instances) make them others.
 NARROW = ("--compile", "narrow")
 QUICK = ("--effects", "all", *NARROW)
 

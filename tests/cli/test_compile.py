@@ -59,8 +59,8 @@ class Compile(Case):
                 pass
         return not found
 
-    def render(self, *options, eclat_is=None, spp=8):
-        environment = {"XDG_CACHE_HOME": self.cache, "POCL_CACHE_DIR": os.path.join(self.cache, "pocl"), "ECLAT_COMPILE": "beside"}
+    def render(self, *options, eclat_is=None, spp=8, **more):
+        environment = {"XDG_CACHE_HOME": self.cache, "POCL_CACHE_DIR": os.path.join(self.cache, "pocl"), "ECLAT_COMPILE": "beside", **more}
         arguments = ["render", CORNELL, "--size", "48x48", "--spp", str(spp), "--json", "-o", self.path("a.exr"), *options]
         run = self.assert_ok(eclat(*arguments, env=environment, program=eclat_is))
         return json.loads(run.stdout), run.stderr
@@ -96,6 +96,13 @@ class Compile(Case):
         self.assertIn(FIRST_LINE, said)
         self.assertEqual(self.render("--compile", "first", spp=64)[0]["image_sha256"], report["image_sha256"])
         self.assertEqual(self.render("--compile", "narrow")[0]["first_kernels"], "fast")
+
+    def test_narrow_ones_where_the_driver_compiles_at_once(self):
+        self.skip_unless_late(self.render("--compile", "narrow")[0])
+        report, _ = self.render("--compile", "narrow", ECLAT_WORKAROUND="none")
+        self.assertEqual(report["first_kernels"], "narrow")
+        report, _ = self.render("--compile", "beside", ECLAT_WORKAROUND="none")
+        self.assertEqual((report["first_kernels"], children(self.cache)), ("fast", []))
 
     def end_children_after(self, files):
         """Once a compiler has begun, and so many more files are in the cache, or none compiles any more."""

@@ -118,8 +118,8 @@ class Picture:
 
 
 class HardCase(Case):
-    """One set of kernels for all scenes (--effects all), compiled once; of four lanes, which Intel's compiler does in 18 s of processor
-    time. With its own 16 it is still busy after 80 s. The bits are the same."""
+    """One set of kernels for all scenes (--effects all), compiled once; narrow ones, which Intel's compiler does in 10 s of processor
+    time. With four lanes it takes 82 s. The bits are the same."""
 
     def render(self, scene, *options, invalid=0, size="16x16", spp="16", kernels=QUICK):
         path = scene if isinstance(scene, str) else scene.write(self.path("scene.gltf"))

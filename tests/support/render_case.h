@@ -90,7 +90,8 @@ static inline ec_render_options case_quick(ec_render_options options)
     return options;
 }
 
-/* The same kernels for every scene, in all tests that want them (QUICK of tests/cli/support.py too). All effects take 29 s to compile for 4 lanes. */
+/* Options for kernels with all effects, which every scene can share; narrow ones, since for 4 lanes all effects take 29 s to compile. The command
+ * line's tests have these options as QUICK (tests/cli/support.py). */
 static inline ec_render_options case_with_all_effects(ec_render_options options)
 {
     options.all_effects = true;
