@@ -26,7 +26,7 @@ typedef struct hit8 {
     TALLIES
 } hit8;
 
-EC_FN ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz, float scene_max)
+EC_INLINED ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz, float scene_max)
 {
     ray8 q;
     q.r = ray_make(v3_make(F(ox), F(oy), F(oz)), v3_make(F(dx), F(dy), F(dz)), scene_max);
@@ -49,7 +49,7 @@ EC_FN ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz,
 }
 
 /* Which of eight triangles the ray passes inside and meets before h->t. *close: for edges_settle. */
-EC_FN int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1, const hit8 *h, int8 *close, float8 *t,
+EC_INLINED int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1, const hit8 *h, int8 *close, float8 *t,
                       float8 *inverse)
 {
     int8 m = edges_inside(e);
@@ -60,7 +60,7 @@ EC_FN int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1,
 
 /* Keeps the best of them, by (t, triangle id), if it is better than *h. lo, hi: the triangles' boxes. any_hit: only whether
  * there is one. */
-EC_FN void eight_take(const ray8 *q, const hit_filter *filter, const edges *e, int8 m, uint8 id, float8 t, float8 inverse,
+EC_INLINED void eight_take(const ray8 *q, const hit_filter *filter, const edges *e, int8 m, uint8 id, float8 t, float8 inverse,
                       v3 lo, v3 hi, bool any_hit, hit8 *h)
 {
     m = m & reference_clamp(&q->r, lo, hi, (float8)(h->t), &t) & ((t < h->t) | (id < h->prim));
@@ -83,29 +83,29 @@ EC_FN void eight_take(const ray8 *q, const hit_filter *filter, const edges *e, i
 #undef EIGHT_ONE
 }
 
-EC_FN v3 tri8_vertex(global const ec_tri8 *b, uint k)
+EC_INLINED v3 tri8_vertex(global const ec_tri8 *b, uint k)
 {
     global const float8 *v = (global const float8 *)b->v[k];
     return v3_make(v[0], v[1], v[2]);
 }
-EC_FN v3 ray8_shear(const ray8 *q, float8 x, float8 y, float8 z)
+EC_INLINED v3 ray8_shear(const ray8 *q, float8 x, float8 y, float8 z)
 {
     return ray_shear(q->r.shear_x, q->r.shear_y, v3_make(x - q->r.o_permuted.x, y - q->r.o_permuted.y, z - q->r.o_permuted.z));
 }
-EC_FN v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
+EC_INLINED v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
 {
     global const float8 *v = (global const float8 *)b->v[k];
     return ray8_shear(q, v[q->axis_x], v[q->axis_y], v[q->axis_z]);
 }
 /* Reads the corner again: nothing of it is to be kept in a register by those who seldom need it. */
-EC_FN v3 tri8_sheared_again(const ray8 *q, global const ec_tri8 *b, uint k)
+EC_INLINED v3 tri8_sheared_again(const ray8 *q, global const ec_tri8 *b, uint k)
 {
     volatile global const float8 *v = (volatile global const float8 *)b->v[k];
     return ray8_shear(q, v[q->axis_x], v[q->axis_y], v[q->axis_z]);
 }
 
 /* Boxes of eight references: their own, or without those (`boxes` NULL) what the vertices span. */
-EC_FN void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxes, v3 *lo, v3 *hi)
+EC_INLINED void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxes, v3 *lo, v3 *hi)
 {
     if (boxes) {
         global const float8 *x = (global const float8 *)boxes;
@@ -119,7 +119,7 @@ EC_FN void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxes, v3
 }
 
 /* Eight triangles by their corners in the world. flat: those of which rounding may have left nothing that has a normal. */
-EC_FN void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, int8 flat,
+EC_INLINED void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, int8 flat,
                           uint8 id, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     v3 s0 = ray_vertex(&q->r, p0), s1 = ray_vertex(&q->r, p1), s2 = ray_vertex(&q->r, p2);
@@ -137,13 +137,13 @@ EC_FN void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1,
 }
 
 /* Does any of them move? */
-EC_FN bool block8_moves(const hit_filter *filter, uint8 id)
+EC_INLINED bool block8_moves(const hit_filter *filter, uint8 id)
 {
     return HAS(MOTION) && filter->g.motion && mask_bits8(motion_moves(filter->g.motion, id));
 }
 
 /* Tests a block of which some triangles move. */
-EC_FN void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, uint8 id,
+EC_INLINED void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, uint8 id,
                          uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     int8 moves = motion_moves(filter->g.motion, id);
@@ -152,7 +152,7 @@ EC_FN void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, 
 }
 
 /* A block of up to eight triangles that lie side by side. boxes: NULL where they are whole. */
-EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, global const ec_box8 *boxes,
+EC_INLINED void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, global const ec_box8 *boxes,
                              uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     uint8 id = *(global const uint8 *)b->id;
@@ -179,6 +179,6 @@ EC_FN void block8_triangles(const ray8 *q, const hit_filter *filter, global cons
 }
 
 /* Index of the lowest set bit. */
-EC_FN uint lowest_bit(uint m) { return 31u - clz(m & -m); }
+EC_INLINED uint lowest_bit(uint m) { return 31u - clz(m & -m); }
 
 #endif

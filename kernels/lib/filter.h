@@ -15,11 +15,10 @@ typedef struct hit_filter {
 } hit_filter;
 
 /* What a kernel must be given for it: alpha is a matter of textures. */
-#define FILTER_PARAMETERS                                                                          \
-    global const float *prims, global const float *indices, global const float *uvs,               \
-        global const float *colors, global const float *materials,                                 \
-        global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places, \
-        global const float *motion, global const float *times, global const uint *coplanar
+#define FILTER_PARAMETERS(DO)                                                                                                                         \
+    DO(global const float *, prims) DO(global const float *, indices) DO(global const float *, uvs) DO(global const float *, colors)                  \
+    DO(global const float *, materials) DO(global const float *, texture_table) DO(global const uint *, texels) DO(constant float *, srgb)            \
+    DO(global const float *, places) DO(global const float *, motion) DO(global const float *, times) DO(global const uint *, coplanar)
 #define FILTER_GEOMETRY {prims, indices, 0, 0, uvs, colors, materials, {texture_table, texels, srgb}, places, motion}
 /* times: of paths, by slot. */
 #define HAS_TIMES (HAS(MOTION) && motion != 0)

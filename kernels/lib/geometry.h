@@ -78,7 +78,7 @@ EC_FN void exchange(lane_i m, lane_u *a, lane_u *b)
     *b = m ? first : *b;
 }
 
-EC_FN hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f b2)
+EC_INLINED hit_point hit_point_make(const geometry *g, lane_u prim, lane_f b1, lane_f b2)
 {
     hit_point h;
     h.placed = h.turned = !TRUE_MASK;

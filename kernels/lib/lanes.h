@@ -244,7 +244,7 @@ EC_FN void scatter_add_3(global float *restrict p, uint stride, lane_u i, lane_f
     }
 }
 
-EC_FN void scatter_f(global float *restrict p, lane_u i, lane_f v, uint bits)
+EC_INLINED void scatter_f(global float *restrict p, lane_u i, lane_f v, uint bits)
 {
     uint bit = 1;
 #define SCATTER_ONE(k)                                                                             \

@@ -5,7 +5,7 @@
 #include "block8.h"
 
 /* Gives the numbers of slab_near: the sign of d chooses the plane instead of min and max. */
-EC_FN float8 node8_near(const ray8 *q, global const float8 *bound, float t_max, uint *mask)
+EC_INLINED float8 node8_near(const ray8 *q, global const float8 *bound, float t_max, uint *mask)
 {
     float8 near = max(max(fma(bound[q->near_x], q->r.inverse.x, q->near_offset_x),
                           fma(bound[q->near_y], q->r.inverse.y, q->near_offset_y)),
@@ -23,7 +23,7 @@ EC_FN float8 node8_near(const ray8 *q, global const float8 *bound, float t_max, 
 #else
 #define PREFETCH(p) (void)(p)
 #endif
-EC_FN void prefetch8(global const ec_bvh8_node *nodes, global const ec_tri8 *blocks, uint child)
+EC_INLINED void prefetch8(global const ec_bvh8_node *nodes, global const ec_tri8 *blocks, uint child)
 {
     bool is_leaf = (child & EC_LEAF_BIT) != 0u;
     ulong at = is_leaf ? (ulong)(blocks + (child & ~EC_LEAF_BIT)) : (ulong)(nodes + child);
@@ -33,7 +33,7 @@ EC_FN void prefetch8(global const ec_bvh8_node *nodes, global const ec_tri8 *blo
 }
 
 /* Stacks the children that the ray meets before t_max, in the node's order; may write 8, returns how many count. */
-EC_FN uint node8_push(const ray8 *q, global const ec_bvh8_node *n, float t_max, uint *stack)
+EC_INLINED uint node8_push(const ray8 *q, global const ec_bvh8_node *n, float t_max, uint *stack)
 {
     uint mask;
 #if defined(__AVX512VL__) && __has_builtin(__builtin_ia32_compresssi256_mask)
@@ -50,10 +50,10 @@ EC_FN uint node8_push(const ray8 *q, global const ec_bvh8_node *n, float t_max, 
 }
 
 /* A child to visit: the bits of its distance (no -0), which order as it does, above its index. */
-EC_FN ulong8 entries8(float8 near, uint8 child) { return convert_ulong8(as_uint8(near + 0.0f)) << 32 | convert_ulong8(child); }
+EC_INLINED ulong8 entries8(float8 near, uint8 child) { return convert_ulong8(as_uint8(near + 0.0f)) << 32 | convert_ulong8(child); }
 
 /* A leaf's block, with its references' boxes where the builder has cut triangles. */
-EC_FN void leaf8(const accel *a, const ray8 *q, const hit_filter *filter, uint child, uint skip0, uint skip1, bool any_hit, hit8 *h)
+EC_INLINED void leaf8(const accel *a, const ray8 *q, const hit_filter *filter, uint child, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     uint i = child & ~EC_LEAF_BIT;
     global const ec_tri8 *blocks = a->at[1];

@@ -7,13 +7,15 @@
 #include "math.h"
 
 /* The entry that a work-item begins at. A launch goes over all entries, or has a second dimension, the parts, and goes over the first of each. */
-EC_FN uint queue_entry(uint part, uint lanes) { return get_global_id(0) * lanes + get_global_id(1) * part; }
-/* How many entries of i's part stand at i or after it. */
-EC_FN uint queue_left(global const uint *counts, uint part, uint i)
+EC_INLINED uint queue_entry(uint part, uint lanes) { return get_global_id(0) * lanes + get_global_id(1) * part; }
+/* How many entries stand at i or after it: of a queue in i's part, and of all slots. */
+EC_INLINED uint queue_entries(constant ec_params *params, global const uint *counts, uint i)
 {
-    uint k = i / part, before = i - k * part, count = counts[k * EC_PART_STRIDE];
+    if (i >= params->wave) return 0u;
+    uint k = i / params->part, before = i - k * params->part, count = counts[k * EC_PART_STRIDE];
     return count > before ? count - before : 0u;
 }
+EC_INLINED uint slot_entries(uint count, uint i) { return i < count ? count - i : 0u; }
 /* Room for n entries in i's part. */
 EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint i, uint n)
 {
@@ -40,15 +42,15 @@ typedef struct queue_packet {
     bool is_scattered;
     lane_u at;
 } queue_packet;
-EC_FN lane_f packet_load_f(global const float *queue, uint wave, uint field, const queue_packet *q)
+EC_INLINED lane_f packet_load_f(global const float *queue, uint wave, uint field, const queue_packet *q)
 {
     return q->is_scattered ? gather_f(queue + field * wave, q->at) : queue_load_f(queue, wave, field, q->first);
 }
-EC_FN lane_u packet_load_u(global const float *queue, uint wave, uint field, const queue_packet *q)
+EC_INLINED lane_u packet_load_u(global const float *queue, uint wave, uint field, const queue_packet *q)
 {
     return as_lane_u(packet_load_f(queue, wave, field, q));
 }
-EC_FN v3 packet_load_v3(global const float *queue, uint wave, uint field, const queue_packet *q)
+EC_INLINED v3 packet_load_v3(global const float *queue, uint wave, uint field, const queue_packet *q)
 {
     return v3_make(packet_load_f(queue, wave, field, q), packet_load_f(queue, wave, field + 1, q),
                    packet_load_f(queue, wave, field + 2, q));
@@ -63,7 +65,7 @@ EC_FN void queue_store_v3(global float *queue, uint wave, uint field, uint i, v3
     queue_store_f(queue, wave, field + 1, i, v.y);
     queue_store_f(queue, wave, field + 2, i, v.z);
 }
-EC_FN void packet_store_f(global float *queue, uint wave, uint field, const queue_packet *q, lane_f v, uint bits)
+EC_INLINED void packet_store_f(global float *queue, uint wave, uint field, const queue_packet *q, lane_f v, uint bits)
 {
     if (q->is_scattered) scatter_f(queue + field * wave, q->at, v, bits);
     else queue_store_f(queue, wave, field, q->first, v);

@@ -27,13 +27,13 @@ typedef struct ray {
 } ray;
 
 /* The largest component of d changes places with z. (Not the cyclic order of the paper: this one costs a third less.) */
-EC_FN v3 ray_permute(lane_i z_is_x, lane_i z_is_y, v3 v)
+EC_INLINED v3 ray_permute(lane_i z_is_x, lane_i z_is_y, v3 v)
 {
     return v3_make(z_is_x ? v.z : v.x, z_is_y ? v.z : v.y, z_is_x ? v.x : (z_is_y ? v.y : v.z));
 }
 
 /* scene_max: largest |coordinate| of the scene. */
-EC_FN ray ray_make(v3 o, v3 d, float scene_max)
+EC_INLINED ray ray_make(v3 o, v3 d, float scene_max)
 {
     ray r;
     r.o = o;
@@ -65,7 +65,7 @@ EC_FN ray ray_make(v3 o, v3 d, float scene_max)
 #define EC_SLAB_PAD 1.0000005f /* 1 + 8 u: relative rounding of reciprocal, product and sum */
 
 /* Entry and padded exit distances; the box is met within [0, t_max] where near <= far. */
-EC_FN lane_f slab_near(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *far)
+EC_INLINED lane_f slab_near(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *far)
 {
     lane_f x0 = fma(lo.x, r->inverse.x, r->lo_offset.x), x1 = fma(hi.x, r->inverse.x, r->hi_offset.x);
     lane_f y0 = fma(lo.y, r->inverse.y, r->lo_offset.y), y1 = fma(hi.y, r->inverse.y, r->hi_offset.y);
@@ -81,29 +81,29 @@ typedef struct edges {
 } edges;
 
 /* A vertex in the ray's frame: x and y sheared, z the unscaled depth. v: permuted vertex minus permuted origin. */
-EC_FN v3 ray_shear(lane_f shear_x, lane_f shear_y, v3 v)
+EC_INLINED v3 ray_shear(lane_f shear_x, lane_f shear_y, v3 v)
 {
     return v3_make(fma(-shear_x, v.z, v.x), fma(-shear_y, v.z, v.y), v.z);
 }
 
-EC_FN v3 ray_vertex(const ray *r, v3 p)
+EC_INLINED v3 ray_vertex(const ray *r, v3 p)
 {
     return ray_shear(r->shear_x, r->shear_y, v3_sub(ray_permute(r->z_is_x, r->z_is_y, p), r->o_permuted));
 }
 
 /* Which side of the edge from q to p the ray passes. Products are rounded one by one and compared: the sign is never wrong,
  * only sometimes 0, and seen from the other side it is exactly the negative (Woop et al. 2013). */
-EC_FN lane_f ray_edge(v3 p, v3 q) { return p.x * q.y - p.y * q.x; }
+EC_INLINED lane_f ray_edge(v3 p, v3 q) { return p.x * q.y - p.y * q.x; }
 
 /* 0 counts as inside, so no ray slips between two triangles. */
-EC_FN lane_i edges_inside(edges *e)
+EC_INLINED lane_i edges_inside(edges *e)
 {
     e->det = e->u + e->v + e->w;
     return ((min(e->u, min(e->v, e->w)) >= 0.0f) | (max(e->u, max(e->v, e->w)) <= 0.0f)) & (e->det != 0.0f);
 }
 
 /* a, b, c: sheared vertices. */
-EC_FN edges edges_make(v3 a, v3 b, v3 c)
+EC_INLINED edges edges_make(v3 a, v3 b, v3 c)
 {
     edges e = {ray_edge(c, b), ray_edge(a, c), ray_edge(b, a), F(0.0f), a.z, b.z, c.z};
     return e;
@@ -111,11 +111,11 @@ EC_FN edges edges_make(v3 a, v3 b, v3 c)
 
 /* Below the rounding of the vertices' depths, and with them of a mean of these, the sign of t means nothing: what lies in the plane that
  * a ray starts on is not met (pbrt-v4, section 6.8.7, delta_t). */
-EC_FN lane_f edges_least(lane_f z0, lane_f z1, lane_f z2) { return max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP); }
+EC_INLINED lane_f edges_least(lane_f z0, lane_f z1, lane_f z2) { return max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP); }
 
 /* Which of the lanes m meet their triangle's plane in front of them, at t <= t_max, as far as floats can tell; inverse = 1 / det.
  * *close: those of them that have to ask edges_settle, whatever their t; reference_clamp looks at t_max. */
-EC_FN lane_i edges_distance(const ray *r, const edges *e, lane_i m, lane_f t_max, lane_i *close, lane_f *inverse, lane_f *t)
+EC_INLINED lane_i edges_distance(const ray *r, const edges *e, lane_i m, lane_f t_max, lane_i *close, lane_f *inverse, lane_f *t)
 {
     lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z;
     *inverse = 1.0f / e->det;
@@ -126,14 +126,14 @@ EC_FN lane_i edges_distance(const ray *r, const edges *e, lane_i m, lane_f t_max
 }
 
 /* What a sum of two has lost (Knuth's two-sum). */
-EC_FN lane_f sum_error(lane_f a, lane_f b, lane_f sum)
+EC_INLINED lane_f sum_error(lane_f a, lane_f b, lane_f sum)
 {
     lane_f of_b = sum - a;
     return (a - (sum - of_b)) + (b - of_b);
 }
 
 /* What ray_edge has lost: the errors of its products and of their difference. */
-EC_FN lane_f ray_edge_error(v3 p, v3 q, lane_f edge)
+EC_INLINED lane_f ray_edge_error(v3 p, v3 q, lane_f edge)
 {
     lane_f a = p.x * q.y, b = p.y * q.x;
     return (fma(p.x, q.y, -a) - fma(p.y, q.x, -b)) + sum_error(a, -b, edge);
@@ -141,7 +141,7 @@ EC_FN lane_f ray_edge_error(v3 p, v3 q, lane_f edge)
 
 /* The sum of u z0, v z1 and w z2 with twice a float's digits (Ogita, Rump, Oishi 2005, algorithm 5.3), for u, v, w as they are before
  * rounding. */
-EC_FN lane_f edges_exact_sum(const edges *e, v3 a, v3 b, v3 c, lane_f z0, lane_f z1, lane_f z2)
+EC_INLINED lane_f edges_exact_sum(const edges *e, v3 a, v3 b, v3 c, lane_f z0, lane_f z1, lane_f z2)
 {
     lane_f p0 = e->u * z0, p1 = e->v * z1, p2 = e->w * z2, first = p0 + p1, sum = first + p2;
     lane_f lost = sum_error(p0, p1, first) + sum_error(first, p2, sum);
@@ -162,7 +162,7 @@ EC_FN lane_f edges_exact_sum(const edges *e, v3 a, v3 b, v3 c, lane_f z0, lane_f
  * behind it where t is short: each product is at most `most`, so each of the three is off by 4 u most, and their sum with the depths by
  * three times that and its own roundings, 32 u most deepest in all. Along needles this is any t. Then twice the digits decide: vertices
  * are rounded the same way for all triangles around them, so a closed mesh stays closed. a, b, c: sheared vertices. */
-EC_FN lane_f edges_settle(const ray *r, const edges *e, v3 a, v3 b, v3 c, lane_i close, lane_f inverse, lane_f t)
+EC_INLINED lane_f edges_settle(const ray *r, const edges *e, v3 a, v3 b, v3 c, lane_i close, lane_f inverse, lane_f t)
 {
     lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z, least = edges_least(z0, z1, z2);
     lane_f most = max(fabs(a.x), max(fabs(b.x), fabs(c.x))) * max(fabs(a.y), max(fabs(b.y), fabs(c.y)));
@@ -174,7 +174,7 @@ EC_FN lane_f edges_settle(const ray *r, const edges *e, v3 a, v3 b, v3 c, lane_i
 }
 
 /* Does the ray meet the triangle at all, its box left aside? The traversals do the same step by step. */
-EC_FN lane_i ray_meets(const ray *r, v3 v0, v3 v1, v3 v2, edges *e, lane_f *inverse, lane_f *t)
+EC_INLINED lane_i ray_meets(const ray *r, v3 v0, v3 v1, v3 v2, edges *e, lane_f *inverse, lane_f *t)
 {
     v3 a = ray_vertex(r, v0), b = ray_vertex(r, v1), c = ray_vertex(r, v2);
     *e = edges_make(a, b, c);
@@ -184,7 +184,7 @@ EC_FN lane_i ray_meets(const ray *r, v3 v0, v3 v1, v3 v2, edges *e, lane_f *inve
 }
 
 /* The distance clamped into the slab of the reference's box; false where that leaves (0, t_max]. */
-EC_FN lane_i reference_clamp(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *t)
+EC_INLINED lane_i reference_clamp(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *t)
 {
     lane_f far, near = slab_near(r, lo, hi, F(EC_HUGE), &far);
     *t = max(*t, near);
@@ -192,7 +192,7 @@ EC_FN lane_i reference_clamp(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *t
 }
 
 /* Seen from its front (counter-clockwise)? Exchanging two axes mirrors the triangle. */
-EC_FN lane_i edges_front(const ray *r, const edges *e)
+EC_INLINED lane_i edges_front(const ray *r, const edges *e)
 {
     lane_i is_mirrored = r->z_is_x | r->z_is_y, same = (e->det < 0.0f) == (r->scale_z < 0.0f);
     return is_mirrored ? !same : same;

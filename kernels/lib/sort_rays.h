@@ -39,13 +39,11 @@ EC_FN void sort_rays(global const float *queue, uint wave, uint origin, uint dir
     for (uint i = count; i % LANES; i++) order[i] = first;
 }
 
-/* The rays of the work-item at entry i: a packet, or, sorted, EC_SORTED from there on, and none for those in between. Returns how many. */
-EC_FN uint item_rays(global const uint *counts, global const float *queue, uint wave, uint part, uint origin,
-                     uint direction, uint i, bool sorts, uint *order)
+/* The rays of the work-item at entry i, of `left`: a packet, or, sorted, EC_SORTED from there on, and none for those in between. Returns how many. */
+EC_FN uint item_rays(uint left, global const float *queue, uint wave, uint part, uint origin, uint direction, uint i, bool sorts, uint *order)
 {
-    uint left = queue_left(counts, part, i);
     if (!sorts) return min(left, (uint)LANES);
-    if (!left || i % part % EC_SORTED) return 0;
+    if (i % part % EC_SORTED) return 0;
     left = min(left, EC_SORTED);
     sort_rays(queue, wave, origin, direction, i, left, order);
     return left;

@@ -9,9 +9,9 @@
 typedef struct accel {
     global const void *at[EC_ACCEL_BUFFERS];
 } accel;
-#define ACCEL_PARAMETERS                                                                           \
-    global const uint *accel0, global const uint *accel1, global const uint *accel2,                \
-        global const uint *accel3, global const uint *accel4
+#define ACCEL_PARAMETERS(DO)                                                                                                                          \
+    DO(global const uint *, accel0) DO(global const uint *, accel1) DO(global const uint *, accel2) DO(global const uint *, accel3)                   \
+    DO(global const uint *, accel4)
 #define ACCEL_ARGUMENTS {{accel0, accel1, accel2, accel3, accel4}}
 
 #ifdef PROBE

@@ -19,7 +19,7 @@ typedef struct rgba {
 } rgba;
 
 /* One 8-bit texel, linear. Alpha is linear in every encoding. */
-EC_FN rgba texel_bytes(textures t, lane_u word, bool is_srgb)
+EC_INLINED rgba texel_bytes(textures t, lane_u word, bool is_srgb)
 {
     rgba r;
     lane_u red = word & 255u, green = (word >> 8) & 255u, blue = (word >> 16) & 255u;
@@ -34,7 +34,7 @@ EC_FN rgba texel_bytes(textures t, lane_u word, bool is_srgb)
 
 /* The texels `first` and `second` of a row that starts at `row`. Mostly they stand side by side: a load fetches both, and a word more than
  * the buffer has texels. */
-EC_FN void texture_row(textures t, lane_u offset, lane_u row, lane_u first, lane_u second, lane_i is_float,
+EC_INLINED void texture_row(textures t, lane_u offset, lane_u row, lane_u first, lane_u second, lane_i is_float,
                        bool is_srgb, rgba *a, rgba *b)
 {
     lane_u at = offset + row + first;

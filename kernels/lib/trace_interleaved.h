@@ -5,8 +5,7 @@
 #ifndef EC_LIB_TRACE_INTERLEAVED_H
 #define EC_LIB_TRACE_INTERLEAVED_H
 
-#include "film.h"
-#include "slot_layers.h"
+#include "trace.h"
 
 #define EC_INTERLEAVED_RAYS 64u /* that a work-item takes in all: at the end fewer than INTERLEAVE are on their way */
 
@@ -25,7 +24,7 @@ typedef struct walk {
 } walk;
 
 /* All cache lines of a node or a block: here it is memory that is waited for. */
-EC_FN void walk_prefetch(const accel *a, uint child)
+EC_INLINED void walk_prefetch(const accel *a, uint child)
 {
     global const ec_bvh8_node *nodes = a->at[0];
     global const ec_tri8 *blocks = a->at[1];
@@ -38,7 +37,7 @@ EC_FN void walk_prefetch(const accel *a, uint child)
 }
 
 /* With w->q made. */
-EC_FN void walk_begin(walk *w, uint i, uint skip0, uint skip1, float t_max)
+EC_INLINED void walk_begin(walk *w, uint i, uint skip0, uint skip1, float t_max)
 {
     hit8 h = {t_max, EC_NO_ID, 0.0f, 0.0f};
     w->h = h;
@@ -49,7 +48,7 @@ EC_FN void walk_begin(walk *w, uint i, uint skip0, uint skip1, float t_max)
 }
 
 /* One visit on the way to the closest hit; true once that is known. */
-EC_FN bool walk_closest(const accel *a, hit_filter *filter, walk *w)
+EC_INLINED bool walk_closest(const accel *a, hit_filter *filter, walk *w)
 {
     uint current = w->current;
     if (current & EC_LEAF_BIT) {
@@ -64,7 +63,7 @@ EC_FN bool walk_closest(const accel *a, hit_filter *filter, walk *w)
 }
 
 /* One visit on the way to any hit; true once there is one, or none is left. */
-EC_FN bool walk_any(const accel *a, hit_filter *filter, walk *w)
+EC_INLINED bool walk_any(const accel *a, hit_filter *filter, walk *w)
 {
     global const ec_bvh8_node *nodes = a->at[0];
     if (w->current & EC_LEAF_BIT) {
@@ -87,16 +86,17 @@ typedef struct turns {
     uint order[INTERLEAVE];
 } turns;
 
-/* left: entries of the queue from place i of the wave on. */
-EC_FN turns turns_of(uint left, uint part, uint i)
+EC_INLINED bool turns_begin(uint part, uint i) { return i % part % EC_INTERLEAVED_RAYS == 0u; }
+
+EC_INLINED turns turns_of(uint left)
 {
     turns t;
-    t.left = i % part % EC_INTERLEAVED_RAYS ? 0u : min(left, EC_INTERLEAVED_RAYS);
+    t.left = min(left, EC_INTERLEAVED_RAYS);
     t.next = t.count = 0;
     return t;
 }
 
-EC_FN void walk_path(walk *w, constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+EC_INLINED void walk_path(walk *w, constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
                      uint bounce, global const float *paths, uint i)
 {
     uint wave = params->wave;
@@ -111,7 +111,7 @@ EC_FN void walk_path(walk *w, constant ec_params *params, uint seed, uint first_
     }
 }
 
-EC_FN void walk_store(const walk *w, uint wave, global float *hits)
+EC_INLINED void walk_store(const walk *w, uint wave, global float *hits)
 {
     hits[EC_HIT_PRIM * wave + w->i] = as_float(w->h.prim);
     hits[EC_HIT_B1 * wave + w->i] = w->h.b1;
@@ -124,18 +124,15 @@ EC_FN void walk_store(const walk *w, uint wave, global float *hits)
 }
 
 /* Closest hit of every path; camera rays one by one, since they go the same way. Reads: path queue. Writes: hits. Next: shade. */
-kernel void ec_intersect_bvh8(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
-                              uint bounce, uint step, global const ec_counters *counters, uint sorts,
-                              global const float *paths, global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
+EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part, i) ? queue_entries(params, counters->rays[step], i) : 0u)
 {
-    uint first = queue_entry(params->part, 1), wave = params->wave;
-    if (first >= wave) return;
-    turns t = turns_of(queue_left(counters->rays[step], params->part, first), params->part, first);
+    uint wave = params->wave;
+    turns t = turns_of(left);
     const accel a = ACCEL_ARGUMENTS;
     hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
     walk walks[INTERLEAVE];
     for (; bounce == 0 && t.next < t.left; t.next++) {
-        walk_path(walks, params, seed, first_pixel, pixel_list, bounce, paths, first + t.next);
+        walk_path(walks, params, seed, first_pixel, pixel_list, bounce, paths, i + t.next);
         if (HAS(ALPHA)) filter.key = walks->key;
         bvh8_closest(&a, &walks->q, &filter, walks->skip0, walks->skip1, &walks->h);
         walk_store(walks, wave, hits);
@@ -152,19 +149,15 @@ kernel void ec_intersect_bvh8(constant ec_params *params, uint seed, uint first_
                 continue;
             }
         }
-        walk_path(w, params, seed, first_pixel, pixel_list, bounce, paths, first + t.next++);
+        walk_path(w, params, seed, first_pixel, pixel_list, bounce, paths, i + t.next++);
     }
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
-                            uint bounce, uint step, global const ec_counters *counters, uint sorts,
-                            volatile global uint *invalid, global const float *shadows, global float *radiance,
-                            ACCEL_PARAMETERS, FILTER_PARAMETERS, global const float *normals, global const float *tangents)
+EC_KERNEL(ec_connect_bvh8, 1u, CONNECT_PARAMETERS, turns_begin(params->part, i) ? queue_entries(params, counters->shadows[step], i) : 0u)
 {
-    uint first = queue_entry(params->part, 1), wave = params->wave;
-    if (first >= wave) return;
-    turns t = turns_of(queue_left(counters->shadows[step], params->part, first), params->part, first);
+    uint wave = params->wave;
+    turns t = turns_of(left);
     const accel a = ACCEL_ARGUMENTS;
     hit_filter filter = {FILTER_GEOMETRY, U(0), CAMERA_SHADOWS(bounce), 0};
     walk walks[INTERLEAVE];
@@ -184,11 +177,11 @@ kernel void ec_connect_bvh8(constant ec_params *params, uint seed, uint first_pi
                 continue;
             }
         }
-        uint i = first + t.next++;
-        global const float *p = shadows + i;
+        uint at = i + t.next++;
+        global const float *p = shadows + at;
         w->q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
                          p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
-        walk_begin(w, i, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), 1.0f);
+        walk_begin(w, at, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), 1.0f);
         if (HAS(ALPHA)) {
             lane_u pixel, sample;
             slot_to_pixel(params, first_pixel, pixel_list, U(slot_alone_one(as_uint(p[EC_SHADOW_SLOT * wave]))), &pixel, &sample);

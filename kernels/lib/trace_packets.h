@@ -3,24 +3,18 @@
  *     void ACCEL_trace(const accel *, const ray *, const hit_filter *, lane_u skip0, lane_u skip1, bool any_hit, hit *h);
  *
  * h->t comes in as the largest t of interest (negative: lane off), h->prim as EC_NO_ID. */
-#include "coplanar.h"
-#include "film.h"
 #include "pane.h"
-#include "slot_layers.h"
 #include "sort_rays.h"
+#include "trace.h"
 
 #define SORTS (LANES > 1 && sorts)
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
-                                         global const uint *pixel_list, uint bounce, uint step,
-                                         global const ec_counters *counters, uint sorts, global const float *paths,
-                                         global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
+EC_KERNEL(EC_CAT(ec_intersect_, ACCEL), LANES, INTERSECT_PARAMETERS, queue_entries(params, counters->rays[step], i))
 {
-    uint i = queue_entry(params->part, LANES), wave = params->wave;
-    if (i >= wave) return;
+    uint wave = params->wave;
     uint order[EC_SORTED];
-    uint count = item_rays(counters->rays[step], paths, wave, params->part, EC_PATH_OX, EC_PATH_DX, i, SORTS, order);
+    uint count = item_rays(left, paths, wave, params->part, EC_PATH_OX, EC_PATH_DX, i, SORTS, order);
     const accel a = ACCEL_ARGUMENTS;
     for (uint k = 0; k < count; k += LANES) {
         lane_i active = LANE_NUMBERS < count - k;
@@ -53,16 +47,11 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
-                                       global const uint *pixel_list, uint bounce, uint step,
-                                       global const ec_counters *counters, uint sorts, volatile global uint *invalid,
-                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS,
-                                       FILTER_PARAMETERS, global const float *normals, global const float *tangents)
+EC_KERNEL(EC_CAT(ec_connect_, ACCEL), LANES, CONNECT_PARAMETERS, queue_entries(params, counters->shadows[step], i))
 {
-    uint i = queue_entry(params->part, LANES), wave = params->wave;
-    if (i >= wave) return;
+    uint wave = params->wave;
     uint order[EC_SORTED];
-    uint count = item_rays(counters->shadows[step], shadows, wave, params->part, EC_SHADOW_OX, EC_SHADOW_DX, i, SORTS, order);
+    uint count = item_rays(left, shadows, wave, params->part, EC_SHADOW_OX, EC_SHADOW_DX, i, SORTS, order);
     const accel a = ACCEL_ARGUMENTS;
     for (uint k = 0; k < count; k += LANES) {
         lane_i active = LANE_NUMBERS < count - k;
@@ -86,12 +75,12 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
         if (HAS_COPLANAR) open = open & !coplanar_hides(coplanar, &filter, &r, open, target, skip);
         if (!any_lane(open)) continue;
         lane_u medium = medium_air(MEDIA_NESTED(params));
-        v3 left = v3_splat(F(1.0f));
+        v3 passed = v3_splat(F(1.0f));
         if (HAS_SHADOW_MEDIUM) {
             medium = open ? packet_load_u(shadows, wave, EC_SHADOW_MEDIUM, &at) : medium;
-            left = packet_load_v3(shadows, wave, EC_SHADOW_TR, &at);
+            passed = packet_load_v3(shadows, wave, EC_SHADOW_TR, &at);
         }
-        pane_walk w = pane_walk_make(r.o, packet_load_v3(shadows, wave, EC_SHADOW_LR, &at), medium, left);
+        pane_walk w = pane_walk_make(r.o, packet_load_v3(shadows, wave, EC_SHADOW_LR, &at), medium, passed);
         if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
             geometry g = {prims,  indices, normals,      tangents,
                           uvs,    colors,  materials,    {texture_table, texels, srgb},

@@ -8,25 +8,23 @@
  *     void ACCEL_trace(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, bool any_hit, hit8 *h);
  *
  * stands there in place of both. */
-#include "coplanar.h"
-#include "film.h"
 #include "pane.h"
-#include "slot_layers.h"
+#include "trace.h"
 
 #ifdef ACCEL_HAS_TRACE
-EC_FN void EC_CAT(ACCEL, _closest)(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+EC_INLINED void EC_CAT(ACCEL, _closest)(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
     EC_CAT(ACCEL, _trace)(a, q, filter, skip0, skip1, false, h);
 }
 
-EC_FN bool EC_CAT(ACCEL, _any)(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+EC_INLINED bool EC_CAT(ACCEL, _any)(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
     EC_CAT(ACCEL, _trace)(a, q, filter, skip0, skip1, true, h);
     return h->prim != EC_NO_ID;
 }
 #endif
 
-EC_FN void EC_CAT(ACCEL, _settle)(global const uint *coplanar, const hit_filter *filter, const ray8 *q, uint skip, hit8 *h)
+EC_INLINED void EC_CAT(ACCEL, _settle)(global const uint *coplanar, const hit_filter *filter, const ray8 *q, uint skip, hit8 *h)
 {
     lane_f b1 = F(h->b1), b2 = F(h->b2);
     h->prim = coplanar_first(coplanar, filter, &q->r, U(h->prim) != EC_NO_ID, U(h->prim), U(skip), &b1, &b2).s0;
@@ -35,13 +33,9 @@ EC_FN void EC_CAT(ACCEL, _settle)(global const uint *coplanar, const hit_filter 
 }
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
-                                         global const uint *pixel_list, uint bounce, uint step,
-                                         global const ec_counters *counters, uint sorts, global const float *paths,
-                                         global float *hits, ACCEL_PARAMETERS, FILTER_PARAMETERS)
+EC_INLINED_KERNEL(EC_CAT(ec_intersect_, ACCEL), 1u, INTERSECT_PARAMETERS, queue_entries(params, counters->rays[step], i))
 {
-    uint i = queue_entry(params->part, 1), wave = params->wave;
-    if (i >= wave || !queue_left(counters->rays[step], params->part, i)) return;
+    uint wave = params->wave;
     global const float *p = paths + i;
     ray8 q = ray8_make(p[EC_PATH_OX * wave], p[EC_PATH_OY * wave], p[EC_PATH_OZ * wave], p[EC_PATH_DX * wave],
                        p[EC_PATH_DY * wave], p[EC_PATH_DZ * wave], params->scene_max);
@@ -68,14 +62,9 @@ kernel void EC_CAT(ec_intersect_, ACCEL)(constant ec_params *params, uint seed, 
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, uint first_pixel,
-                                       global const uint *pixel_list, uint bounce, uint step,
-                                       global const ec_counters *counters, uint sorts, volatile global uint *invalid,
-                                       global const float *shadows, global float *radiance, ACCEL_PARAMETERS,
-                                       FILTER_PARAMETERS, global const float *normals, global const float *tangents)
+EC_INLINED_KERNEL(EC_CAT(ec_connect_, ACCEL), 1u, CONNECT_PARAMETERS, queue_entries(params, counters->shadows[step], i))
 {
-    uint i = queue_entry(params->part, 1), wave = params->wave;
-    if (i >= wave || !queue_left(counters->shadows[step], params->part, i)) return;
+    uint wave = params->wave;
     global const float *p = shadows + i;
     ray8 q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
                        p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
@@ -95,12 +84,12 @@ kernel void EC_CAT(ec_connect_, ACCEL)(constant ec_params *params, uint seed, ui
     if (HAS_COPLANAR && any_lane(coplanar_hides(coplanar, &filter, &q.r, TRUE_MASK, U(target), U(skip)))) return;
     v3 light = v3_make(F(p[EC_SHADOW_LR * wave]), F(p[EC_SHADOW_LG * wave]), F(p[EC_SHADOW_LB * wave]));
     lane_u medium = U(0);
-    v3 left = v3_splat(F(1.0f));
+    v3 passed = v3_splat(F(1.0f));
     if (HAS_SHADOW_MEDIUM) {
         medium = U(as_uint(p[EC_SHADOW_MEDIUM * wave]));
-        left = v3_make(F(p[EC_SHADOW_TR * wave]), F(p[EC_SHADOW_TG * wave]), F(p[EC_SHADOW_TB * wave]));
+        passed = v3_make(F(p[EC_SHADOW_TR * wave]), F(p[EC_SHADOW_TG * wave]), F(p[EC_SHADOW_TB * wave]));
     }
-    pane_walk w = pane_walk_make(q.r.o, light, medium, left);
+    pane_walk w = pane_walk_make(q.r.o, light, medium, passed);
     if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
         geometry g = {prims,  indices, normals,      tangents, uvs, colors, materials, {texture_table, texels, srgb},
                       places, motion,  filter.g.time};

@@ -7,7 +7,7 @@
 
 /* Visits node *current: goes on to the nearest child that the ray meets, and stacks the others, the nearest on top. False: it meets
  * none. */
-EC_FN bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack, uint *depth, uint *current)
+EC_INLINED bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack, uint *depth, uint *current)
 {
     global const ec_bvh8_node *n = (global const ec_bvh8_node *)a->at[0] + *current;
     TALLY_NODE(h);
@@ -39,7 +39,7 @@ EC_FN bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack, uint
 }
 
 /* Goes on to what the stack has that the ray enters before its best hit. False: nothing. */
-EC_FN bool bvh8_return(const hit8 *h, const ulong *stack, uint *depth, uint *current)
+EC_INLINED bool bvh8_return(const hit8 *h, const ulong *stack, uint *depth, uint *current)
 {
     do {
         if (*depth == 0) return false;
@@ -49,7 +49,7 @@ EC_FN bool bvh8_return(const hit8 *h, const ulong *stack, uint *depth, uint *cur
     return true;
 }
 
-EC_FN void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+EC_INLINED void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
     ulong stack[EC_BVH8_STACK];
     uint depth = 0, current = 0;
@@ -66,7 +66,7 @@ EC_FN void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter,
 }
 
 /* Is anything in the way before t = h->t? */
-EC_FN bool bvh8_any(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+EC_INLINED bool bvh8_any(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
     global const ec_bvh8_node *nodes = a->at[0];
     global const ec_tri8 *blocks = a->at[1];

@@ -4,10 +4,13 @@
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 #define EC_DEVICE_CODE
+#define EC_INLINED static inline __attribute__((always_inline))
 #ifdef CALLS /* functions that compile once each, where compiling soon matters more than running fast */
 #define EC_FN static
-#else /* lane-wide values are too large to travel through calls */
-#define EC_FN static inline __attribute__((always_inline))
+#elif defined(LANES) && LANES > 1 /* the compiler inlines what is short: all of it took longer to compile, and rendered no faster */
+#define EC_FN static inline
+#else
+#define EC_FN EC_INLINED
 #endif
 #if defined(CALLS) || (defined(LANES) && LANES > 1)
 #define EC_CALLED static __attribute__((noinline)) /* compiled once a kernel: many places call it, and a call costs it little */

@@ -4,26 +4,24 @@
  * the place of pixels. */
 #include "../lib/coplanar.h"
 #include "../lib/film.h"
+#include "../lib/kernel.h"
 #include "../lib/light_path.h"
 #include "../lib/medium.h"
-#include "../lib/queue.h"
 
-kernel void ec_emit(constant ec_params *params, uint seed, uint first_pixel, uint path_count, volatile global ec_counters *counters,
-                    volatile global uint *invalid, global float *paths, global float *radiance, global float *light_slots,
-                    global const float *prims, global const float *indices, global const float *normals, global const float *tangents,
-                    global const float *uvs, global const float *colors, global const float *materials,
-                    global const float *texture_table, global const uint *texels, constant float *srgb, global const float *places,
-                    global const float *motion, global float *times, global const float *light_table,
-                    global const float *environment_texels, global const uint *environment_table, global const uint *emission_table,
-                    global const uint *coplanar)
+#define EMIT_PARAMETERS(DO)                                                                                                                           \
+    DO(uint, seed) DO(uint, first_pixel) DO(uint, path_count) DO(volatile global ec_counters *, counters) DO(volatile global uint *, invalid)         \
+    DO(global float *, paths) DO(global float *, radiance) DO(global float *, light_slots) SURFACE_PARAMETERS(DO) DO(global const float *, motion)    \
+    DO(global float *, times) DO(global const float *, light_table) DO(global const float *, environment_texels)                                      \
+    DO(global const uint *, environment_table) DO(global const uint *, emission_table) DO(global const uint *, coplanar)
+
+EC_KERNEL(ec_emit, LANES, EMIT_PARAMETERS, slot_entries(path_count, i))
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave, count = params->light_count;
-    if (i >= path_count) return;
+    uint wave = params->wave, count = params->light_count;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
     lights light = {light_table, 0, {params, environment_texels, environment_table}, 0, emission_table};
     const bool all_around = params->sample == EC_SAMPLE_LIGHT_PATHS;
     lane_u slot = LANE_NUMBERS + i, path, sample, r1, r2, first, share;
-    lane_i active = LANE_NUMBERS < path_count - i;
+    lane_i active = LANE_NUMBERS < left;
     slot_to_pixel(params, first_pixel, 0, slot, &path, &sample);
     sampler random = light_path_sampler(seed, path, sample);
     lane_f u_caster, unused, u3, u4;

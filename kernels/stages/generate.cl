@@ -2,17 +2,19 @@
  * Slot s of a wave is sample s % batch of the wave's pixel s / batch. */
 #include "../lib/camera.h"
 #include "../lib/camera_axes.h"
+#include "../lib/kernel.h"
 #include "../lib/lens.h"
-#include "../lib/queue.h"
 #include "../shared/features.h"
 #include "../shared/params.h"
 
-kernel void ec_generate(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
-                        global const float *filter, uint path_count, global float *paths, global float *radiance,
-                        global const float *camera_keys, global const float *motion, global float *times)
+#define GENERATE_PARAMETERS(DO)                                                                                                                       \
+    DO(uint, seed) DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(global const float *, filter) DO(uint, path_count)                    \
+    DO(global float *, paths) DO(global float *, radiance) DO(global const float *, camera_keys) DO(global const float *, motion)                     \
+    DO(global float *, times)
+
+EC_KERNEL(ec_generate, LANES, GENERATE_PARAMETERS, slot_entries(path_count, i))
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
-    if (i >= path_count) return;
+    uint wave = params->wave;
     lane_u slot = LANE_NUMBERS + i;
     lane_u x, y;
     lane_f sx, sy;

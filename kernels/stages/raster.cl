@@ -3,7 +3,7 @@
 #include "../lib/camera.h"
 #include "../lib/coplanar.h"
 #include "../lib/filter.h"
-#include "../lib/queue.h"
+#include "../lib/kernel.h"
 #include "../lib/raster.h"
 #include "../shared/accel.h"
 
@@ -16,16 +16,17 @@ EC_FN lane_i raster_inside(global const float *f, lane_f value)
 }
 EC_FN lane_f raster_value(global const float *f, lane_f x, lane_f y) { return fma(F(f[0]), x, fma(F(f[1]), y, F(f[2]))); }
 
-kernel void ec_raster(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
-                      uint path_count, global const float *paths, global float *hits, global const ec_raster_tri *tris, global const uint *starts,
-                      global const uint *ends, global const uint *list, global const float *prims,
-                      global const float *indices, global const float *uvs, global const float *colors,
-                      global const float *materials, global const float *texture_table, global const uint *texels,
-                      constant float *srgb, global const float *places, global const float *motion,
-                      global const float *times, global const uint *coplanar)
+#define RASTER_PARAMETERS(DO)                                                                                                                         \
+    DO(uint, seed) DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, path_count) DO(global const float *, paths)                     \
+    DO(global float *, hits) DO(global const ec_raster_tri *, tris) DO(global const uint *, starts) DO(global const uint *, ends)                     \
+    DO(global const uint *, list) DO(global const float *, prims) DO(global const float *, indices) DO(global const float *, uvs)                     \
+    DO(global const float *, colors) DO(global const float *, materials) DO(global const float *, texture_table) DO(global const uint *, texels)      \
+    DO(constant float *, srgb) DO(global const float *, places) DO(global const float *, motion) DO(global const float *, times)                      \
+    DO(global const uint *, coplanar)
+
+EC_KERNEL(ec_raster, LANES, RASTER_PARAMETERS, slot_entries(path_count, i))
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
-    if (i >= path_count) return;
+    uint wave = params->wave;
     lane_u slot = LANE_NUMBERS + i, x, y, pixel, sample;
     lane_f sx, sy;
     lane_i waiting = slot < path_count, active = waiting;

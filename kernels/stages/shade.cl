@@ -6,6 +6,7 @@
 #include "../lib/features.h"
 #include "../lib/film.h"
 #include "../lib/guide.h"
+#include "../lib/kernel.h"
 #include "../lib/light_path.h"
 #include "../lib/motion_vector.h"
 #include "../lib/pane.h"
@@ -60,24 +61,18 @@ EC_FN lane_u left_behind(const surface *s, v3 w, lane_i lifted, lane_u prim)
     return HAS(TERMINATOR) ? ((lifted & (v3_dot(s->ng, w) < 0.0f)) ? U(EC_NO_ID) : prim) : prim;
 }
 
-kernel void ec_shade(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                     volatile global ec_counters *counters, volatile global uint *invalid, global const float *paths,
-                     global const float *hits, global float *next, global float *shadows, global float *radiance,
-                     global float *aov, global const float *prims, global const float *indices,
-                     global const float *normals, global const float *tangents, global const float *uvs,
-                     global const float *colors, global const float *materials, global const float *texture_table,
-                     global const uint *texels, constant float *srgb, global const float *places,
-                     global const float *motion, global const float *times,
-                     global const float *light_table, global const uint *light_shares,
-                     global const float *environment_texels, global const uint *environment_table,
-                     global const float *light_tree, global const uint *light_trails, global const float *lamp_parts,
-                     global const uint *emission_table, global const float *guide_table, global const uint *light_groups,
-                     global const uint *parts, global const float *camera_keys)
+#define SHADE_PARAMETERS(DO)                                                                                                                          \
+    WAVE_PARAMETERS(DO) DO(volatile global ec_counters *, counters) DO(volatile global uint *, invalid) DO(global const float *, paths)               \
+    DO(global const float *, hits) DO(global float *, next) DO(global float *, shadows) DO(global float *, radiance) DO(global float *, aov)          \
+    SURFACE_PARAMETERS(DO) DO(global const float *, motion) DO(global const float *, times) DO(global const float *, light_table)                     \
+    DO(global const uint *, light_shares) DO(global const float *, environment_texels) DO(global const uint *, environment_table)                     \
+    DO(global const float *, light_tree) DO(global const uint *, light_trails) DO(global const float *, lamp_parts)                                   \
+    DO(global const uint *, emission_table) DO(global const float *, guide_table) DO(global const uint *, light_groups)                               \
+    DO(global const uint *, parts) DO(global const float *, camera_keys)
+
+EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, queue_entries(params, (global const uint *)counters->rays[step], i))
 {
-    uint i = queue_entry(params->part, LANES), wave = params->wave;
-    if (i >= wave) return;
-    uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
-    if (!left) return;
+    uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
     lights light = {light_table, light_shares, {params, environment_texels, environment_table}, light_tree, emission_table};
     const bool by_light = HAS(LIGHT_PATHS) && params->light_paths > 0.0f && params->sample == EC_SAMPLE_MIS;

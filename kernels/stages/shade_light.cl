@@ -8,6 +8,7 @@
 #include "../lib/dispersion.h"
 #include "../lib/film_point.h"
 #include "../lib/guide.h"
+#include "../lib/kernel.h"
 #include "../lib/light_path.h"
 #include "../lib/pane.h"
 #include "../lib/roulette.h"
@@ -19,22 +20,17 @@
 
 EC_FN lane_i agrees(const surface *s, v3 w, v3 w_local) { return v3_dot(s->ng, w) * w_local.z > 0.0f; }
 
-kernel void ec_shade_light(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list, uint bounce, uint step,
-                           volatile global ec_counters *counters, volatile global uint *invalid, global const float *paths,
-                           global const float *hits, global float *next, global float *shadows, global float *light_slots,
-                           global const float *filter, global const float *camera_keys, global const float *prims,
-                           global const float *indices, global const float *normals, global const float *tangents,
-                           global const float *uvs, global const float *colors, global const float *materials,
-                           global const float *texture_table, global const uint *texels, constant float *srgb,
-                           global const float *places, global const float *motion, global const float *times,
-                           global const float *light_table, global const float *environment_texels,
-                           global const uint *environment_table, global const float *light_tree, global const float *lamp_parts,
-                           global const uint *emission_table, global float *photons, uint path_count, global const float *guide_table)
+#define SHADE_LIGHT_PARAMETERS(DO)                                                                                                                    \
+    WAVE_PARAMETERS(DO) DO(volatile global ec_counters *, counters) DO(volatile global uint *, invalid) DO(global const float *, paths)               \
+    DO(global const float *, hits) DO(global float *, next) DO(global float *, shadows) DO(global float *, light_slots)                               \
+    DO(global const float *, filter) DO(global const float *, camera_keys) SURFACE_PARAMETERS(DO) DO(global const float *, motion)                    \
+    DO(global const float *, times) DO(global const float *, light_table) DO(global const float *, environment_texels)                                \
+    DO(global const uint *, environment_table) DO(global const float *, light_tree) DO(global const float *, lamp_parts)                              \
+    DO(global const uint *, emission_table) DO(global float *, photons) DO(uint, path_count) DO(global const float *, guide_table)
+
+EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, queue_entries(params, (global const uint *)counters->rays[step], i))
 {
-    uint i = queue_entry(params->part, LANES), wave = params->wave;
-    if (i >= wave) return;
-    uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
-    if (!left) return;
+    uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
     lights light = {light_table, 0, {params, environment_texels, environment_table}, light_tree, emission_table};
     const uint vertex = bounce & ~EC_LIGHT_BOUNCE;

@@ -3,23 +3,20 @@
  * Next: accumulate. */
 #include "../lib/bsdf.h"
 #include "../lib/features.h"
+#include "../lib/kernel.h"
 #include "../lib/light_centre.h"
-#include "../lib/queue.h"
 #include "../lib/seen.h"
 
 #define LEAST_ALPHA 0.02f /* narrower highlights of points would be met by one sample in thousands */
 
-kernel void ec_shade_raster(constant ec_params *params, uint path_count, volatile global uint *invalid,
-                            global const float *paths, global const float *hits, global float *radiance,
-                            global float *aov, global const float *prims, global const float *indices,
-                            global const float *normals, global const float *tangents, global const float *uvs,
-                            global const float *colors, global const float *materials,
-                            global const float *texture_table, global const uint *texels, constant float *srgb,
-                            global const float *places, global const float *light_table,
-                            global const float *environment_texels, global const uint *parts)
+#define SHADE_RASTER_PARAMETERS(DO)                                                                                                                   \
+    DO(uint, path_count) DO(volatile global uint *, invalid) DO(global const float *, paths) DO(global const float *, hits)                           \
+    DO(global float *, radiance) DO(global float *, aov) SURFACE_PARAMETERS(DO) DO(global const float *, light_table)                                 \
+    DO(global const float *, environment_texels) DO(global const uint *, parts)
+
+EC_KERNEL(ec_shade_raster, LANES, SHADE_RASTER_PARAMETERS, slot_entries(path_count, i))
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
-    if (i >= path_count) return;
+    uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
     environment env = {params, environment_texels, 0};
     lane_u slot = LANE_NUMBERS + i;

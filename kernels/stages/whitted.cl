@@ -6,9 +6,9 @@
 #include "../lib/blinn_phong.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
+#include "../lib/kernel.h"
 #include "../lib/light_centre.h"
 #include "../lib/medium.h"
-#include "../lib/queue.h"
 #include "../lib/seen.h"
 
 typedef struct branch {
@@ -67,19 +67,14 @@ EC_FN branch branch_make(const surface *s, v3 wi, v3 beta, lane_f depth, lane_u 
     return b;
 }
 
-kernel void ec_whitted(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
-                       uint bounce, uint step, volatile global ec_counters *counters, volatile global uint *invalid,
-                       global float *paths, global float *hits, global float *next, global float *branches,
-                       global float *radiance, global float *aov, global const float *prims,
-                       global const float *indices, global const float *normals, global const float *tangents,
-                       global const float *uvs, global const float *colors, global const float *materials,
-                       global const float *texture_table, global const uint *texels, constant float *srgb,
-                       global const float *places, global const float *environment_texels, global const uint *parts)
+#define WHITTED_PARAMETERS(DO)                                                                                                                        \
+    WAVE_PARAMETERS(DO) DO(volatile global ec_counters *, counters) DO(volatile global uint *, invalid) DO(global float *, paths)                     \
+    DO(global float *, hits) DO(global float *, next) DO(global float *, branches) DO(global float *, radiance) DO(global float *, aov)               \
+    SURFACE_PARAMETERS(DO) DO(global const float *, environment_texels) DO(global const uint *, parts)
+
+EC_KERNEL(ec_whitted, LANES, WHITTED_PARAMETERS, queue_entries(params, (global const uint *)counters->rays[step], i))
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
-    if (i >= wave) return;
-    uint left = queue_left((global const uint *)counters->rays[step], params->part, i);
-    if (!left) return;
+    uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
     environment env = {params, environment_texels, 0};
     lane_i active = LANE_NUMBERS < left;

@@ -1,21 +1,17 @@
 /* One light of Whitted's: its centre, by Blinn-Phong, for the hits that whitted left in their queue.
  * Reads: path queue and hits. Writes: the shadow queue. Next: connect, then the next light. */
 #include "../lib/blinn_phong.h"
+#include "../lib/kernel.h"
 #include "../lib/light_centre.h"
 #include "../lib/shadow.h"
 
-kernel void ec_whitted_light(constant ec_params *params, uint light, uint step, volatile global ec_counters *counters,
-                             volatile global uint *invalid, global const float *paths, global const float *hits,
-                             global float *shadows, global const float *prims, global const float *indices,
-                             global const float *normals, global const float *tangents, global const float *uvs,
-                             global const float *colors, global const float *materials,
-                             global const float *texture_table, global const uint *texels, constant float *srgb,
-                             global const float *places, global const float *light_table)
+#define WHITTED_LIGHT_PARAMETERS(DO)                                                                                                                  \
+    DO(uint, light) DO(uint, step) DO(volatile global ec_counters *, counters) DO(volatile global uint *, invalid) DO(global const float *, paths)    \
+    DO(global const float *, hits) DO(global float *, shadows) SURFACE_PARAMETERS(DO) DO(global const float *, light_table)
+
+EC_KERNEL(ec_whitted_light, LANES, WHITTED_LIGHT_PARAMETERS, queue_entries(params, (global const uint *)counters->rays[0], i))
 {
-    uint i = get_global_id(0) * LANES, wave = params->wave;
-    if (i >= wave) return;
-    uint left = queue_left((global const uint *)counters->rays[0], params->part, i);
-    if (!left) return;
+    uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
     lane_u prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
     lane_i lit = (LANE_NUMBERS < left) & (prim != EC_NO_ID);

@@ -6,6 +6,7 @@ import os
 import random
 import shutil
 import signal
+import subprocess
 import threading
 import unittest
 
@@ -80,6 +81,21 @@ class Compile(Case):
         later, said = self.render()  # what was compiled first counts too
         self.assertEqual((later["first_kernels"], later["image_sha256"]), ("fast", first["image_sha256"]))
         self.assertNotIn(FIRST_LINE, said)
+
+    def test_what_a_kernel_does_is_compiled_once(self):
+        """PoCL makes an entry point and two launchers of a kernel, into which it would inline it."""
+        if not shutil.which("nm"):
+            self.skipTest("nm of binutils reads the sizes")
+        self.skip_unless_late(self.render("--light-paths", "1", ECLAT_COMPILE="first")[0])
+        of_one_ray = ("bvh8", "kdtree", "grid", "none")
+        for path in glob.glob(os.path.join(self.cache, "pocl", "**", "ec_*.so"), recursive=True):
+            name = os.path.basename(path)[:-len(".so")]
+            lines = [line.split() for line in subprocess.run(["nm", "-S", path], capture_output=True, text=True, check=True).stdout.splitlines()]
+            sizes = {words[3]: int(words[1], 16) for words in lines if len(words) == 4}
+            if name.endswith(of_one_ray) or name in ("ec_accumulate", "ec_features", "ec_splat"):
+                continue
+            with self.subTest(kernel=name):
+                self.assertLess(sizes[f"_pocl_kernel_{name}_workgroup"], sizes.get(f"{name}_item", 0))
 
     def test_the_fast_ones_take_over(self):
         report, _ = self.render(spp=40000)

@@ -17,6 +17,7 @@
 #define EC_LIB_LANES_H
 #define EC_LIB_ELEMENTARY_H
 #define EC_FN static inline
+#define EC_INLINED static inline
 #define EC_CALLED static
 
 #define kernel

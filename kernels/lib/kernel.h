@@ -1,0 +1,32 @@
+/* Entry points. PoCL compiles what stands in one three times: as a kernel, and inlined into two launchers of a work-group. What a kernel does is
+ * therefore a function of its own, which is compiled once: `shade` of the showcase in 1.0 s in place of 2.7. On graphics cards it is inlined. */
+#ifndef EC_LIB_KERNEL_H
+#define EC_LIB_KERNEL_H
+
+#include "queue.h"
+
+/* Kernel `name`, whose body follows: for the entry i that a work-item begins at, of `lanes` entries each, and how many there are from it on. LIST(DO):
+ * DO(type, name) of its parameters, but for params, in the order of host/device/stages.c. entries: how many, by i and the parameters; none, and the body
+ * is not called. */
+#define EC_KERNEL(name, lanes, LIST, entries) EC_KERNEL_AS(EC_CALLED, name, lanes, LIST, entries)
+/* One whose work-items have so little to do that calls would cost some percent. */
+#define EC_INLINED_KERNEL(name, lanes, LIST, entries) EC_KERNEL_AS(EC_INLINED, name, lanes, LIST, entries)
+#define EC_KERNEL_AS(how, name, lanes, LIST, entries)                                                                                                 \
+    how void EC_CAT(name, _item)(uint i, uint left, constant ec_params *params LIST(EC_PARAMETER));                                                   \
+    kernel void name(constant ec_params *params LIST(EC_PARAMETER))                                                                                   \
+    {                                                                                                                                                 \
+        uint i = queue_entry(params->part, lanes), left = entries;                                                                                    \
+        if (left) EC_CAT(name, _item)(i, left, params LIST(EC_ARGUMENT));                                                                             \
+    }                                                                                                                                                 \
+    how void EC_CAT(name, _item)(uint i, uint left, constant ec_params *params LIST(EC_PARAMETER))
+#define EC_PARAMETER(type, name) , type name
+#define EC_ARGUMENT(type, name) , name
+
+/* Parameters that many kernels have: of a wave, and what a surface is made of. */
+#define WAVE_PARAMETERS(DO) DO(uint, seed) DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, bounce) DO(uint, step)
+#define SURFACE_PARAMETERS(DO)                                                                                                                        \
+    DO(global const float *, prims) DO(global const float *, indices) DO(global const float *, normals) DO(global const float *, tangents)            \
+    DO(global const float *, uvs) DO(global const float *, colors) DO(global const float *, materials) DO(global const float *, texture_table)        \
+    DO(global const uint *, texels) DO(constant float *, srgb) DO(global const float *, places)
+
+#endif
