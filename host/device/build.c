@@ -73,7 +73,7 @@ static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, 
         if (*own) traversal = own;
     }
     snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s", lanes, features, traversal,
-             set->calls && lanes == 1 ? " -DCALLS" : "", p->fast_math ? " " EC_FAST_MATH : "");
+             lanes == 1 && (set->calls || set->lanes > 1) ? " -DCALLS" : "", p->fast_math ? " " EC_FAST_MATH : "");
     snprintf(program->label, sizeof program->label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     return ec_kernel_sources_join(names, &program->source, err);
 }

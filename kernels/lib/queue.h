@@ -9,10 +9,10 @@
 /* The entry that a work-item begins at. A launch goes over all entries, or has a second dimension, the parts, and goes over the first of each. */
 EC_INLINED uint queue_entry(uint part, uint lanes) { return get_global_id(0) * lanes + get_global_id(1) * part; }
 /* How many entries stand at i or after it: of a queue in i's part, and of all slots. */
-EC_INLINED uint queue_entries(constant ec_params *params, global const uint *counts, uint i)
+EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, uint i)
 {
-    if (i >= params->wave) return 0u;
-    uint k = i / params->part, before = i - k * params->part, count = counts[k * EC_PART_STRIDE];
+    if (i >= wave) return 0u;
+    uint k = i / part, before = i - k * part, count = counts[k * EC_PART_STRIDE];
     return count > before ? count - before : 0u;
 }
 EC_INLINED uint slot_entries(uint count, uint i) { return i < count ? count - i : 0u; }

@@ -2,6 +2,7 @@
  * slots' radiance, which is changed then. Writes: the batch film, EC_BATCH_FIELDS floats a pixel in row order from film_row on, or in the
  * list's. Last stage of a wave. */
 #include "../lib/film.h"
+#include "../lib/kernel.h"
 #include "../lib/sum.h"
 
 #if LANES != 1
@@ -76,11 +77,13 @@ static void add_splats(global const uint *splat, float unit, uint batch, global 
     out[EC_BATCH_LARGEST] = largest;
 }
 
-kernel void ec_accumulate(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count,
-                          global float *radiance, global float *batch_film, global const uint *splats)
+#define ACCUMULATE_PARAMETERS(DO)                                                                                                                     \
+    DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, pixel_count) DO(global float *, radiance) DO(global float *, batch_film)       \
+    DO(global const uint *, splats)
+
+EC_KERNEL(ec_accumulate, 1u, ACCUMULATE_PARAMETERS, slot_entries(pixel_count, i))
 {
-    uint i = get_global_id(0), wave = params->wave, batch = params->batch;
-    if (i >= pixel_count) return;
+    uint wave = params->wave, batch = params->batch;
     uint x, y;
     pixel_to_xy(params, first_pixel + i, &x, &y);
     global float *out = batch_film + EC_BATCH_FIELDS * (pixel_list ? (ulong)(first_pixel + i)

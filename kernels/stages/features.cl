@@ -1,17 +1,19 @@
 /* First-hit features, the mean over a pixel's samples. Reads: the slots' features. Writes: 8 floats a pixel in row order from
  * film_row on. */
 #include "../lib/film.h"
+#include "../lib/kernel.h"
 #include "../shared/path_state.h"
 
 #if LANES != 1
 #error "one work-item a pixel: build with LANES 1"
 #endif
 
-kernel void ec_features(constant ec_params *params, uint first_pixel, global const uint *pixel_list, uint pixel_count,
-                        global const float *aov, global float *feature_film)
+#define FEATURES_PARAMETERS(DO)                                                                                                                       \
+    DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, pixel_count) DO(global const float *, aov) DO(global float *, feature_film)
+
+EC_KERNEL(ec_features, 1u, FEATURES_PARAMETERS, slot_entries(pixel_count, i))
 {
-    uint i = get_global_id(0), wave = params->wave, batch = params->batch;
-    if (i >= pixel_count) return;
+    uint wave = params->wave, batch = params->batch;
     uint x, y;
     pixel_to_xy(params, pixel_list ? pixel_list[EC_LIST_WORDS * (first_pixel + i)] : first_pixel + i, &x, &y);
     global float *out = feature_film + EC_AOV_FIELDS * ((ulong)(y - params->film_row) * params->width + x);

@@ -2,7 +2,7 @@
  * pixels. Writes: the splats. Sums are of whole numbers, so that no bit depends on the order; what is under one step is rounded up as often as
  * it is large. Last stage of a bounce of light paths. */
 #include "../lib/film.h"
-#include "../lib/math.h"
+#include "../lib/kernel.h"
 #include "../lib/sampler.h"
 #include "../shared/path_state.h"
 
@@ -22,11 +22,13 @@ static void add_fixed(volatile global uint *words, float steps, uint r)
     if (high) atomic_add(words + 1, high);
 }
 
-kernel void ec_splat(constant ec_params *params, uint seed, uint first_pixel, uint bounce, uint path_count, global float *radiance,
-                     global const float *light_slots, volatile global uint *splats)
+#define SPLAT_PARAMETERS(DO)                                                                                                                          \
+    DO(uint, seed) DO(uint, first_pixel) DO(uint, bounce) DO(uint, path_count) DO(global float *, radiance) DO(global const float *, light_slots)     \
+    DO(volatile global uint *, splats)
+
+EC_KERNEL(ec_splat, 1u, SPLAT_PARAMETERS, slot_entries(path_count, i))
 {
-    uint slot = get_global_id(0), wave = params->wave, path, sample;
-    if (slot >= path_count) return;
+    uint slot = i, wave = params->wave, path, sample;
     v3 rgb = v3_make(radiance[slot], radiance[wave + slot], radiance[2 * wave + slot]);
     if (v3_max_component(rgb) == 0.0f) return;
     for (uint c = 0; c < 3; c++) radiance[c * wave + slot] = 0.0f;
