@@ -50,15 +50,7 @@ void ec_compile_job_done(const ec_cl *cl, const ec_compile_job *job);
 /* The first, where nobody has looked ahead (cl/ahead.h). mends: what is damaged is set aside, with a warning. */
 bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job, bool mends);
 
-/* What a process that compiles asks and tells, since others may work on the same job. */
-typedef struct ec_compile_turns {
-    bool (*next)(void *user, uint32_t *kernel);                  /* one that nobody has begun; false: none is left */
-    void (*building)(void *user, uint32_t program, bool begins); /* before and after a program is built: a driver finds what another process has built */
-    void (*compiled)(void *user, uint32_t kernel);
-    void *user;
-} ec_compile_turns;
-
-/* Builds and launches kernels of it on this device, as long as there is a next one. */
-ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, const ec_compile_turns *turns, ec_error *err);
+/* Builds and launches all of it on this device, and tells of each kernel. */
+ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, void (*compiled)(uint32_t kernel), ec_error *err);
 
 #endif

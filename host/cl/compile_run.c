@@ -26,16 +26,7 @@ static ec_result compile(ec_cl *cl, const ec_compile_kernel *k, cl_program progr
     return result;
 }
 
-static ec_result build(ec_cl *cl, const ec_compile_job *job, uint32_t program, const ec_compile_turns *turns, cl_program *made, ec_error *err)
-{
-    const ec_compile_program *p = &job->programs[program];
-    turns->building(turns->user, program, true);
-    const ec_result result = ec_program_build(cl, p->label, p->source, p->options, made, err);
-    turns->building(turns->user, program, false);
-    return result;
-}
-
-ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, const ec_compile_turns *turns, ec_error *err)
+ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, void (*compiled)(uint32_t kernel), ec_error *err)
 {
     enum { ZEROS = 1 << 16 };
     cl_program programs[EC_COMPILE_PROGRAMS] = {NULL};
@@ -43,11 +34,12 @@ ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, const ec_comp
     ec_result result = ec_buffer_create(cl, "zeros", ZEROS, NULL, &buffers[0], err);
     if (result == EC_OK) result = ec_buffer_zero(cl, buffers[0], 0, ZEROS, err);
     if (result == EC_OK) result = ec_buffer_create(cl, "parameters", job->constants_bytes, job->constants, &buffers[1], err);
-    for (uint32_t i; result == EC_OK && turns->next(turns->user, &i);) {
-        const uint32_t number = job->kernels[i].program;
-        if (!programs[number]) result = build(cl, job, number, turns, &programs[number], err);
-        if (result == EC_OK) result = compile(cl, &job->kernels[i], programs[number], buffers, err);
-        if (result == EC_OK) turns->compiled(turns->user, i);
+    for (uint32_t i = 0; result == EC_OK && i < job->kernel_count; i++) {
+        const ec_compile_program *p = &job->programs[job->kernels[i].program];
+        cl_program *program = &programs[job->kernels[i].program];
+        if (!*program) result = ec_program_build(cl, p->label, p->source, p->options, program, err);
+        if (result == EC_OK) result = compile(cl, &job->kernels[i], *program, buffers, err);
+        if (result == EC_OK && compiled) compiled(i);
     }
     for (uint32_t i = 0; i < EC_COMPILE_PROGRAMS; i++)
         if (programs[i]) clReleaseProgram(programs[i]);

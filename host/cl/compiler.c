@@ -4,7 +4,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
-#include <poll.h>
 #include <spawn.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -73,12 +72,6 @@ bool ec_compiler_has_ended(ec_compiler *compiler)
     if (size < 0 && (errno == EAGAIN || errno == EINTR)) return compiler->is_whole;
     ec_compiler_leave(compiler);
     return true;
-}
-
-void ec_compiler_wait(const ec_compiler *compiler, double seconds)
-{
-    struct pollfd report = {.fd = compiler->report, .events = POLLIN};
-    (void)!poll(&report, 1, (int)(1000 * seconds));
 }
 
 void ec_compiler_leave(ec_compiler *compiler)

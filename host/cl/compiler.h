@@ -17,9 +17,6 @@ ec_result ec_compiler_start(const ec_compile_job *const *jobs, uint32_t count, e
 /* Takes in what it has told since; true once it has ended. Never waits. */
 bool ec_compiler_has_ended(ec_compiler *compiler);
 
-/* Until it tells of something, or has ended, for at most so many seconds. */
-void ec_compiler_wait(const ec_compiler *compiler, double seconds);
-
 /* Lets go of it: it goes on to its end, so that the next render finds what it makes. */
 void ec_compiler_leave(ec_compiler *compiler);
 

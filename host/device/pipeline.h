@@ -33,7 +33,6 @@ typedef struct ec_pipeline {
     uint32_t waves_until_fast;    /* 0: until the compiler is done; UINT32_MAX: never */
     ec_begun begun;
     double fast_since;            /* base/clock.h; 0: from the beginning, or not yet */
-    double stepped;               /* when the wave began, of those while a compiler is at work; 0: none yet */
     ec_compiler compiler;
     struct {
         bool in_use;

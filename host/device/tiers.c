@@ -143,8 +143,6 @@ ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *er
     return result;
 }
 
-#define PAUSE_MOST 0.2 /* seconds, within which Ctrl-C and --time have to be answered */
-
 static ec_result switch_to_fast(ec_pipeline *p, ec_error *err)
 {
     candidate fast = {.set = ec_kernel_set_fast(p)};
@@ -158,19 +156,10 @@ static ec_result switch_to_fast(ec_pipeline *p, ec_error *err)
     return result;
 }
 
-/* As long as the wave took, every second moment is the compiler's: it has the same processors, and what it makes is eight times as fast. */
-static void give_way(ec_pipeline *p)
-{
-    const double now = ec_now();
-    if (p->stepped > 0) ec_compiler_wait(&p->compiler, fmin(now - p->stepped, PAUSE_MOST));
-    p->stepped = ec_now();
-}
-
 /* A wave of none is one for which memory became too short: the fast kernels' is larger. */
 ec_result ec_tiers_step(ec_pipeline *p, ec_error *err)
 {
     if (!p->is_narrow) return EC_OK;
-    if (!p->waves_until_fast && !ec_compiler_has_ended(&p->compiler)) give_way(p);
     const bool is_due = p->waves_until_fast ? --p->waves_until_fast == 0 : ec_compiler_has_ended(&p->compiler);
     return is_due || !p->wave ? switch_to_fast(p, err) : EC_OK;
 }

@@ -104,29 +104,6 @@ class Compile(Case):
         self.assertGreater(report["fast_kernels_after_seconds"], 0)
         self.assertEqual(report["image_sha256"], self.render("--compile", "first", spp=40000)[0]["image_sha256"])
 
-    def kill_a_helper(self):
-        """Once it has built the second program of the fast kernels, and is at a kernel."""
-        def programs():
-            return glob.glob(os.path.join(self.cache, "pocl", "**", "program.bc"), recursive=True)
-        poll_until(lambda: len(programs()) > 2, pause=0.01)
-        os.kill(max(children(self.cache)), signal.SIGKILL)
-
-    def test_what_a_killed_helper_leaves_undone_is_compiled(self):
-        """As many processes compile the kernels of a render as there are processors."""
-        if len(os.sched_getaffinity(0)) == 1:
-            self.skipTest("one processor: nobody helps")
-        killer = threading.Thread(target=self.kill_a_helper, daemon=True)
-        killer.start()
-        self.skip_unless_late(self.render()[0])
-        killer.join()
-        poll_until(self.hurry, pause=1)
-        kernels = self.kernels()
-        self.assertEqual(self.render("--compile", "first")[0]["first_kernels"], "fast")
-        self.assertEqual(self.kernels(), kernels)
-
-    def kernels(self):
-        return set(glob.glob(os.path.join(self.cache, "pocl", "**", "ec_*.so"), recursive=True))
-
     def test_narrow_ones_to_the_end(self):
         """Nothing is compiled but what compiles soonest, and fast ones that are there are taken."""
         report, said = self.render("--compile", "narrow", spp=64)
