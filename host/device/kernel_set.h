@@ -12,7 +12,7 @@ typedef struct ec_kernel_set {
     uint32_t lanes;
     uint32_t wave;                            /* paths of the waves that it is launched over */
     uint64_t features;                        /* EC_FEATURE_* that are built in */
-    bool calls;                               /* one lane calls functions, which compiles sooner and runs slower, instead of inlining them; beside kernels of more lanes it always does */
+    bool calls;                               /* one lane calls functions, which compiles sooner and runs slower, instead of inlining them */
     uint32_t accels;                          /* 1 << accelerator: those that it goes through */
     cl_program programs[EC_LANES_MOST + 1];   /* by lane width */
     cl_kernel stages[EC_STAGE_ID_COUNT];

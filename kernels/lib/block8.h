@@ -50,7 +50,7 @@ EC_INLINED ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, floa
 
 /* Which of eight triangles the ray passes inside and meets before h->t. *close: for edges_settle. */
 EC_INLINED int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1, const hit8 *h, int8 *close, float8 *t,
-                      float8 *inverse)
+                           float8 *inverse)
 {
     int8 m = edges_inside(e);
     *close = m;
@@ -61,7 +61,7 @@ EC_INLINED int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint s
 /* Keeps the best of them, by (t, triangle id), if it is better than *h. lo, hi: the triangles' boxes. any_hit: only whether
  * there is one. */
 EC_INLINED void eight_take(const ray8 *q, const hit_filter *filter, const edges *e, int8 m, uint8 id, float8 t, float8 inverse,
-                      v3 lo, v3 hi, bool any_hit, hit8 *h)
+                           v3 lo, v3 hi, bool any_hit, hit8 *h)
 {
     m = m & reference_clamp(&q->r, lo, hi, (float8)(h->t), &t) & ((t < h->t) | (id < h->prim));
     float8 b1 = e->v * inverse + 0.0f, b2 = e->w * inverse + 0.0f; /* no -0: a shared edge is negated */
@@ -120,7 +120,7 @@ EC_INLINED void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxe
 
 /* Eight triangles by their corners in the world. flat: those of which rounding may have left nothing that has a normal. */
 EC_INLINED void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, int8 flat,
-                          uint8 id, uint skip0, uint skip1, bool any_hit, hit8 *h)
+                               uint8 id, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     v3 s0 = ray_vertex(&q->r, p0), s1 = ray_vertex(&q->r, p1), s2 = ray_vertex(&q->r, p2);
     edges e = edges_make(s0, s1, s2);
@@ -144,7 +144,7 @@ EC_INLINED bool block8_moves(const hit_filter *filter, uint8 id)
 
 /* Tests a block of which some triangles move. */
 EC_INLINED void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, uint8 id,
-                         uint skip0, uint skip1, bool any_hit, hit8 *h)
+                              uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     int8 moves = motion_moves(filter->g.motion, id);
     motion_corners(filter->g.motion, filter->g.time, moves, id, &p0, &p1, &p2);
@@ -153,7 +153,7 @@ EC_INLINED void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3
 
 /* A block of up to eight triangles that lie side by side. boxes: NULL where they are whole. */
 EC_INLINED void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, global const ec_box8 *boxes,
-                             uint skip0, uint skip1, bool any_hit, hit8 *h)
+                                  uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     uint8 id = *(global const uint8 *)b->id;
     v3 lo, hi;

@@ -92,7 +92,7 @@ EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 }
 
 /* f |cos(wi)| and its sampling density. Both leave out the single directions of smooth surfaces. */
-EC_INLINED v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
+EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
 {
     v3 f = bsdf_eval_base(b, wi, pdf);
     if (HAS(MULTISCATTER) && HAS(SPECULAR)) multiscatter_over(&b->again, b->wo, wi, &f, pdf);

@@ -19,6 +19,8 @@
         if (left) EC_CAT(name, _item)(i, left, params LIST(EC_ARGUMENT));                                                                             \
     }                                                                                                                                                 \
     how void EC_CAT(name, _item)(uint i, uint left, constant ec_params *params LIST(EC_PARAMETER))
+/* What counters say of entry i, for `entries`. */
+#define QUEUED(count) queue_entries((global const uint *)counters->count, params->wave, params->part, i)
 #define EC_PARAMETER(type, name) , type name
 #define EC_ARGUMENT(type, name) , name
 

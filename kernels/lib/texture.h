@@ -35,7 +35,7 @@ EC_INLINED rgba texel_bytes(textures t, lane_u word, bool is_srgb)
 /* The texels `first` and `second` of a row that starts at `row`. Mostly they stand side by side: a load fetches both, and a word more than
  * the buffer has texels. */
 EC_INLINED void texture_row(textures t, lane_u offset, lane_u row, lane_u first, lane_u second, lane_i is_float,
-                       bool is_srgb, rgba *a, rgba *b)
+                            bool is_srgb, rgba *a, rgba *b)
 {
     lane_u at = offset + row + first;
     pair words = gather_pair(t.texels, at);

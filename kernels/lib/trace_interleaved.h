@@ -97,7 +97,7 @@ EC_INLINED turns turns_of(uint left)
 }
 
 EC_INLINED void walk_path(walk *w, constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
-                     uint bounce, global const float *paths, uint i)
+                          uint bounce, global const float *paths, uint i)
 {
     uint wave = params->wave;
     global const float *p = paths + i;
@@ -124,7 +124,7 @@ EC_INLINED void walk_store(const walk *w, uint wave, global float *hits)
 }
 
 /* Closest hit of every path; camera rays one by one, since they go the same way. Reads: path queue. Writes: hits. Next: shade. */
-EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part, i) ? queue_entries(counters->rays[step], params->wave, params->part, i) : 0u)
+EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part, i) ? QUEUED(rays[step]) : 0u)
 {
     uint wave = params->wave;
     turns t = turns_of(left);
@@ -154,7 +154,7 @@ EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part,
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-EC_KERNEL(ec_connect_bvh8, 1u, CONNECT_PARAMETERS, turns_begin(params->part, i) ? queue_entries(counters->shadows[step], params->wave, params->part, i) : 0u)
+EC_KERNEL(ec_connect_bvh8, 1u, CONNECT_PARAMETERS, turns_begin(params->part, i) ? QUEUED(shadows[step]) : 0u)
 {
     uint wave = params->wave;
     turns t = turns_of(left);

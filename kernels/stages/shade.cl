@@ -70,7 +70,7 @@ EC_FN lane_u left_behind(const surface *s, v3 w, lane_i lifted, lane_u prim)
     DO(global const uint *, emission_table) DO(global const float *, guide_table) DO(global const uint *, light_groups)                               \
     DO(global const uint *, parts) DO(global const float *, camera_keys)
 
-EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, queue_entries((global const uint *)counters->rays[step], params->wave, params->part, i))
+EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
 {
     uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};

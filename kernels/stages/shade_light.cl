@@ -28,7 +28,7 @@ EC_FN lane_i agrees(const surface *s, v3 w, v3 w_local) { return v3_dot(s->ng, w
     DO(global const uint *, environment_table) DO(global const float *, light_tree) DO(global const float *, lamp_parts)                              \
     DO(global const uint *, emission_table) DO(global float *, photons) DO(uint, path_count) DO(global const float *, guide_table)
 
-EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, queue_entries((global const uint *)counters->rays[step], params->wave, params->part, i))
+EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
 {
     uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};

@@ -72,7 +72,7 @@ EC_FN branch branch_make(const surface *s, v3 wi, v3 beta, lane_f depth, lane_u 
     DO(global float *, hits) DO(global float *, next) DO(global float *, branches) DO(global float *, radiance) DO(global float *, aov)               \
     SURFACE_PARAMETERS(DO) DO(global const float *, environment_texels) DO(global const uint *, parts)
 
-EC_KERNEL(ec_whitted, LANES, WHITTED_PARAMETERS, queue_entries((global const uint *)counters->rays[step], params->wave, params->part, i))
+EC_KERNEL(ec_whitted, LANES, WHITTED_PARAMETERS, QUEUED(rays[step]))
 {
     uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};

@@ -9,7 +9,7 @@
     DO(uint, light) DO(uint, step) DO(volatile global ec_counters *, counters) DO(volatile global uint *, invalid) DO(global const float *, paths)    \
     DO(global const float *, hits) DO(global float *, shadows) SURFACE_PARAMETERS(DO) DO(global const float *, light_table)
 
-EC_KERNEL(ec_whitted_light, LANES, WHITTED_LIGHT_PARAMETERS, queue_entries((global const uint *)counters->rays[0], params->wave, params->part, i))
+EC_KERNEL(ec_whitted_light, LANES, WHITTED_LIGHT_PARAMETERS, QUEUED(rays[0]))
 {
     uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};

@@ -92,10 +92,12 @@ class Compile(Case):
             name = os.path.basename(path)[:-len(".so")]
             lines = [line.split() for line in subprocess.run(["nm", "-S", path], capture_output=True, text=True, check=True).stdout.splitlines()]
             sizes = {words[3]: int(words[1], 16) for words in lines if len(words) == 4}
-            if name.endswith(of_one_ray) or name in ("ec_accumulate", "ec_features", "ec_splat"):
+            if name.endswith(of_one_ray):
                 continue
             with self.subTest(kernel=name):
-                self.assertLess(sizes[f"_pocl_kernel_{name}_workgroup"], sizes.get(f"{name}_item", 0))
+                self.assertIn(f"{name}_item", sizes)
+                if name not in ("ec_features", "ec_splat"):  # which are short
+                    self.assertLess(sizes[f"_pocl_kernel_{name}_workgroup"], sizes[f"{name}_item"])
 
     def test_the_fast_ones_take_over(self):
         report, _ = self.render(spp=40000)
