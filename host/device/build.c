@@ -24,8 +24,7 @@ const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, u
 
 static entry stage_entry(ec_kernel_set *set, ec_stage_id id)
 {
-    const uint32_t lanes = ec_stages[id].lanes == EC_LANES_OF_PIPELINE ? set->lanes : ec_stages[id].lanes;
-    entry e = {.stage = id, .accel = EC_ACCEL_COUNT, .lanes = lanes, .kernel = &set->stages[id]};
+    entry e = {.stage = id, .accel = EC_ACCEL_COUNT, .lanes = set->lanes, .kernel = &set->stages[id]};
     snprintf(e.source, sizeof e.source, "%s", ec_stages[id].source);
     snprintf(e.name, sizeof e.name, "ec_%s", ec_stages[id].source);
     return e;
@@ -73,7 +72,7 @@ static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, 
         if (*own) traversal = own;
     }
     snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s", lanes, features, traversal,
-             lanes == 1 && (set->calls || set->lanes > 1) ? " -DCALLS" : "", p->fast_math ? " " EC_FAST_MATH : "");
+             lanes == 1 && set->calls ? " -DCALLS" : "", p->fast_math ? " " EC_FAST_MATH : "");
     snprintf(program->label, sizeof program->label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     return ec_kernel_sources_join(names, &program->source, err);
 }

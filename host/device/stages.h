@@ -99,7 +99,7 @@ typedef enum ec_stage_id {
 #define EC_OF_PATHS (EC_OF(PATH) | EC_OF(LIGHT))
 #define EC_OF_ALL UINT32_MAX
 
-/* How many lanes a stage's program is built with: the pipeline's, the accelerator's, or a fixed number. */
+/* How many entries a work-item of a stage has: as many as the pipeline or the accelerator has lanes, which its program is built with, or one. */
 #define EC_LANES_OF_PIPELINE 0
 #define EC_LANES_OF_ACCEL UINT32_MAX
 

@@ -14,6 +14,7 @@ void ec_goal_set(ec_goal *g, double samples, double seconds, double error)
     g->samples = samples;
     g->seconds = seconds;
     g->error = error;
+    g->told = 0;
 }
 
 void ec_goal_batch(ec_goal *g, double samples, double seconds, double took)
@@ -136,7 +137,7 @@ const char *ec_goal_met(const ec_goal *g, ec_mark at, bool may_judge, double nex
     return NULL;
 }
 
-double ec_goal_fraction(const ec_goal *g, ec_mark at)
+static double fraction_done(const ec_goal *g, ec_mark at)
 {
     double f = 0;
     if (isfinite(g->forecast.seconds) && g->forecast.seconds > 0) return fmin(at.seconds / g->forecast.seconds, 1);
@@ -144,4 +145,16 @@ double ec_goal_fraction(const ec_goal *g, ec_mark at)
     if (g->seconds > 0) f = fmax(f, at.seconds / g->seconds);
     if (g->error > 0 && g->now.error_bound > 0 && isfinite(g->now.error_bound)) f = fmax(f, pow(g->error / g->now.error_bound, 2 / fmax(g->slope.value, 1)));
     return fmin(f, 1);
+}
+
+double ec_goal_fraction(ec_goal *g, ec_mark at)
+{
+    g->told = fmax(g->told, fraction_done(g, at));
+    return g->told;
+}
+
+double ec_goal_seconds_left(const ec_goal *g, ec_mark at)
+{
+    const double f = fraction_done(g, at);
+    return f > 0 ? at.seconds * (1 - f) / f : -1;
 }

@@ -25,6 +25,7 @@ typedef struct ec_goal {
     ec_clean_goal clean;                /* the error's limit is the clean picture's too */
     bool is_withheld;                   /* the error's limit would be met, if there were a bound */
     ec_forecast forecast, pilot;        /* of now; the first one */
+    double told;                        /* what ec_goal_fraction said last */
 } ec_goal;
 
 /* Limits as options have them, 0: none. */
@@ -46,7 +47,8 @@ void ec_goal_foretell(ec_goal *goal, ec_mark at, double gain);
  * what would be done next. */
 const char *ec_goal_met(const ec_goal *goal, ec_mark at, bool may_judge, double next);
 
-/* How much is done, 0 to 1, of what the first limit will take. */
-double ec_goal_fraction(const ec_goal *goal, ec_mark at);
+/* How much is done, 0 to 1, of what the first limit will take; never less than it said before, though a later forecast may be longer. */
+double ec_goal_fraction(ec_goal *goal, ec_mark at);
+double ec_goal_seconds_left(const ec_goal *goal, ec_mark at); /* < 0: not known */
 
 #endif

@@ -6,7 +6,7 @@
 #include "render/render_state.h"
 
 /* Strips end by their samples alone. */
-static double fraction_done(const ec_render_state *r, ec_mark at)
+static double fraction_done(ec_render_state *r, ec_mark at)
 {
     if (!r->strip_rows) return ec_goal_fraction(&r->goal, at);
     const double pixels = ec_render_picture_pixels(r), done = (double)r->samples_before + at.samples * ec_render_film_pixels(r);
@@ -21,7 +21,7 @@ bool ec_render_tell(ec_render_state *r, double samples_per_pixel)
     const double samples = (double)r->samples_before + samples_per_pixel * ec_render_film_pixels(r), f = fraction_done(r, at);
     ec_progress progress = {
         .seconds = at.seconds,
-        .seconds_left = f > 0.0 ? at.seconds * (1.0 - f) / f : -1.0,
+        .seconds_left = !r->strip_rows ? ec_goal_seconds_left(&r->goal, at) : f > 0.0 ? at.seconds * (1.0 - f) / f : -1.0,
         .fraction = f,
         .samples_per_pixel = (uint64_t)(r->strip_rows ? samples / ec_render_picture_pixels(r) : samples_per_pixel),
         .samples = (uint64_t)samples,

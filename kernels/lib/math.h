@@ -44,8 +44,10 @@ EC_FN v3 v3_cross(v3 a, v3 b)
 EC_FN v3 v3_select(lane_i m, v3 a, v3 b) { return v3_make(m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z); }
 EC_FN lane_f v3_max_component(v3 a) { return max(a.x, max(a.y, a.z)); }
 EC_FN lane_f luminance(v3 a) { return fma(a.x, F(0.2126f), fma(a.y, F(0.7152f), a.z * 0.0722f)); } /* Rec. 709 */
+EC_FN float luminance_one(float r, float g, float b) { return fma(r, 0.2126f, fma(g, 0.7152f, b * 0.0722f)); }
 EC_FN v3 v3_normalize(v3 a) { return v3_scale(a, 1.0f / sqrt(v3_dot(a, a))); }
 
+EC_FN bool is_finite_one(float x) { return (as_uint(x) & 0x7f800000u) != 0x7f800000u; }
 EC_FN lane_i is_finite_bits(lane_f x) { return (as_lane_u(x) & 0x7f800000u) != 0x7f800000u; }
 EC_FN lane_i v3_is_finite(v3 a) { return is_finite_bits(a.x) & is_finite_bits(a.y) & is_finite_bits(a.z); }
 

@@ -99,5 +99,6 @@ EC_FN lane_u raster_tile(constant ec_params *params, lane_u x, lane_u y)
 {
     return y / EC_TILE * ((params->width + EC_TILE - 1u) / EC_TILE) + x / EC_TILE;
 }
+EC_FN uint raster_tile_one(constant ec_params *params, uint x, uint y) { return LANE(raster_tile(params, U(x), U(y)), 0); }
 
 #endif

@@ -21,7 +21,7 @@ EC_FN float sum_of(global const float *in, uint count, float scale)
 EC_FN float mean_of(global const float *in, uint count)
 {
     float mean = sum_of(in, count, 1.0f) / (float)count;
-    return is_finite_bits(mean) ? mean : sum_of(in, count, 1.0f / (float)count); /* their sum is more than a float holds */
+    return is_finite_one(mean) ? mean : sum_of(in, count, 1.0f / (float)count); /* their sum is more than a float holds */
 }
 
 #endif

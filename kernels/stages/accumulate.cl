@@ -5,10 +5,6 @@
 #include "../lib/kernel.h"
 #include "../lib/sum.h"
 
-#if LANES != 1
-#error "one work-item a pixel: build with LANES 1"
-#endif
-
 static float luminance_of(global const float *in, uint wave, uint s)
 {
     return 0.2126f * in[s] + 0.7152f * in[wave + s] + 0.0722f * in[2 * wave + s]; /* linear Rec. 709 */
@@ -19,7 +15,7 @@ static void write_tail(global const float *in, uint wave, uint count, global flo
 {
     float largest = 0.0f, squares = 0.0f, fourths = 0.0f;
     for (uint s = 0; s < count; s++) largest = max(largest, luminance_of(in, wave, s));
-    largest = is_finite_bits(largest) ? largest : MAXFLOAT;
+    largest = is_finite_one(largest) ? largest : MAXFLOAT;
     for (uint s = 0; s < count && largest > 0.0f; s++) {
         float y = min(luminance_of(in, wave, s), largest) / largest, square = y * y;
         squares += square;
@@ -37,7 +33,7 @@ static void limit_indirect(global float *direct, uint wave, uint count, float li
     global float *indirect = direct + 3 * (ulong)wave;
     for (uint s = 0; s < count; s++) {
         float y = luminance_of(indirect, wave, s);
-        y = is_finite_bits(y) ? y : MAXFLOAT;
+        y = is_finite_one(y) ? y : MAXFLOAT;
         float share = limit > 0.0f && y > limit ? limit / y : 1.0f;
         for (uint c = 0; c < 3; c++) direct[c * wave + s] += share * indirect[c * wave + s];
         indirect[s] = share < 1.0f ? y - limit : 0.0f;
@@ -67,11 +63,11 @@ static void add_splats(global const uint *splat, float unit, uint batch, global 
 {
     float most = as_float(splat[EC_SPLAT_LARGEST]), largest = max(out[EC_BATCH_LARGEST], most);
     if (!(most > 0.0f)) return;
-    v3 rgb = v3_make(splat_sum(splat + EC_SPLAT_R, unit), splat_sum(splat + EC_SPLAT_G, unit), splat_sum(splat + EC_SPLAT_B, unit));
-    out[EC_BATCH_R] += rgb.x / (float)batch;
-    out[EC_BATCH_G] += rgb.y / (float)batch;
-    out[EC_BATCH_B] += rgb.z / (float)batch;
-    float y = luminance(rgb), before = out[EC_BATCH_LARGEST] / largest, before2 = before * before, at_most = most / largest, count = y / largest;
+    float r = splat_sum(splat + EC_SPLAT_R, unit), g = splat_sum(splat + EC_SPLAT_G, unit), b = splat_sum(splat + EC_SPLAT_B, unit);
+    out[EC_BATCH_R] += r / (float)batch;
+    out[EC_BATCH_G] += g / (float)batch;
+    out[EC_BATCH_B] += b / (float)batch;
+    float y = luminance_one(r, g, b), before = out[EC_BATCH_LARGEST] / largest, before2 = before * before, at_most = most / largest, count = y / largest;
     out[EC_BATCH_SQUARES] = out[EC_BATCH_SQUARES] * before2 + at_most * count;
     out[EC_BATCH_FOURTHS] = out[EC_BATCH_FOURTHS] * before2 * before2 + at_most * at_most * at_most * count;
     out[EC_BATCH_LARGEST] = largest;
@@ -85,7 +81,7 @@ EC_KERNEL(ec_accumulate, 1u, ACCUMULATE_PARAMETERS, slot_entries(pixel_count, i)
 {
     uint wave = params->wave, batch = params->batch;
     uint x, y;
-    pixel_to_xy(params, first_pixel + i, &x, &y);
+    pixel_to_xy_one(params, first_pixel + i, &x, &y);
     global float *out = batch_film + EC_BATCH_FIELDS * (pixel_list ? (ulong)(first_pixel + i)
                                                                    : (ulong)(y - params->film_row) * params->width + x);
     if (params->apart) limit_indirect(radiance + i * batch, wave, batch, params->limit);

@@ -4,10 +4,6 @@
 #include "../lib/kernel.h"
 #include "../shared/path_state.h"
 
-#if LANES != 1
-#error "one work-item a pixel: build with LANES 1"
-#endif
-
 #define FEATURES_PARAMETERS(DO)                                                                                                                       \
     DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, pixel_count) DO(global const float *, aov) DO(global float *, feature_film)
 
@@ -15,7 +11,7 @@ EC_KERNEL(ec_features, 1u, FEATURES_PARAMETERS, slot_entries(pixel_count, i))
 {
     uint wave = params->wave, batch = params->batch;
     uint x, y;
-    pixel_to_xy(params, pixel_list ? pixel_list[EC_LIST_WORDS * (first_pixel + i)] : first_pixel + i, &x, &y);
+    pixel_to_xy_one(params, pixel_list ? pixel_list[EC_LIST_WORDS * (first_pixel + i)] : first_pixel + i, &x, &y);
     global float *out = feature_film + EC_AOV_FIELDS * ((ulong)(y - params->film_row) * params->width + x);
     for (uint c = 0; c < EC_AOV_FIELDS; c++) {
         float sum = 0.0f;

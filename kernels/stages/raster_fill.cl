@@ -3,10 +3,6 @@
 #include "../lib/raster.h"
 #include "../shared/accel.h"
 
-#if LANES != 1
-#error "one work-item a triangle: build with LANES 1"
-#endif
-
 kernel void ec_raster_fill(constant ec_params *params, uint triangle_count, global const ec_raster_tri *tris,
                            volatile global uint *ends, global uint *list)
 {
@@ -15,5 +11,5 @@ kernel void ec_raster_fill(constant ec_params *params, uint triangle_count, glob
     global const ec_raster_tri *t = tris + i;
     for (uint y = t->first_tile >> 16; y <= t->last_tile >> 16; y++)
         for (uint x = t->first_tile & 0xffffu; x <= (t->last_tile & 0xffffu); x++)
-            if (raster_meets_tile(params, t, x, y)) list[atomic_inc(&ends[raster_tile(params, x * EC_TILE, y * EC_TILE)])] = i;
+            if (raster_meets_tile(params, t, x, y)) list[atomic_inc(&ends[raster_tile_one(params, x * EC_TILE, y * EC_TILE)])] = i;
 }

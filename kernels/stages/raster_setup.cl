@@ -4,10 +4,6 @@
 #include "../shared/accel.h"
 #include "../shared/scene_buffers.h"
 
-#if LANES != 1
-#error "one work-item a triangle: build with LANES 1"
-#endif
-
 kernel void ec_raster_setup(constant ec_params *params, uint triangle_count, global const float *prims, global ec_raster_tri *tris,
                             volatile global uint *counts)
 {
@@ -48,5 +44,5 @@ kernel void ec_raster_setup(constant ec_params *params, uint triangle_count, glo
     t->prim = i;
     for (uint y = y0; y <= y1; y++)
         for (uint x = x0; x <= x1; x++)
-            if (raster_meets_tile(params, t, x, y)) atomic_inc(&counts[raster_tile(params, x * EC_TILE, y * EC_TILE)]);
+            if (raster_meets_tile(params, t, x, y)) atomic_inc(&counts[raster_tile_one(params, x * EC_TILE, y * EC_TILE)]);
 }

@@ -4,10 +4,6 @@
 #include "../lib/kernel.h"
 #include "../lib/sum.h"
 
-#if LANES != 1
-#error "one work-item a pixel: build with LANES 1"
-#endif
-
 #define SLOT_LAYERS_PARAMETERS(DO)                                                                                                                    \
     DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, pixel_count) DO(global const float *, radiance)                                \
     DO(global float *, layer_film)
@@ -16,7 +12,7 @@ EC_KERNEL(ec_slot_layers, 1u, SLOT_LAYERS_PARAMETERS, slot_entries(pixel_count, 
 {
     uint wave = params->wave, batch = params->batch, fields = 3 * params->layer_count;
     uint x, y;
-    pixel_to_xy(params, first_pixel + i, &x, &y);
+    pixel_to_xy_one(params, first_pixel + i, &x, &y);
     ulong place = pixel_list ? (ulong)(first_pixel + i) : (ulong)(y - params->film_row) * params->width + x;
     for (uint c = 0; c < fields; c++) layer_film[fields * place + c] = mean_of(radiance + (3 + c) * (ulong)wave + i * batch, batch);
 }

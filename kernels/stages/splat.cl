@@ -6,10 +6,6 @@
 #include "../lib/sampler.h"
 #include "../shared/path_state.h"
 
-#if LANES != 1
-#error "one work-item a slot: build with LANES 1"
-#endif
-
 /* A 64-bit sum as two words, for devices without atomics of so many bits: whoever makes the low one overflow carries. */
 static void add_fixed(volatile global uint *words, float steps, uint r)
 {
@@ -28,16 +24,17 @@ static void add_fixed(volatile global uint *words, float steps, uint r)
 
 EC_KERNEL(ec_splat, 1u, SPLAT_PARAMETERS, slot_entries(path_count, i))
 {
-    uint slot = i, wave = params->wave, path, sample;
-    v3 rgb = v3_make(radiance[slot], radiance[wave + slot], radiance[2 * wave + slot]);
-    if (v3_max_component(rgb) == 0.0f) return;
+    uint slot = i, wave = params->wave;
+    lane_u path, sample;
+    float red = radiance[slot], green = radiance[wave + slot], blue = radiance[2 * wave + slot];
+    if (max(red, max(green, blue)) == 0.0f) return;
     for (uint c = 0; c < 3; c++) radiance[c * wave + slot] = 0.0f;
-    slot_to_pixel(params, first_pixel, 0, slot, &path, &sample);
+    slot_to_pixel(params, first_pixel, 0, U(slot), &path, &sample);
     volatile global uint *words = splats + EC_SPLAT_WORDS * (ulong)as_uint(light_slots[EC_LIGHT_SLOT_PIXEL * wave + slot]);
-    uint r = hash_scalar(hash_scalar(hash_scalar(path) ^ seed) + sample * 0x9e3779b9u + bounce);
-    add_fixed(words + EC_SPLAT_R, rgb.x / params->splat_unit, r = hash_scalar(r));
-    add_fixed(words + EC_SPLAT_G, rgb.y / params->splat_unit, r = hash_scalar(r));
-    add_fixed(words + EC_SPLAT_B, rgb.z / params->splat_unit, r = hash_scalar(r));
-    float y = luminance(rgb);
-    if (is_finite_bits(y)) atomic_max(words + EC_SPLAT_LARGEST, as_uint(y));
+    uint r = hash_scalar(hash_scalar(hash_scalar(LANE(path, 0)) ^ seed) + LANE(sample, 0) * 0x9e3779b9u + bounce);
+    add_fixed(words + EC_SPLAT_R, red / params->splat_unit, r = hash_scalar(r));
+    add_fixed(words + EC_SPLAT_G, green / params->splat_unit, r = hash_scalar(r));
+    add_fixed(words + EC_SPLAT_B, blue / params->splat_unit, r = hash_scalar(r));
+    float y = luminance_one(red, green, blue);
+    if (is_finite_one(y)) atomic_max(words + EC_SPLAT_LARGEST, as_uint(y));
 }

@@ -193,6 +193,18 @@ static void slow_kernels_are_forgotten(void)
     CHECK_MSG(fabs(goal.forecast.seconds - 20) < 0.01, "%g s", goal.forecast.seconds);
 }
 
+/* A forecast that turns out too short makes a render longer, and does not take back what was told. */
+static void fractions_never_fall(void)
+{
+    ec_goal goal = {.forecast = {.seconds = 10}};
+    CHECK(ec_goal_fraction(&goal, (ec_mark){8, 5}) == 0.5);
+    goal.forecast.seconds = 20;
+    CHECK(ec_goal_fraction(&goal, (ec_mark){9, 6}) == 0.5 && ec_goal_fraction(&goal, (ec_mark){32, 15}) == 0.75);
+    CHECK_NEAR(ec_goal_seconds_left(&goal, (ec_mark){9, 6}), 14, 1e-9);
+    ec_goal_set(&goal, 64, 0, 0); /* another goal */
+    CHECK(ec_goal_fraction(&goal, (ec_mark){32, 4}) == 0.2);
+}
+
 int main(void)
 {
     static const workload workloads[] = {
@@ -207,5 +219,6 @@ int main(void)
     other_limits();
     limits_are_met();
     slow_kernels_are_forgotten();
+    fractions_never_fall();
     TEST_END();
 }

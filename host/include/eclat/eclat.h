@@ -127,7 +127,7 @@ eclat_result eclat_job_typed(eclat_job *job, int argc, char *const *argv, eclat_
 typedef enum eclat_severity { ECLAT_STATUS, ECLAT_NOTE, ECLAT_WARNING, ECLAT_FAILURE } eclat_severity;
 
 typedef struct eclat_progress {
-    double fraction;                   /* 0 to 1, of the first limit that will end the job */
+    double fraction;                   /* 0 to 1, of the first limit that will end the job; it never falls */
     double seconds, seconds_left;      /* seconds_left < 0: not known */
     double samples_per_pixel;
     double error, error_bound;         /* as eclat_picture_error has them; of jobs that do not render one picture, INFINITY */
