@@ -50,7 +50,4 @@ void ec_compile_job_done(const ec_cl *cl, const ec_compile_job *job);
 /* The first, where nobody has looked ahead (cl/ahead.h). mends: what is damaged is set aside, with a warning. */
 bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job, bool mends);
 
-/* Builds and launches all of it on this device, and tells of each kernel. */
-ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, void (*compiled)(uint32_t kernel), ec_error *err);
-
 #endif

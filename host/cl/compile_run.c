@@ -1,7 +1,7 @@
-#include "cl/compile_job.h"
+#include "cl/compile_run.h"
 
-#include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 /* Buffers of zeros, and of the constants. */
 static ec_result set_arguments(const ec_compile_kernel *k, cl_kernel kernel, const cl_mem buffers[2], ec_error *err)
@@ -26,23 +26,82 @@ static ec_result compile(ec_cl *cl, const ec_compile_kernel *k, cl_program progr
     return result;
 }
 
-ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, void (*compiled)(uint32_t kernel), ec_error *err)
+ec_compile_states *ec_compile_states_map(int file)
+{
+    void *at = mmap(NULL, sizeof(ec_compile_states), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    return at == MAP_FAILED ? NULL : at;
+}
+
+void ec_compile_states_unmap(ec_compile_states *states)
+{
+    if (states) munmap(states, sizeof *states);
+}
+
+bool ec_compile_states_are_done(const ec_compile_states *states, uint32_t kernel_count)
+{
+    for (uint32_t i = 0; i < kernel_count; i++)
+        if (atomic_load(&states->kernels[i]) != EC_COMPILE_DONE) return false;
+    return true;
+}
+
+ec_result ec_compile_run_begin(ec_cl *cl, const ec_compile_job *job, ec_compile_states *states, ec_compile_run *run, ec_error *err)
 {
     enum { ZEROS = 1 << 16 };
-    cl_program programs[EC_COMPILE_PROGRAMS] = {NULL};
-    cl_mem buffers[2] = {NULL};
-    ec_result result = ec_buffer_create(cl, "zeros", ZEROS, NULL, &buffers[0], err);
-    if (result == EC_OK) result = ec_buffer_zero(cl, buffers[0], 0, ZEROS, err);
-    if (result == EC_OK) result = ec_buffer_create(cl, "parameters", job->constants_bytes, job->constants, &buffers[1], err);
-    for (uint32_t i = 0; result == EC_OK && i < job->kernel_count; i++) {
-        const ec_compile_program *p = &job->programs[job->kernels[i].program];
-        cl_program *program = &programs[job->kernels[i].program];
-        if (!*program) result = ec_program_build(cl, p->label, p->source, p->options, program, err);
-        if (result == EC_OK) result = compile(cl, &job->kernels[i], *program, buffers, err);
-        if (result == EC_OK && compiled) compiled(i);
-    }
+    *run = (ec_compile_run){.cl = cl, .job = job, .states = states};
+    EC_TRY(ec_buffer_create(cl, "zeros", ZEROS, NULL, &run->buffers[0], err));
+    EC_TRY(ec_buffer_zero(cl, run->buffers[0], 0, ZEROS, err));
+    return ec_buffer_create(cl, "parameters", job->constants_bytes, job->constants, &run->buffers[1], err);
+}
+
+void ec_compile_run_end(ec_compile_run *run)
+{
     for (uint32_t i = 0; i < EC_COMPILE_PROGRAMS; i++)
-        if (programs[i]) clReleaseProgram(programs[i]);
-    for (int i = 0; i < 2; i++) ec_buffer_release(cl, &buffers[i]);
-    return result;
+        if (run->programs[i]) clReleaseProgram(run->programs[i]);
+    for (int i = 0; i < 2; i++) ec_buffer_release(run->cl, &run->buffers[i]);
+    memset(run, 0, sizeof *run);
+}
+
+static bool take(atomic_uchar *state)
+{
+    unsigned char open = EC_COMPILE_OPEN;
+    return atomic_compare_exchange_strong(state, &open, EC_COMPILE_TAKEN);
+}
+
+ec_result ec_compile_run_kernel(ec_compile_run *run, uint32_t kernel, ec_error *err)
+{
+    const ec_compile_kernel *k = &run->job->kernels[kernel];
+    const ec_compile_program *p = &run->job->programs[k->program];
+    cl_program *program = &run->programs[k->program];
+    if (!*program) {
+        (void)take(&run->states->programs[k->program]);
+        EC_TRY(ec_program_build(run->cl, p->label, p->source, p->options, program, err));
+        atomic_store(&run->states->programs[k->program], EC_COMPILE_DONE);
+    }
+    EC_TRY(compile(run->cl, k, *program, run->buffers, err));
+    atomic_store(&run->states->kernels[kernel], EC_COMPILE_DONE);
+    return EC_OK;
+}
+
+ec_result ec_compile_run_all(ec_compile_run *run, void (*compiled)(uint32_t kernel), ec_error *err)
+{
+    for (int again = 0; again < 2; again++) /* what others have taken and not finished is compiled in the end all the same */
+        for (uint32_t i = 0; i < run->job->kernel_count; i++) {
+            atomic_uchar *state = &run->states->kernels[i];
+            if (!take(state) && (!again || atomic_load(state) == EC_COMPILE_DONE)) continue;
+            EC_TRY(ec_compile_run_kernel(run, i, err));
+            if (compiled) compiled(i);
+        }
+    return EC_OK;
+}
+
+bool ec_compile_run_take(ec_compile_run *run, uint32_t *kernel)
+{
+    for (uint32_t i = run->job->kernel_count; i-- > 0;) {
+        const uint32_t program = run->job->kernels[i].program;
+        if (atomic_load(&run->states->programs[program]) == EC_COMPILE_TAKEN && !run->programs[program]) continue;
+        if (!take(&run->states->kernels[i])) continue;
+        *kernel = i;
+        return true;
+    }
+    return false;
 }

@@ -14,12 +14,13 @@
 
 extern char **environ;
 
-/* A file in memory that holds the jobs, at its start. */
+/* A file in memory that holds states and jobs, at its start. */
 static int job_file(const ec_compile_job *const *jobs, uint32_t count)
 {
     const int fd = memfd_create("eclat-compile", MFD_CLOEXEC), copy = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : -1;
     FILE *to = copy >= 0 ? fdopen(copy, "w") : NULL;
-    bool good = to;
+    const ec_compile_states open = {.programs = {EC_COMPILE_OPEN}};
+    bool good = to && fwrite(&open, sizeof open, 1, to) == 1;
     for (uint32_t i = 0; good && i < count; i++) good = ec_compile_job_write(jobs[i], to);
     if (to) fclose(to);
     else if (copy >= 0) close(copy);
@@ -53,6 +54,7 @@ ec_result ec_compiler_start(const ec_compile_job *const *jobs, uint32_t count, e
     const int file = job_file(jobs, count);
     if (file < 0) return ec_fail(err, "no memory for a compile job");
     int code = pipe2(ends, O_CLOEXEC | O_NONBLOCK) == 0 ? spawn(path, file, ends[1]) : errno;
+    if (!code) compiler->states = ec_compile_states_map(file);
     close(file);
     if (ends[1] >= 0) close(ends[1]);
     if (!code) compiler->report = ends[0];
@@ -78,4 +80,6 @@ void ec_compiler_leave(ec_compiler *compiler)
 {
     if (compiler->report >= 0) close(compiler->report);
     compiler->report = -1;
+    ec_compile_states_unmap(compiler->states);
+    compiler->states = NULL;
 }

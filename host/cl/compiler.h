@@ -2,12 +2,13 @@
 #ifndef EC_CL_COMPILER_H
 #define EC_CL_COMPILER_H
 
-#include "cl/compile_job.h"
+#include "cl/compile_run.h"
 
 typedef struct ec_compiler {
     int report;               /* descriptor of what it tells; -1: there is none, or it has ended */
     uint32_t compiled, count; /* kernels */
     bool is_whole;            /* all of the first job, without an error */
+    ec_compile_states *states; /* of the first job; NULL: nobody can take part in it */
 } ec_compiler;
 
 /* Has the first job compiled, which is waited for, and then the others, for renders to come, when the machine has nothing better to do. Fails where

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -13,6 +14,18 @@
 #include "cl/compiler.h"
 
 #define LOWEST 19 /* of priorities */
+
+/* A session of its own has its share of the processors as a whole, where the system groups processes by sessions (sched(7), autogroup). */
+static void give_way(void)
+{
+    const int group = open("/proc/self/autogroup", O_WRONLY | O_CLOEXEC);
+    char lowest[8];
+    const int size = snprintf(lowest, sizeof lowest, "%d", LOWEST);
+    (void)!setpriority(PRIO_PROCESS, 0, LOWEST);
+    if (group < 0) return; /* there are none */
+    (void)!write(group, lowest, (size_t)size);
+    close(group);
+}
 
 static void tell(char what)
 {
@@ -52,28 +65,33 @@ static bool find_device(const ec_compile_job *job, ec_device_info *info)
     return is_there;
 }
 
-static bool run(ec_cl *cl, const ec_compile_job *job, void (*told)(uint32_t kernel))
+static bool run(ec_cl *cl, const ec_compile_job *job, ec_compile_states *states, void (*told)(uint32_t kernel))
 {
-    if (ec_compile_job_run(cl, job, told, NULL) != EC_OK) return false;
-    ec_compile_job_done(cl, job);
-    return true;
+    ec_compile_run run;
+    ec_result result = ec_compile_run_begin(cl, job, states, &run, NULL);
+    if (result == EC_OK) result = ec_compile_run_all(&run, told, NULL);
+    ec_compile_run_end(&run);
+    if (result == EC_OK) ec_compile_job_done(cl, job);
+    return result == EC_OK;
 }
 
 /* The first job is waited for; others are not. */
-static int compile_all(ec_compile_job *job)
+static int compile_all(ec_compile_job *job, ec_compile_states *states)
 {
     ec_device_info info;
     ec_cl cl;
     int turn = lock(job->cache_dir, "compiling", true);
     if (!find_device(job, &info) || ec_cl_open(&info, &cl, NULL) != EC_OK) return 1;
     if (*job->cache_dir) cl.cache_dir = job->cache_dir;
-    if (!run(&cl, job, compiled)) return 1;
+    if (!run(&cl, job, states, compiled)) return 1;
     tell(EC_COMPILED_ALL);
     if (turn >= 0) close(turn);
     turn = lock(job->cache_dir, "compiling-ahead", false);
-    (void)!setpriority(PRIO_PROCESS, 0, LOWEST);
-    while (turn >= 0 && ec_compile_job_read(job, stdin))
-        if (!ec_compile_job_is_done(&cl, job) && !run(&cl, job, NULL)) return 1;
+    give_way();
+    while (turn >= 0 && ec_compile_job_read(job, stdin)) {
+        ec_compile_states own = {.programs = {EC_COMPILE_OPEN}};
+        if (!ec_compile_job_is_done(&cl, job) && !run(&cl, job, &own, NULL)) return 1;
+    }
     return 0;
 }
 
@@ -81,8 +99,9 @@ int main(void)
 {
     static ec_compile_job job;
     signal(SIGPIPE, SIG_IGN);
-    if (!ec_compile_job_read(&job, stdin)) return 1;
+    ec_compile_states *states = ec_compile_states_map(STDIN_FILENO);
+    if (!states || fseek(stdin, sizeof *states, SEEK_SET) != 0 || !ec_compile_job_read(&job, stdin)) return 1;
     if (fork() != 0) _exit(0); /* who waits for this process goes on; exit() would move the place in standard input, which both share */
     setsid(); /* Ctrl-C is for the render */
-    return compile_all(&job);
+    return compile_all(&job, states);
 }

@@ -44,6 +44,7 @@ typedef struct ec_batch_order {
      * may take a block of its own accord. The same answer always, to any thread. NULL: one. */
     uint32_t (*whole)(const void *user, uint32_t index);
     double patience, until;           /* … where it is foretold to be over after so many seconds, and by then (base/clock.h) */
+    double left;                      /* samples from `done` on in all that limits of samples allow; INFINITY: any number */
     const uint32_t *list;             /* of one pass of an adaptive render, EC_LIST_WORDS an entry; NULL: all pixels */
     uint32_t samples;                 /* of each of its entries */
     float limit;                      /* ec_params.limit: the same for all samples of a picture */

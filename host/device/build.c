@@ -17,9 +17,10 @@ enum { ENTRIES = EC_STAGE_ID_COUNT + 2 * EC_ACCEL_COUNT };
 
 const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features)
 {
-    bool is_large = device->type & CL_DEVICE_TYPE_CPU && bytes > device->cache_bytes;
+    bool is_large = bytes > device->cache_bytes;
     bool is_known = !(features & (EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_COPLANAR)); /* to trace_interleaved.h */
-    return accel == ec_accel_find("bvh8") && is_large && is_known ? " -DINTERLEAVE=8" : "";
+    if (!ec_accels[accel].lanes || !(device->type & CL_DEVICE_TYPE_CPU)) return "";
+    return accel == ec_accel_find("bvh8") && is_large && is_known ? " -DINTERLEAVE=8" : " -DRUN=16u";
 }
 
 static entry stage_entry(ec_kernel_set *set, ec_stage_id id)

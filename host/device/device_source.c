@@ -1,8 +1,12 @@
 /* Batches of one device: its waves, of light paths first. */
 #include "device/device_source.h"
 
+#include <math.h>
+
+#include "base/clock.h"
 #include "device/adaptive.h"
 #include "device/fold.h"
+#include "device/help.h"
 #include "device/light_batch.h"
 #include "device/tiers.h"
 
@@ -141,6 +145,29 @@ static bool goes_on(void *user)
     return order->go_on(order->user, order->done);
 }
 
+/* Compiles in place of rendering for as long as that pays. False: the order is given up. */
+static bool help(ec_device_source *s, const ec_batch_order *order, uint32_t reached)
+{
+    const double samples = order->left - (double)(reached - order->done) * s->pipeline.params.batch;
+    while (s->has_begun && ec_help_compile(&s->pipeline, fmin(samples / s->first_rate, order->until - ec_now())))
+        if (!order->go_on(order->user, reached)) return false;
+    return true;
+}
+
+/* The first one is timed, and has ended when this function does. */
+static ec_result run_wave(ec_device_source *s, const ec_batch_order *order, uint32_t first, uint32_t count, uint32_t seed, ec_error *err)
+{
+    ec_pipeline *p = &s->pipeline;
+    const double start = ec_now();
+    if (order->light == EC_LIGHT_ALONE) EC_TRY(ec_pipeline_show_light(p, first, count, err));
+    else EC_TRY(ec_pipeline_run_wave(p, seed, first, count, order->with_features, err));
+    if (s->has_begun) return EC_OK;
+    EC_TRY(ec_cl_finish(p->cl, err));
+    s->has_begun = true;
+    s->first_rate = (double)count * p->params.batch / (ec_now() - start + 1e-9);
+    return EC_OK;
+}
+
 static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     ec_device_source *s = (ec_device_source *)source;
@@ -156,17 +183,14 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     uint32_t reached = order->done;
     const uint32_t light_seed = ec_light_path_seed(seed, ec_schedule_batch(s->replicates, order->index).replicate);
     if (order->light != EC_LIGHT_APART) EC_TRY(ec_light_batch_run(p, light_seed, goes_on, (void *)order, complete, err));
-    while (reached < order->count && *complete) {
+    while (reached < order->count && *complete && (*complete = help(s, order, reached))) {
         EC_TRY(take_back(s, err));
         EC_TRY(ec_tiers_step(p, err));
         uint32_t count = p->wave / p->params.batch;
         if (!s->has_begun && p->wave > FIRST_PATHS) count = (count + FIRST_SHARE - 1) / FIRST_SHARE;
         if (count > order->count - reached) count = order->count - reached;
-        if (order->light == EC_LIGHT_ALONE) EC_TRY(ec_pipeline_show_light(p, before + reached, count, err));
-        else EC_TRY(ec_pipeline_run_wave(p, seed, before + reached, count, order->with_features, err));
+        EC_TRY(run_wave(s, order, before + reached, count, seed, err));
         if (order->matte) EC_TRY(ec_mattes_read(&s->mattes, p, order->list != NULL, reached, count, err));
-        if (!s->has_begun) EC_TRY(ec_cl_finish(p->cl, err));
-        s->has_begun = true;
         reached += count;
         *complete = order->go_on(order->user, reached) || reached == order->count;
     }

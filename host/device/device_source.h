@@ -15,6 +15,7 @@ typedef struct ec_device_source {
     uint32_t unfit;                   /* values of batches in blocks that were not finite */
     ec_mattes mattes;
     bool has_begun;
+    double first_rate;                /* samples a second of the first wave */
 } ec_device_source;
 
 /* spent: as for ec_pipeline_create. To be turned to its rows before the first order, and closed on failure too. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "device/help.h"
 #include "device/tiers.h"
 
 ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *p, ec_render_stats *stats,
@@ -52,6 +53,7 @@ void ec_pipeline_destroy(ec_pipeline *p)
     if (!p->cl) return;
     clFinish(p->cl->queue); /* after an error counters may still be on their way */
     ec_kernel_set_release(&p->kernels);
+    ec_help_end(p);
     ec_compiler_leave(&p->compiler);
     for (int a = 0; a < EC_ACCEL_COUNT; a++)
         for (int k = 0; k < EC_ACCEL_BUFFERS; k++) ec_buffer_release(p->cl, &p->accels[a].buffers[k]);

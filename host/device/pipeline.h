@@ -13,6 +13,8 @@
 
 #define EC_TUNED_BOUNCES 4 /* bounces with a choice of their own; later ones share the last */
 
+typedef struct ec_help ec_help;
+
 typedef struct ec_pipeline {
     ec_cl *cl;
     ec_integrator integrator;
@@ -34,6 +36,7 @@ typedef struct ec_pipeline {
     ec_begun begun;
     double fast_since;            /* base/clock.h; 0: from the beginning, or not yet */
     ec_compiler compiler;
+    ec_help *help;                /* with what it compiles; NULL: none is wanted */
     struct {
         bool in_use;
         uint64_t bytes;

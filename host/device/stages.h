@@ -121,8 +121,8 @@ bool ec_stage_is_of(const ec_stage_entry *stage, ec_integrator integrator, uint6
 
 extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
 
-/* What an accelerator's kernels are built with besides lanes and features: bvh8 interleaves its rays (lib/trace_interleaved.h) where its
- * buffers, `bytes` in all, are larger than the device's cache. Static text, "" for nothing. features: those that are built. */
+/* What an accelerator's kernels are built with besides lanes and features. On processors a call traces 16 rays, one after the other, or in bvh8
+ * side by side (lib/trace_interleaved.h), where its buffers, `bytes` in all, are larger than the device's cache. Static text, "" for nothing. features: those that are built. */
 const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features);
 
 #define EC_LOCAL_SIZE 16 /* one fixed local size a kernel: PoCL compiles again for each new one */

@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "cl/ahead.h"
 #include "cl/workarounds.h"
+#include "device/help.h"
 
 /* One lane, and one accelerator: one whose kernels have one lane too, if there is one, for they compile twice as fast. */
 static ec_kernel_set narrow_set(const ec_pipeline *p)
@@ -137,6 +138,7 @@ ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *er
     candidate candidates[CANDIDATES] = {[EC_BEGUN_FAST] = {.set = ec_kernel_set_fast(p)}, [EC_BEGUN_NARROW] = {.set = narrow_set(p)}, [EC_BEGUN_UNIVERSAL] = {.set = universal_set(p)}};
     candidate *chosen = &candidates[p->begun = choose(p, head, candidates)];
     ec_result result = p->is_narrow ? ec_pipeline_use_wave(p, chosen->set.wave, err) : EC_OK;
+    if (result == EC_OK && p->compiler.report >= 0) ec_help_begin(p, &candidates[EC_BEGUN_FAST].job);
     if (result == EC_OK) result = build(p, chosen, err);
     for (int i = 0; i < CANDIDATES; i++) ec_compile_job_free(&candidates[i].job);
     ec_ahead_end(p->cl);
@@ -147,6 +149,7 @@ static ec_result switch_to_fast(ec_pipeline *p, ec_error *err)
 {
     candidate fast = {.set = ec_kernel_set_fast(p)};
     ec_kernel_set_release(&p->kernels);
+    ec_help_end(p);
     p->is_narrow = false;
     p->fast_since = ec_now();
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) memset(p->accels[a].tuning, 0, sizeof p->accels[a].tuning);
@@ -160,6 +163,6 @@ static ec_result switch_to_fast(ec_pipeline *p, ec_error *err)
 ec_result ec_tiers_step(ec_pipeline *p, ec_error *err)
 {
     if (!p->is_narrow) return EC_OK;
-    const bool is_due = p->waves_until_fast ? --p->waves_until_fast == 0 : ec_compiler_has_ended(&p->compiler);
+    const bool is_due = p->waves_until_fast ? --p->waves_until_fast == 0 : ec_compiler_has_ended(&p->compiler) || ec_help_is_done(p);
     return is_due || !p->wave ? switch_to_fast(p, err) : EC_OK;
 }

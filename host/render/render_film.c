@@ -120,7 +120,7 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
                                 .light = r->film->light ? EC_LIGHT_APART : EC_LIGHT_ADDED, .with_features = ec_render_wants_features(r), .aov = r->aov, .layers = r->layers,
                                 .matte = r->film->layers.mattes ? &r->matte : NULL,
                                 .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
-                                .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY,
+                                .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY, .left = samples_left(r),
                                 .go_on = goes_on, .user = r};
     if (a->weight) {
         const ec_pass pass = ec_allotment_pass(a, r->film, samples_left(r));
@@ -153,7 +153,7 @@ static ec_result take_light(ec_render_state *r, ec_error *err)
     while (complete && is_light_due(r)) {
         const uint32_t index = ec_film_end(r->film->light);
         r->order = (ec_batch_order){.light = EC_LIGHT_ALONE, .index = index, .end = index + 1, .count = (uint32_t)ec_render_film_pixels(r), .patience = patience(r),
-                                    .until = INFINITY, .go_on = goes_on, .user = r};
+                                    .until = INFINITY, .left = samples_left(r), .go_on = goes_on, .user = r};
         r->samples_before_it = ec_render_samples_done(r);
         r->under_way = 0;
         ec_result result = r->source->take(r->source, &r->order, &complete, err);
