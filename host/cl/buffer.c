@@ -2,6 +2,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "cl/kept.h"
@@ -125,7 +126,15 @@ ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t by
 ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err)
 {
     cl_event event;
-    cl_int code = clEnqueueWriteBuffer(cl->queue, buffer, CL_FALSE, 0, bytes, from, 0, NULL, &event);
+    if (bytes > cl->sent_bytes) {
+        EC_TRY(ec_cl_finish(cl, err));
+        free(cl->sent);
+        cl->sent = malloc(bytes);
+        cl->sent_bytes = cl->sent ? bytes : 0;
+        if (!cl->sent) return ec_fail(err, "out of memory while counters are sent to the device");
+    }
+    memcpy(cl->sent, from, bytes);
+    cl_int code = clEnqueueWriteBuffer(cl->queue, buffer, CL_FALSE, 0, bytes, cl->sent, 0, NULL, &event);
     EC_TRY(ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err));
     return ec_cl_launched(cl, event, "writing a buffer", NULL, err);
 }

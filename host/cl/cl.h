@@ -95,6 +95,8 @@ typedef struct ec_cl {
     ec_cl_launch launches[EC_LAUNCHES]; /* whose end has not been looked at */
     uint32_t launch_count;
     ec_paces paces;
+    void *sent;               /* see ec_buffer_send */
+    uint64_t sent_bytes;
 } ec_cl;
 ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err);
 void ec_cl_close(ec_cl *cl);
@@ -138,7 +140,8 @@ ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t s
 void ec_buffers_keep_only(ec_cl *cl, const ec_fingerprint *keys, uint32_t count);
 ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err); /* blocks */
 ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err);
-ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err); /* enqueued: `from` stays until the next call that waits */
+/* Enqueued, of a copy of which there is one: the next call that waits comes before the next send. */
+ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err);
 /* The first bytes of rows that begin `pitch` bytes apart, from or to rows without gaps: one command for all, since each wakes the device. */
 ec_result ec_buffer_read_rows(ec_cl *cl, cl_mem buffer, uint64_t pitch, uint64_t bytes, uint32_t rows, void *to, ec_error *err);
 ec_result ec_buffer_write_rows(ec_cl *cl, cl_mem buffer, uint64_t pitch, uint64_t bytes, uint32_t rows, const void *from, ec_error *err);

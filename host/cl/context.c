@@ -1,4 +1,5 @@
 /* Opening and closing one device: its context and its queue. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "cl/cl.h"
@@ -27,10 +28,13 @@ void ec_cl_close(ec_cl *cl)
     ec_ahead_end(cl);
     ec_kept_release(cl);
     ec_kept_buffers_release(cl);
+    if (cl->queue && clFinish(cl->queue) == CL_SUCCESS) free(cl->sent); /* a device that was lost may still read it */
     if (cl->queue) clReleaseCommandQueue(cl->queue);
     if (cl->context) clReleaseContext(cl->context);
     cl->queue = NULL;
     cl->context = NULL;
+    cl->sent = NULL;
+    cl->sent_bytes = 0;
 }
 
 ec_result ec_cl_finish(ec_cl *cl, ec_error *err)

@@ -51,7 +51,7 @@ ec_result ec_pipeline_read_invalid(ec_pipeline *p, uint32_t counts[EC_STAGE_COUN
 void ec_pipeline_destroy(ec_pipeline *p)
 {
     if (!p->cl) return;
-    clFinish(p->cl->queue); /* after an error counters may still be on their way */
+    clFinish(p->cl->queue); /* after an error counters may still be on their way, and the next pipeline sends its own */
     ec_kernel_set_release(&p->kernels);
     ec_help_end(p);
     ec_compiler_leave(&p->compiler);

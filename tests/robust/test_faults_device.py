@@ -11,7 +11,7 @@ from tiers import full
 
 HARMLESS = ["clGetPlatformInfo", "clGetDeviceInfo", "clGetProgramBuildInfo", "clGetProgramInfo"]  # a render may do without
 CACHED = ["clCreateProgramWithBinary", "clBuildProgram"]  # and without its cache: where the driver's binaries are kept, sources stand by
-CLOSING = {"clEnqueueUnmapMemObject": 2, "clFinish": 1}  # the last calls, when all is in the picture: samples and features are unmapped, nothing is under way
+CLOSING = {"clEnqueueUnmapMemObject": 2, "clFinish": 2}  # the last calls, when all is in the picture: samples and features are unmapped, nothing is under way
 LOST = {"CL_OUT_OF_RESOURCES": -5, "CL_INVALID_COMMAND_QUEUE": -36, "CL_DEVICE_NOT_AVAILABLE": -2}
 KEPT = re.compile(r"the render failed after (\d+) samples a pixel: .*; the picture so far is written$")
 
