@@ -127,7 +127,7 @@ ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *f
 {
     cl_event event;
     if (bytes > cl->sent_bytes) {
-        EC_TRY(ec_cl_finish(cl, err));
+        EC_TRY(ec_cl_check(clFinish(cl->queue), "clFinish", cl->info.name, err));
         free(cl->sent);
         cl->sent = malloc(bytes);
         cl->sent_bytes = cl->sent ? bytes : 0;

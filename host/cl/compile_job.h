@@ -29,6 +29,7 @@ typedef struct ec_compile_job {
     ec_compile_program programs[EC_COMPILE_PROGRAMS];
     ec_compile_kernel kernels[EC_COMPILE_KERNELS];
     uint32_t program_count, kernel_count;
+    uint32_t needed;                              /* of the kernels, so many from the first on; the others only make renders faster that take long */
     uint8_t constants[1024];
     uint32_t constants_bytes;
 } ec_compile_job;

@@ -82,21 +82,32 @@ ec_result ec_compile_run_kernel(ec_compile_run *run, uint32_t kernel, ec_error *
     return EC_OK;
 }
 
+static ec_result compile_next(ec_compile_run *run, uint32_t kernel, void (*compiled)(uint32_t kernel), ec_error *err)
+{
+    EC_TRY(ec_compile_run_kernel(run, kernel, err));
+    if (compiled) compiled(kernel);
+    return EC_OK;
+}
+
+ec_result ec_compile_run_open(ec_compile_run *run, uint32_t count, void (*compiled)(uint32_t kernel), ec_error *err)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (take(&run->states->kernels[i])) EC_TRY(compile_next(run, i, compiled, err));
+    return EC_OK;
+}
+
+/* What others have taken and not finished is compiled in the end all the same. */
 ec_result ec_compile_run_all(ec_compile_run *run, void (*compiled)(uint32_t kernel), ec_error *err)
 {
-    for (int again = 0; again < 2; again++) /* what others have taken and not finished is compiled in the end all the same */
-        for (uint32_t i = 0; i < run->job->kernel_count; i++) {
-            atomic_uchar *state = &run->states->kernels[i];
-            if (!take(state) && (!again || atomic_load(state) == EC_COMPILE_DONE)) continue;
-            EC_TRY(ec_compile_run_kernel(run, i, err));
-            if (compiled) compiled(i);
-        }
+    EC_TRY(ec_compile_run_open(run, run->job->kernel_count, compiled, err));
+    for (uint32_t i = 0; i < run->job->kernel_count; i++)
+        if (atomic_load(&run->states->kernels[i]) != EC_COMPILE_DONE) EC_TRY(compile_next(run, i, compiled, err));
     return EC_OK;
 }
 
 bool ec_compile_run_take(ec_compile_run *run, uint32_t *kernel)
 {
-    for (uint32_t i = run->job->kernel_count; i-- > 0;) {
+    for (uint32_t i = run->job->needed; i-- > 0;) {
         const uint32_t program = run->job->kernels[i].program;
         if (atomic_load(&run->states->programs[program]) == EC_COMPILE_TAKEN && !run->programs[program]) continue;
         if (!take(&run->states->kernels[i])) continue;

@@ -32,10 +32,13 @@ void ec_compile_run_end(ec_compile_run *run);
 /* Compiles a kernel, for which it builds its program where that was not built here. */
 ec_result ec_compile_run_kernel(ec_compile_run *run, uint32_t kernel, ec_error *err);
 
-/* All of them from the first on, but for what others have taken and finish; tells of each. */
+/* Those of the first `count` that nobody is at, from the first on; tells of each. */
+ec_result ec_compile_run_open(ec_compile_run *run, uint32_t count, void (*compiled)(uint32_t kernel), ec_error *err);
+
+/* All, but for what others have taken and finish. */
 ec_result ec_compile_run_all(ec_compile_run *run, void (*compiled)(uint32_t kernel), ec_error *err);
 
-/* The last kernel that nobody is at, and that no program under way elsewhere has to be waited for: it is the caller's then. False: there is none. */
+/* The last needed kernel that nobody is at, and that no program under way elsewhere has to be waited for: it is the caller's then. False: there is none. */
 bool ec_compile_run_take(ec_compile_run *run, uint32_t *kernel);
 
 /* Are all done? */

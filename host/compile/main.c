@@ -13,17 +13,17 @@
 #include "cl/cache.h"
 #include "cl/compiler.h"
 
-#define LOWEST 19 /* of priorities */
+enum { LATER = 10, LOWEST = 19 }; /* priorities: 10 has a tenth of the weight of a render */
 
 /* A session of its own has its share of the processors as a whole, where the system groups processes by sessions (sched(7), autogroup). */
-static void give_way(void)
+static void give_way(int priority)
 {
     const int group = open("/proc/self/autogroup", O_WRONLY | O_CLOEXEC);
-    char lowest[8];
-    const int size = snprintf(lowest, sizeof lowest, "%d", LOWEST);
-    (void)!setpriority(PRIO_PROCESS, 0, LOWEST);
+    char text[8];
+    const int size = snprintf(text, sizeof text, "%d", priority);
+    (void)!setpriority(PRIO_PROCESS, 0, priority);
     if (group < 0) return; /* there are none */
-    (void)!write(group, lowest, (size_t)size);
+    (void)!write(group, text, (size_t)size);
     close(group);
 }
 
@@ -69,6 +69,8 @@ static bool run(ec_cl *cl, const ec_compile_job *job, ec_compile_states *states,
 {
     ec_compile_run run;
     ec_result result = ec_compile_run_begin(cl, job, states, &run, NULL);
+    if (result == EC_OK) result = ec_compile_run_open(&run, job->needed, told, NULL);
+    if (told) give_way(LATER); /* the render goes on without the rest */
     if (result == EC_OK) result = ec_compile_run_all(&run, told, NULL);
     ec_compile_run_end(&run);
     if (result == EC_OK) ec_compile_job_done(cl, job);
@@ -87,7 +89,7 @@ static int compile_all(ec_compile_job *job, ec_compile_states *states)
     tell(EC_COMPILED_ALL);
     if (turn >= 0) close(turn);
     turn = lock(job->cache_dir, "compiling-ahead", false);
-    give_way();
+    give_way(LOWEST);
     while (turn >= 0 && ec_compile_job_read(job, stdin)) {
         ec_compile_states own = {.programs = {EC_COMPILE_OPEN}};
         if (!ec_compile_job_is_done(&cl, job) && !run(&cl, job, &own, NULL)) return 1;

@@ -41,14 +41,14 @@ void ec_help_end(ec_pipeline *p)
 
 bool ec_help_is_done(const ec_pipeline *p)
 {
-    return p->help && p->compiler.states && ec_compile_states_are_done(p->compiler.states, p->help->job.kernel_count);
+    return p->help && p->compiler.states && ec_compile_states_are_done(p->compiler.states, p->help->job.needed);
 }
 
-/* Seconds until all is compiled if both are at it. */
+/* Seconds until what is needed is compiled if both are at it. */
 static double compiling_left(const ec_help *h, const ec_compile_states *states)
 {
     uint32_t left = 0;
-    for (uint32_t i = 0; i < h->job.kernel_count; i++) left += atomic_load(&states->kernels[i]) != EC_COMPILE_DONE;
+    for (uint32_t i = 0; i < h->job.needed; i++) left += atomic_load(&states->kernels[i]) != EC_COMPILE_DONE;
     return left * fmax(h->first / h->job.kernel_count, SECONDS_A_KERNEL);
 }
 

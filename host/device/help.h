@@ -13,7 +13,7 @@ void ec_help_end(ec_pipeline *pipeline); /* fine without a beginning */
  * process to end the last. False: to render is better. */
 bool ec_help_compile(ec_pipeline *pipeline, double seconds_left);
 
-/* Is all compiled, whoever did it? */
+/* Are the needed kernels compiled, whoever did it? */
 bool ec_help_is_done(const ec_pipeline *pipeline);
 
 #endif

@@ -54,6 +54,7 @@ typedef struct candidate {
     ec_kernel_set set;
     ec_compile_job job;
     bool is_asked, is_compiled;
+    bool is_helped; /* this render has seen the last of its kernels compiled, and the mark of the job may not be there yet */
 } candidate;
 enum { RASTERISER = EC_BEGUN_UNIVERSAL + 1, CANDIDATES };
 
@@ -123,12 +124,12 @@ static ec_result build(ec_pipeline *p, candidate *c, ec_error *err)
 {
     teller t = {.log = p->cl->log, .begun = ec_now()};
     const bool is_late = ec_compiles_late(p->cl), is_done = !is_late || is_compiled(p, c);
-    if (!is_done) ec_say(t.log, "compiling kernels for what this scene calls for; the next render finds them");
+    if (!is_done && !c->is_helped) ec_say(t.log, "compiling kernels for what this scene calls for; the next render finds them");
     t.said = t.begun;
     p->kernels = c->set;
     ec_result result = ec_kernel_set_build(p, &p->kernels, err);
     p->kernels.accels &= ec_kernel_set_fast(p).accels; /* a universal set has others too */
-    if (result == EC_OK && is_late) result = ec_kernel_set_warm(p, is_done ? NULL : tell, &t, err);
+    if (result == EC_OK && is_late) result = ec_kernel_set_warm(p, is_done || c->is_helped ? NULL : tell, &t, err);
     if (result == EC_OK && !is_done) ec_compile_job_done(p->cl, &c->job);
     return result;
 }
@@ -145,24 +146,47 @@ ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *er
     return result;
 }
 
-static ec_result switch_to_fast(ec_pipeline *p, ec_error *err)
+static ec_result trace_by(ec_pipeline *p, uint32_t accels, ec_error *err)
 {
-    candidate fast = {.set = ec_kernel_set_fast(p)};
+    p->kernels.accels = accels;
+    return ec_compiles_late(p->cl) ? ec_kernel_set_warm(p, NULL, NULL, err) : EC_OK;
+}
+
+/* Without packets unless they are compiled by now: they take long to compile, and make few renders much faster. */
+static ec_result switch_to_fast(ec_pipeline *p, bool is_whole, ec_error *err)
+{
+    candidate fast = {.set = ec_kernel_set_fast(p), .is_helped = ec_help_is_done(p)};
+    const uint32_t alone = ec_accels_alone(fast.set.accels);
     ec_kernel_set_release(&p->kernels);
     ec_help_end(p);
     p->is_narrow = false;
+    p->is_partial = !is_whole && alone != fast.set.accels;
     p->fast_since = ec_now();
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) memset(p->accels[a].tuning, 0, sizeof p->accels[a].tuning);
-    ec_result result = ec_pipeline_use_wave(p, p->room, err);
-    if (result == EC_OK) result = build(p, &fast, err);
+    EC_TRY(ec_pipeline_use_wave(p, p->room, err));
+    if (p->is_partial) {
+        p->kernels = fast.set;
+        EC_TRY(ec_kernel_set_build(p, &p->kernels, err));
+        return trace_by(p, alone, err);
+    }
+    ec_result result = build(p, &fast, err);
     ec_compile_job_free(&fast.job);
     return result;
+}
+
+static ec_result complete(ec_pipeline *p, ec_error *err)
+{
+    p->is_partial = false;
+    return trace_by(p, ec_kernel_set_fast(p).accels, err);
 }
 
 /* A wave of none is one for which memory became too short: the fast kernels' is larger. */
 ec_result ec_tiers_step(ec_pipeline *p, ec_error *err)
 {
-    if (!p->is_narrow) return EC_OK;
-    const bool is_due = p->waves_until_fast ? --p->waves_until_fast == 0 : ec_compiler_has_ended(&p->compiler) || ec_help_is_done(p);
-    return is_due || !p->wave ? switch_to_fast(p, err) : EC_OK;
+    if (!p->is_narrow && !p->is_partial) return EC_OK;
+    const bool is_told = p->waves_until_fast, has_ended = !is_told && ec_compiler_has_ended(&p->compiler);
+    const bool is_due = is_told ? ++p->narrow_waves % p->waves_until_fast == 0 : has_ended || (p->is_narrow && ec_help_is_done(p));
+    if (p->is_narrow) return is_due || !p->wave ? switch_to_fast(p, has_ended || !p->wave, err) : EC_OK;
+    if (has_ended && !p->compiler.is_whole) p->is_partial = false; /* it stays so: nobody compiles the rest */
+    return is_due && p->is_partial ? complete(p, err) : EC_OK;
 }

@@ -11,8 +11,9 @@ import threading
 import unittest
 
 from polling import poll_until
-from support import CORNELL, ECLAT, Case, eclat
+from support import CORNELL, ECLAT, SOURCE, Case, eclat
 
+TRAVERSAL = ["ec_intersect_bvh2", "ec_connect_bvh2", "ec_intersect_bvh8", "ec_connect_bvh8"]
 FIRST_LINE = "compiling kernels for what this scene calls for"
 
 
@@ -64,9 +65,13 @@ class Compile(Case):
                 pass
         return not found
 
-    def render(self, *options, eclat_is=None, spp=8, **more):
+    def compiled(self, kernel):
+        """How many programs it was compiled for."""
+        return len(glob.glob(os.path.join(self.cache, "pocl", "**", kernel + ".so"), recursive=True))
+
+    def render(self, *options, eclat_is=None, scene=CORNELL, spp=8, **more):
         environment = {"XDG_CACHE_HOME": self.cache, "POCL_CACHE_DIR": os.path.join(self.cache, "pocl"), "ECLAT_COMPILE": "beside", **more}
-        arguments = ["render", CORNELL, "--size", "48x48", "--spp", str(spp), "--json", "-o", self.path("a.exr"), *options]
+        arguments = ["render", scene, "--size", "48x48", "--spp", str(spp), "--json", "-o", self.path("a.exr"), *options]
         run = self.assert_ok(eclat(*arguments, env=environment, program=eclat_is))
         return json.loads(run.stdout), run.stderr
 
@@ -113,8 +118,8 @@ class Compile(Case):
             for process in file.read().split():
                 os.kill(int(process), signal.SIGKILL)
 
-    def test_a_render_takes_part_in_compiling(self):
-        """All of it, where the other process does nothing."""
+    def idle_compiler(self):
+        """An eclat whose eclat-compile does nothing."""
         alone = self.path("eclat")
         shutil.copy(ECLAT, alone)
         for library in glob.glob(os.path.join(os.path.dirname(ECLAT), "libeclat.so*")):
@@ -124,12 +129,27 @@ class Compile(Case):
             script.write(f"#!/bin/sh\nsleep 600 &\necho $! >> {self.path('idle')}\n")
         os.chmod(idle, 0o755)
         self.addCleanup(self.end_idle)
+        return alone
+
+    def test_a_render_takes_part_in_compiling(self):
+        """All of it, where the other process does nothing."""
+        alone = self.idle_compiler()
         report, _ = self.render(eclat_is=alone, spp=40000)
         self.skip_unless_late(report)
         self.assertEqual(report["first_kernels"], "narrow")
         self.assertGreater(report["fast_kernels_after_seconds"], 0)
         later, _ = self.render(eclat_is=alone, spp=40000)
         self.assertEqual((later["first_kernels"], later["image_sha256"]), ("fast", report["image_sha256"]))
+
+    def test_packets_are_not_waited_for(self):
+        """Of two accelerators, the one that sends a ray at a time is enough for the fast kernels to take over."""
+        job = dict(scene=os.path.join(SOURCE, "scenes", "stadium", "stadium.gltf"), spp=4000)
+        report, _ = self.render(eclat_is=self.idle_compiler(), **job)
+        self.skip_unless_late(report)
+        self.assertGreater(report["fast_kernels_after_seconds"], 0)
+        self.assertEqual([self.compiled(kernel) for kernel in TRAVERSAL], [1, 1, 1, 1])  # bvh2 for narrow kernels, bvh8 for the fast ones
+        self.assertEqual(self.render("--compile", "first", **job)[0]["image_sha256"], report["image_sha256"])
+        self.assertEqual([self.compiled(kernel) for kernel in TRAVERSAL], [2, 2, 1, 1])
 
     def test_a_short_render_does_not(self):
         report, _ = self.render(spp=1)

@@ -16,7 +16,8 @@ import bench_common as common
 FIRST = {"cornell-box": 1.8, "showcase": 3.0, "lamps": 4.0, "DamagedHelmet": 3.0}
 AFTER, WARM = 1.0, 0.3
 VIEW = {"first": 4.0, "after": 1.0}  # seconds to the preview's first picture
-ERROR, SOONER = "5%", 0.5  # of time to this error where nothing is rendered before the fast kernels are compiled
+ERROR = "5%"
+SOONER = {True: 0.5, False: 1.0}  # of the time to this error that an earlier program takes, or this one with --compile first
 MEMORY = 600.0         # MB
 
 
@@ -95,16 +96,18 @@ def measure_start(eclat, runs, folder):
     return times
 
 
-def measure_error(eclat, runs, folder):
-    """Seconds to a picture of a small error with empty caches: as renders begin by themselves, and with the fast kernels from the first wave."""
+def measure_error(eclat, before, runs, folder):
+    """Seconds to a picture of a small error with empty caches, turn by turn: as renders begin by themselves, and with the earlier program, or where
+    there is none with the fast kernels from the first wave."""
     caches = Caches(os.path.join(folder, "error"))
-    times = {name: {"beside": [], "first": []} for name in ("showcase", "lamps")}
+    times = {name: {"now": [], "before": []} for name in ("showcase", "lamps")}
     for name, found in times.items():
-        for compiled in list(found) * runs:
+        for which in list(found) * runs:
             caches.wait()
             caches.empty()
-            report = common.run_eclat(eclat, [scenes()[name], "--size", "64x64", "--error", ERROR, "--compile", compiled, "-o", os.path.join(folder, "error.exr")], caches.environment)
-            found[compiled].append(report["wall_seconds"] - report["write_seconds"])
+            program, more = (before or eclat, [] if before else ["--compile", "first"]) if which == "before" else (eclat, [])
+            report = common.run_eclat(program, [scenes()[name], "--size", "64x64", "--error", ERROR, *more, "-o", os.path.join(folder, "error.exr")], caches.environment)
+            found[which].append(report["wall_seconds"] - report["write_seconds"])
     return times
 
 
@@ -161,12 +164,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     parser.add_argument("--runs", type=int, default=5, help="starts of each kind and scene")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
+    parser.add_argument("--before", metavar="ECLAT", help="an earlier program to compare the time to a small error with (else this one with --compile first)")
     parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
     options = parser.parse_args()
     eclat = common.eclat_path(options.eclat)
+    sooner = SOONER[options.before is not None]
     with tempfile.TemporaryDirectory() as folder:
         starts = measure_start(eclat, options.runs, folder)
-        errors = measure_error(eclat, options.runs, folder)
+        errors = measure_error(eclat, options.before, options.runs, folder)
         views = measure_view(eclat, options.runs, folder)
         memory = measure_memory(eclat, folder)
     rows = []
@@ -175,9 +180,9 @@ def main():
             value = common.median(times[name])
             rows.append(common.row(f"first pixel, {what}, {scene}", f"{value:.2f} s", f"<= {target:.1f} s", value <= target, f"+- {common.spread(times[name]):.0%}"))
     for scene, times in errors.items():
-        beside, first = common.median(times["beside"]), common.median(times["first"])
-        rows.append(common.row(f"time to {ERROR} from empty caches, {scene}", f"{beside:.1f} s, {beside / first:.2f} of {first:.1f} s", f"<= {SOONER}", beside <= SOONER * first,
-                               f"+- {common.spread(times['beside']):.0%}"))
+        now, before = common.median(times["now"]), common.median(times["before"])
+        rows.append(common.row(f"time to {ERROR} from empty caches, {scene}", f"{now:.1f} s, {now / before:.2f} of {before:.1f} s", f"<= {sooner}", now <= sooner * before,
+                               f"+- {common.spread(times['now']):.0%}"))
     for scene, times in (views or {}).items():
         for kind, what in (("first", "first use"), ("after", "after another scene")):
             value = common.median(times[kind])
