@@ -33,6 +33,14 @@ ec_result ec_accels_choose(const char *name, uint32_t triangle_count, bool is_cp
     return EC_OK;
 }
 
+uint32_t ec_accels_needed(uint32_t chosen)
+{
+    uint32_t needed = 0;
+    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
+        if (ec_accels[a].lanes) needed |= chosen & 1u << a;
+    return needed ? needed : chosen;
+}
+
 ec_result ec_accel_build(uint32_t which, ec_accel_input *input, ec_accel *accel, ec_error *err)
 {
     double start = ec_now();

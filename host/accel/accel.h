@@ -77,6 +77,10 @@ uint32_t ec_accel_find(const char *name);
 /* "auto" or NULL, or a name: a bit for each kind worth having. Where there are several, the fastest wins by trial. */
 ec_result ec_accels_choose(const char *name, uint32_t triangle_count, bool is_cpu, uint32_t *chosen, ec_error *err);
 
+/* Kinds (bits) that trace one ray a work-item, out of those given; the given ones where there is none. A render needs no others: packets make it
+ * faster, but their kernels compile for longer. */
+uint32_t ec_accels_needed(uint32_t chosen);
+
 /* accel need not be initialised; it is empty after a failure. */
 ec_result ec_accel_build(uint32_t which, ec_accel_input *input, ec_accel *accel, ec_error *err);
 void ec_accel_free(ec_accel *accel);

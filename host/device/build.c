@@ -40,25 +40,17 @@ static entry trace_entry(ec_kernel_set *set, int connect, uint32_t accel)
     return e;
 }
 
-/* All of a set, those of needed accelerators (ec_accels_alone) before the others; returns how many. */
+/* All of a set, those of needed accelerators (ec_accels_needed) before the others; returns how many. */
 static uint32_t list_entries(const ec_pipeline *p, ec_kernel_set *set, entry entries[ENTRIES])
 {
     uint32_t count = 0;
     for (int id = 0; id < EC_STAGE_ID_COUNT; id++)
         if (ec_stages[id].lanes != EC_LANES_OF_ACCEL && ec_stage_is_of(&ec_stages[id], p->integrator, set->features)) entries[count++] = stage_entry(set, (ec_stage_id)id);
-    const uint32_t first = ec_accels_alone(set->accels), parts[] = {first, set->accels & ~first};
+    const uint32_t first = ec_accels_needed(set->accels), parts[] = {first, set->accels & ~first};
     for (int i = 0; i < 2; i++)
         for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
             for (int connect = 0; parts[i] >> a & 1 && connect < 2; connect++) entries[count++] = trace_entry(set, connect, a);
     return count;
-}
-
-uint32_t ec_accels_alone(uint32_t accels)
-{
-    uint32_t alone = 0;
-    for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
-        if (ec_accels[a].lanes != EC_LANES_OF_PIPELINE) alone |= accels & 1u << a;
-    return alone ? alone : accels;
 }
 
 ec_kernel_set ec_kernel_set_fast(const ec_pipeline *p)
@@ -153,7 +145,7 @@ ec_result ec_kernel_set_job(ec_pipeline *p, const ec_kernel_set *set, ec_compile
             *program = job->program_count++;
         }
         EC_TRY(add_kernel(p, set, &entries[i], *program, job, err));
-        if (entries[i].accel == EC_ACCEL_COUNT || ec_accels_alone(set->accels) >> entries[i].accel & 1) job->needed = job->kernel_count;
+        if (entries[i].accel == EC_ACCEL_COUNT || ec_accels_needed(set->accels) >> entries[i].accel & 1) job->needed = job->kernel_count;
     }
     return EC_OK;
 }

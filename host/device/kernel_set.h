@@ -27,9 +27,6 @@ struct ec_pipeline;
 /* Empty: what is rendered with once it is compiled. */
 ec_kernel_set ec_kernel_set_fast(const struct ec_pipeline *pipeline);
 
-/* Of some accelerators (bits as above) those that send one ray at a time, whose kernels compile sooner; all of them where none does. */
-uint32_t ec_accels_alone(uint32_t accels);
-
 /* Builds those of set->lanes and set->accels for what the pipeline is to render. */
 ec_result ec_kernel_set_build(struct ec_pipeline *pipeline, ec_kernel_set *set, ec_error *err);
 

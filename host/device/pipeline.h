@@ -32,7 +32,6 @@ typedef struct ec_pipeline {
     cl_mem path_queues[2];
     ec_kernel_set kernels;        /* which are launched */
     bool is_narrow;               /* they are those of the beginning (tiers.h) */
-    bool is_partial;              /* they are the fast ones, but not yet for all accelerators */
     uint32_t waves_until_fast;    /* 0: until the compiler is done; UINT32_MAX: never */
     uint32_t narrow_waves;        /* those that were not rendered by all of the fast kernels */
     ec_begun begun;

@@ -152,41 +152,34 @@ static ec_result trace_by(ec_pipeline *p, uint32_t accels, ec_error *err)
     return ec_compiles_late(p->cl) ? ec_kernel_set_warm(p, NULL, NULL, err) : EC_OK;
 }
 
-/* Without packets unless they are compiled by now: they take long to compile, and make few renders much faster. */
+/* Where not all of them are compiled, without packets: these compile for long, and make few renders much faster. */
 static ec_result switch_to_fast(ec_pipeline *p, bool is_whole, ec_error *err)
 {
     candidate fast = {.set = ec_kernel_set_fast(p), .is_helped = ec_help_is_done(p)};
-    const uint32_t alone = ec_accels_alone(fast.set.accels);
+    const uint32_t accels = is_whole ? fast.set.accels : ec_accels_needed(fast.set.accels);
     ec_kernel_set_release(&p->kernels);
     ec_help_end(p);
     p->is_narrow = false;
-    p->is_partial = !is_whole && alone != fast.set.accels;
     p->fast_since = ec_now();
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) memset(p->accels[a].tuning, 0, sizeof p->accels[a].tuning);
     EC_TRY(ec_pipeline_use_wave(p, p->room, err));
-    if (p->is_partial) {
+    if (accels != fast.set.accels) {
         p->kernels = fast.set;
         EC_TRY(ec_kernel_set_build(p, &p->kernels, err));
-        return trace_by(p, alone, err);
+        return trace_by(p, accels, err);
     }
     ec_result result = build(p, &fast, err);
     ec_compile_job_free(&fast.job);
     return result;
 }
 
-static ec_result complete(ec_pipeline *p, ec_error *err)
-{
-    p->is_partial = false;
-    return trace_by(p, ec_kernel_set_fast(p).accels, err);
-}
-
 /* A wave of none is one for which memory became too short: the fast kernels' is larger. */
 ec_result ec_tiers_step(ec_pipeline *p, ec_error *err)
 {
-    if (!p->is_narrow && !p->is_partial) return EC_OK;
+    const uint32_t accels = ec_kernel_set_fast(p).accels;
+    if (!p->is_narrow && p->kernels.accels == accels) return EC_OK;
     const bool is_told = p->waves_until_fast, has_ended = !is_told && ec_compiler_has_ended(&p->compiler);
-    const bool is_due = is_told ? ++p->narrow_waves % p->waves_until_fast == 0 : has_ended || (p->is_narrow && ec_help_is_done(p));
-    if (p->is_narrow) return is_due || !p->wave ? switch_to_fast(p, has_ended || !p->wave, err) : EC_OK;
-    if (has_ended && !p->compiler.is_whole) p->is_partial = false; /* it stays so: nobody compiles the rest */
-    return is_due && p->is_partial ? complete(p, err) : EC_OK;
+    const bool is_turn = is_told && ++p->narrow_waves % p->waves_until_fast == 0;
+    if (p->is_narrow) return is_turn || has_ended || ec_help_is_done(p) || !p->wave ? switch_to_fast(p, has_ended || !p->wave, err) : EC_OK;
+    return is_turn || (has_ended && p->compiler.is_whole) ? trace_by(p, accels, err) : EC_OK;
 }

@@ -205,11 +205,11 @@ class Ranks(Case):
         """What it printed. Open MPI's launcher may wait for itself in PMIx_server_finalize after MPI_Abort: it is ended once its ranks have."""
         alive = [number for rank, number in ranks.items() if rank != lost]
         poll_until(lambda: not any(os.path.exists(f"/proc/{number}") for number in alive), process)
+        if os.path.exists(f"/proc/{ranks[lost]}"):  # it may only have been stopped
+            os.kill(ranks[lost], signal.SIGKILL)
         try:
             return process.communicate(timeout=LAUNCHER)
         except subprocess.TimeoutExpired:
-            if os.path.exists(f"/proc/{ranks[lost]}"):
-                os.kill(ranks[lost], signal.SIGKILL)
             process.kill()
             return process.communicate(timeout=GUARD)
 
@@ -247,11 +247,8 @@ class Ranks(Case):
                                  env=dict(env, ECLAT_RANK_LOST="10"))
             self.wait_for(kept, process)
             ranks = self.ranks_of(process)
-            lost = ranks[victim]
-            os.kill(lost, number)
+            os.kill(ranks[victim], number)
             out, error = self.outcome(process, ranks, victim)
-            if number == signal.SIGSTOP and os.path.exists(f"/proc/{lost}"):
-                os.kill(lost, signal.SIGKILL)
             told = "told by rank 2: " if victim == 5 else ""
             self.assertRegex(error, f"warning: {told}rank {victim} on .* is out, and the others take over its work: rank {victim} is lost")
             self.assertEqual(json.JSONDecoder().raw_decode(out)[0]["image_sha256"], whole["image_sha256"])

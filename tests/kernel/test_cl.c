@@ -105,6 +105,28 @@ static void buffers_hold_bytes(ec_cl *cl)
     ec_buffer_release(cl, &buffer);
 }
 
+/* The command runs late, when the memory that was sent holds something else, as after a device that failed was given up. */
+static void what_is_sent_may_change_meanwhile(ec_cl *cl)
+{
+    ec_error err = {0};
+    cl_mem buffer = NULL;
+    unsigned char in[64], out[64] = {0}, expected[64];
+    memset(in, 7, sizeof in);
+    memset(expected, 7, sizeof expected);
+    CHECK_OK(ec_buffer_create(cl, "sent", sizeof in, NULL, &buffer, &err), err);
+    CHECK_OK(ec_buffer_send(cl, buffer, sizeof in, in, &err), err); /* which makes room for the copy */
+    CHECK_OK(ec_cl_finish(cl, &err), err);
+    cl_event gate = clCreateUserEvent(cl->context, NULL);
+    CHECK(clEnqueueBarrierWithWaitList(cl->queue, 1, &gate, NULL) == CL_SUCCESS);
+    CHECK_OK(ec_buffer_send(cl, buffer, sizeof in, in, &err), err);
+    memset(in, 9, sizeof in);
+    CHECK(clSetUserEventStatus(gate, CL_COMPLETE) == CL_SUCCESS);
+    CHECK_OK(ec_buffer_read(cl, buffer, 0, sizeof out, out, &err), err);
+    CHECK(!memcmp(out, expected, sizeof out));
+    clReleaseEvent(gate);
+    ec_buffer_release(cl, &buffer);
+}
+
 static void programs_are_kept_where_asked(ec_cl *cl)
 {
     ec_error err = {0};
@@ -133,6 +155,7 @@ int main(void)
     lines_counted_from_the_start_are_put_right(&cl);
     broken_source_says_where(&cl);
     unknown_kernel_is_named(&cl);
+    what_is_sent_may_change_meanwhile(&cl);
     programs_are_kept_where_asked(&cl);
     buffers_hold_bytes(&cl);
     CHECK_OK(ec_cl_finish(&cl, &err), err);

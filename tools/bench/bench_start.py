@@ -16,8 +16,7 @@ import bench_common as common
 FIRST = {"cornell-box": 1.8, "showcase": 3.0, "lamps": 4.0, "DamagedHelmet": 3.0}
 AFTER, WARM = 1.0, 0.3
 VIEW = {"first": 4.0, "after": 1.0}  # seconds to the preview's first picture
-ERROR = "5%"
-SOONER = {True: 0.5, False: 1.0}  # of the time to this error that an earlier program takes, or this one with --compile first
+ERROR, SOONER = "5%", 0.5  # of the time to this error that an earlier program takes, or this one with --compile first
 MEMORY = 600.0         # MB
 
 
@@ -168,7 +167,6 @@ def main():
     parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")
     options = parser.parse_args()
     eclat = common.eclat_path(options.eclat)
-    sooner = SOONER[options.before is not None]
     with tempfile.TemporaryDirectory() as folder:
         starts = measure_start(eclat, options.runs, folder)
         errors = measure_error(eclat, options.before, options.runs, folder)
@@ -181,7 +179,7 @@ def main():
             rows.append(common.row(f"first pixel, {what}, {scene}", f"{value:.2f} s", f"<= {target:.1f} s", value <= target, f"+- {common.spread(times[name]):.0%}"))
     for scene, times in errors.items():
         now, before = common.median(times["now"]), common.median(times["before"])
-        rows.append(common.row(f"time to {ERROR} from empty caches, {scene}", f"{now:.1f} s, {now / before:.2f} of {before:.1f} s", f"<= {sooner}", now <= sooner * before,
+        rows.append(common.row(f"time to {ERROR} from empty caches, {scene}", f"{now:.1f} s, {now / before:.2f} of {before:.1f} s", f"<= {SOONER}", now <= SOONER * before,
                                f"+- {common.spread(times['now']):.0%}"))
     for scene, times in (views or {}).items():
         for kind, what in (("first", "first use"), ("after", "after another scene")):
