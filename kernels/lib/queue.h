@@ -25,7 +25,7 @@ EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint i, uint n
 
 EC_FN lane_f queue_load_f(global const float *queue, uint wave, uint field, uint i)
 {
-    return LANE_LOAD(queue + field * wave + i);
+    return *(global const lane_f_words *)(queue + field * wave + i);
 }
 EC_FN lane_u queue_load_u(global const float *queue, uint wave, uint field, uint i)
 {
@@ -57,7 +57,7 @@ EC_INLINED v3 packet_load_v3(global const float *queue, uint wave, uint field, c
 }
 EC_FN void queue_store_f(global float *queue, uint wave, uint field, uint i, lane_f v)
 {
-    LANE_STORE(v, queue + field * wave + i);
+    *(global lane_f_words *)(queue + field * wave + i) = v;
 }
 EC_FN void queue_store_v3(global float *queue, uint wave, uint field, uint i, v3 v)
 {

@@ -46,7 +46,7 @@ EC_FN lane_f spherical_triangle_e_of(v3 a, v3 b, v3 c, lane_i is_ab, lane_i is_b
 }
 
 /* a, b, c: corners seen from the point; det: |det(a, b, c)|, a times the cross product of two edges. */
-EC_FN spherical_triangle spherical_triangle_make(v3 a, v3 b, v3 c, lane_f det)
+EC_CALLED spherical_triangle spherical_triangle_make(v3 a, v3 b, v3 c, lane_f det)
 {
     spherical_triangle t;
     t.near_a = 1.0f / sqrt(v3_dot(a, a));
