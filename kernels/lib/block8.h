@@ -26,25 +26,31 @@ typedef struct hit8 {
     TALLIES
 } hit8;
 
+/* What follows from q->r. */
+EC_INLINED void ray8_signs(ray8 *q)
+{
+    /* Selects, not branches: nobody can predict the signs of a bounced ray. */
+    lane_i nx = q->r.inverse.x < 0.0f, ny = q->r.inverse.y < 0.0f, nz = q->r.inverse.z < 0.0f;
+    q->near_x = 0 | (nx.s0 & 1);
+    q->near_y = 2 | (ny.s0 & 1);
+    q->near_z = 4 | (nz.s0 & 1);
+    q->near_offset_x = nx ? q->r.hi_offset.x : q->r.lo_offset.x;
+    q->near_offset_y = ny ? q->r.hi_offset.y : q->r.lo_offset.y;
+    q->near_offset_z = nz ? q->r.hi_offset.z : q->r.lo_offset.z;
+    q->far_offset_x = nx ? q->r.lo_offset.x : q->r.hi_offset.x;
+    q->far_offset_y = ny ? q->r.lo_offset.y : q->r.hi_offset.y;
+    q->far_offset_z = nz ? q->r.lo_offset.z : q->r.hi_offset.z;
+    uint z_is_x = q->r.z_is_x.s0 & 1, z_is_y = q->r.z_is_y.s0 & 1;
+    q->axis_x = 2 * z_is_x;
+    q->axis_y = 1 + z_is_y;
+    q->axis_z = 2 - 2 * z_is_x - z_is_y;
+}
+
 EC_INLINED ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, float dz, float scene_max)
 {
     ray8 q;
     q.r = ray_make(v3_make(F(ox), F(oy), F(oz)), v3_make(F(dx), F(dy), F(dz)), scene_max);
-    /* Selects, not branches: nobody can predict the signs of a bounced ray. */
-    lane_i nx = q.r.inverse.x < 0.0f, ny = q.r.inverse.y < 0.0f, nz = q.r.inverse.z < 0.0f;
-    q.near_x = 0 | (nx.s0 & 1);
-    q.near_y = 2 | (ny.s0 & 1);
-    q.near_z = 4 | (nz.s0 & 1);
-    q.near_offset_x = nx ? q.r.hi_offset.x : q.r.lo_offset.x;
-    q.near_offset_y = ny ? q.r.hi_offset.y : q.r.lo_offset.y;
-    q.near_offset_z = nz ? q.r.hi_offset.z : q.r.lo_offset.z;
-    q.far_offset_x = nx ? q.r.lo_offset.x : q.r.hi_offset.x;
-    q.far_offset_y = ny ? q.r.lo_offset.y : q.r.hi_offset.y;
-    q.far_offset_z = nz ? q.r.lo_offset.z : q.r.hi_offset.z;
-    uint z_is_x = q.r.z_is_x.s0 & 1, z_is_y = q.r.z_is_y.s0 & 1;
-    q.axis_x = 2 * z_is_x;
-    q.axis_y = 1 + z_is_y;
-    q.axis_z = 2 - 2 * z_is_x - z_is_y;
+    ray8_signs(&q);
     return q;
 }
 

@@ -5,6 +5,7 @@
 #ifndef EC_LIB_TRACE_INTERLEAVED_H
 #define EC_LIB_TRACE_INTERLEAVED_H
 
+#include "packet8.h"
 #include "trace.h"
 
 #define EC_INTERLEAVED_RAYS 64u /* that a work-item takes in all: at the end fewer than INTERLEAVE are on their way */
@@ -33,7 +34,7 @@ EC_INLINED void walk_prefetch(const accel *a, uint child)
     PREFETCH(at + 64u);
     PREFETCH(at + 128u);
     PREFETCH(at + 192u);
-    PREFETCH(at + 256u);
+    PREFETCH(at + 192u + (child >> 31 << 6)); /* a block has one more than a node */
 }
 
 /* With w->q made. */
@@ -123,7 +124,39 @@ EC_INLINED void walk_store(const walk *w, uint wave, global float *hits)
 #endif
 }
 
-/* Closest hit of every path; camera rays one by one, since they go the same way. Reads: path queue. Writes: hits. Next: shade. */
+/* Closest hits of eight camera rays that stand side by side, or of the `left` that there are. */
+EC_INLINED void camera_rays(uint i, uint left, constant ec_params *params INTERSECT_PARAMETERS(EC_PARAMETER))
+{
+    uint wave = params->wave;
+    lane_i on = LANE_NUMBERS < left;
+    v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
+    o = v3_select(on, o, v3_make(F(o.x.s0), F(o.y.s0), F(o.z.s0))); /* lanes that are off go as the first */
+    d = v3_select(on, d, v3_make(F(d.x.s0), F(d.y.s0), F(d.z.s0)));
+    hit_filter filter = {FILTER_GEOMETRY, U(0), true, 0};
+    if (HAS(ALPHA)) {
+        lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i), pixel, sample;
+        slot_to_pixel(params, first_pixel, pixel_list, on ? slot : U(0), &pixel, &sample);
+        filter.key = filter_key(seed, pixel, sample, bounce, false);
+    }
+    const accel a = ACCEL_ARGUMENTS;
+    hits8 h = {on ? F(EC_HUGE) : F(-1.0f), U(EC_NO_ID), F(0.0f), F(0.0f)};
+    lane_u skip = queue_load_u(paths, wave, EC_PATH_PRIM, i);
+    packet8 p;
+    p.r = ray_make(o, d, params->scene_max);
+    if (packet8_make(&p, params->scene_max)) packet8_closest(&a, &p, &filter, skip, &h);
+    else packet8_each(&a, &p, &filter, 0, mask_bits8(on), skip, &h);
+    uint bits = mask_bits8(on);
+    queue_push_f(hits, wave, EC_HIT_PRIM, i, as_lane_f(h.prim), bits);
+    queue_push_f(hits, wave, EC_HIT_B1, i, h.b1, bits);
+    queue_push_f(hits, wave, EC_HIT_B2, i, h.b2, bits);
+#ifdef PROBE
+    queue_push_f(hits, wave, EC_HIT_T, i, h.t, bits);
+    queue_push_f(hits, wave, EC_HIT_NODES, i, as_lane_f(U(h.nodes)), bits);
+    queue_push_f(hits, wave, EC_HIT_TESTS, i, as_lane_f(U(h.tests)), bits);
+#endif
+}
+
+/* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
 EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part, i) ? QUEUED(rays[step]) : 0u)
 {
     uint wave = params->wave;
@@ -131,12 +164,7 @@ EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part,
     const accel a = ACCEL_ARGUMENTS;
     hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
     walk walks[INTERLEAVE];
-    for (; bounce == 0 && t.next < t.left; t.next++) {
-        walk_path(walks, params, seed, first_pixel, pixel_list, bounce, paths, i + t.next);
-        if (HAS(ALPHA)) filter.key = walks->key;
-        bvh8_closest(&a, &walks->q, &filter, walks->skip0, walks->skip1, &walks->h);
-        walk_store(walks, wave, hits);
-    }
+    for (; bounce == 0 && t.next < t.left; t.next += 8u) camera_rays(i + t.next, t.left - t.next, params INTERSECT_PARAMETERS(EC_ARGUMENT));
     for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {
         bool is_new = t.count < INTERLEAVE && t.next < t.left;
         if (is_new) k = t.order[t.count] = t.count, t.count++;

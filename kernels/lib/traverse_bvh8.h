@@ -5,16 +5,10 @@
 
 #include "node8.h"
 
-/* Visits node *current: goes on to the nearest child that the ray meets, and stacks the others, the nearest on top. False: it meets
- * none. */
-EC_INLINED bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack, uint *depth, uint *current)
+/* Goes on to the nearest of the children of `mask`, and stacks the others, the nearest on top. False: there are none. */
+EC_INLINED bool bvh8_sort(float8 near, uint mask, uint8 child, ulong *stack, uint *depth, uint *current)
 {
-    global const ec_bvh8_node *n = (global const ec_bvh8_node *)a->at[0] + *current;
-    TALLY_NODE(h);
-    uint mask;
     ulong entry[8];
-    uint8 child = *(global const uint8 *)n->child; /* now, and not only once the distances are known */
-    float8 near = node8_near(q, (global const float8 *)n->bound, h->t, &mask);
     vstore8(entries8(near, child), 0, entry);
     if (!mask) return false;
     ulong nearest = entry[lowest_bit(mask)];
@@ -38,6 +32,17 @@ EC_INLINED bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack,
     return true;
 }
 
+/* Visits node *current: goes on to the nearest child that the ray meets. False: it meets none. */
+EC_INLINED bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack, uint *depth, uint *current)
+{
+    global const ec_bvh8_node *n = (global const ec_bvh8_node *)a->at[0] + *current;
+    TALLY_NODE(h);
+    uint mask;
+    uint8 child = *(global const uint8 *)n->child; /* now, and not only once the distances are known */
+    float8 near = node8_near(q, (global const float8 *)n->bound, h->t, &mask);
+    return bvh8_sort(near, mask, child, stack, depth, current);
+}
+
 /* Goes on to what the stack has that the ray enters before its best hit. False: nothing. */
 EC_INLINED bool bvh8_return(const hit8 *h, const ulong *stack, uint *depth, uint *current)
 {
@@ -49,10 +54,11 @@ EC_INLINED bool bvh8_return(const hit8 *h, const ulong *stack, uint *depth, uint
     return true;
 }
 
-EC_INLINED void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+/* The closest hit in node or leaf `current`. */
+EC_INLINED void bvh8_below(const accel *a, const ray8 *q, const hit_filter *filter, uint current, uint skip0, uint skip1, hit8 *h)
 {
     ulong stack[EC_BVH8_STACK];
-    uint depth = 0, current = 0;
+    uint depth = 0;
     for (;;) {
         uint before = depth;
         if (current & EC_LEAF_BIT) {
@@ -63,6 +69,11 @@ EC_INLINED void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *fi
         }
         if (!bvh8_return(h, stack, &depth, &current)) return;
     }
+}
+
+EC_INLINED void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
+{
+    bvh8_below(a, q, filter, 0, skip0, skip1, h);
 }
 
 /* Is anything in the way before t = h->t? */

@@ -51,6 +51,33 @@ static void check_closest(const set *s, const ec_accel *accels, const ec_accel *
     free(hits);
 }
 
+/* Eight rays in a row go as the first of them does, more or less: bundles of one origin, and of origins as far apart as on a lens. */
+static void make_bundles(const set *s, float *queue)
+{
+    static const double spreads[] = {0.0, 1e-7, 1e-4, 1e-2, 0.3};
+    make_rays(s, queue, RAYS, EC_PATH_FIELDS, EC_PATH_PRIM, true);
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const uint32_t first = i - i % 8, bundle = i / 8;
+        const double spread = spreads[bundle % 5], lens = bundle / 5 % 2 ? spread * (double)s->scene_max : 0.0;
+        for (uint32_t c = 0; c < 3 && i != first; c++) {
+            queue[(EC_PATH_OX + c) * RAYS + i] = queue[(EC_PATH_OX + c) * RAYS + first] + random_float(-lens, lens);
+            queue[(EC_PATH_DX + c) * RAYS + i] = queue[(EC_PATH_DX + c) * RAYS + first] * (1.0f + random_float(-spread, spread));
+        }
+    }
+}
+
+/* What goes together by packets finds what each ray finds alone. */
+static void check_bundles(const set *s, const ec_accel *accels, const ec_accel *brute, const tracer *bvh2, float *queue, float *expected)
+{
+    make_bundles(s, queue);
+    if (!intersect(s, bvh2, brute, RAYS, COUNT, queue, expected)) return;
+    float *hits = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *hits);
+    for (uint32_t i = 0; i < tracer_count; i++)
+        if (strstr(tracers[i].label, "INTERLEAVE") && intersect(s, &tracers[i], &accels[tracers[i].accel], RAYS, COUNT, queue, hits))
+            same_hits(s, queue, RAYS, COUNT, hits, expected, "bundles", "brute force");
+    free(hits);
+}
+
 static void check_shadows(const set *s, const ec_accel *accels, const ec_accel *brute, const tracer *bvh2, float *queue, float *expected)
 {
     make_rays(s, queue, RAYS, EC_SHADOW_FIELDS, EC_SHADOW_PRIM, false);
@@ -146,6 +173,7 @@ static void check_set_of(set s, bool in_parts)
     float *queue = calloc(EC_SHADOW_FIELDS * RAYS + EC_PATH_FIELDS * RAYS, sizeof *queue), *expected = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *expected);
     if (build_accels(&s, accels)) {
         check_parts(&s, accels, in_parts);
+        check_bundles(&s, accels, &brute, bvh2, queue, expected);
         check_shadows(&s, accels, &brute, bvh2, queue, expected);
         check_closest(&s, accels, &brute, bvh2, queue, expected);
         check_order(&s, bvh2, queue, expected);

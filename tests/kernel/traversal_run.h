@@ -140,15 +140,15 @@ static inline bool intersect(const set *s, const tracer *t, const ec_accel *a, u
         free(sorted);
         return good;
     }
-    if (strstr(t->label, "INTERLEAVE")) { /* but not as camera rays, which give the same bits */
-        float *alone = malloc(EC_HIT_PROBE_FIELDS * (size_t)wave * sizeof *alone);
+    if (strstr(t->label, "INTERLEAVE")) { /* camera rays go together, and give the same bits */
+        float *together = malloc(EC_HIT_PROBE_FIELDS * (size_t)wave * sizeof *together);
         bounce = 0;
-        bool good = intersect_in_order(s, t, a, wave, count, paths, 0, alone);
+        bool good = intersect_in_order(s, t, a, wave, count, paths, 0, together);
         bounce = 1;
         good = good && intersect_in_order(s, t, a, wave, count, paths, 0, hits);
         for (size_t f = 0; good && f <= EC_HIT_T; f++)
-            CHECK_MSG(!memcmp(alone + f * wave, hits + f * wave, count * sizeof *hits), "%s: field %zu is another one by one", t->label, f);
-        free(alone);
+            CHECK_MSG(!memcmp(together + f * wave, hits + f * wave, count * sizeof *hits), "%s: field %zu is another where they are camera rays", t->label, f);
+        free(together);
         return good;
     }
     return intersect_in_order(s, t, a, wave, count, paths, 0, hits);
