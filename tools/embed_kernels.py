@@ -2,7 +2,8 @@
 """Flattens kernel sources and writes them as C strings.
 
 An #include "x" is looked for beside the including file, then under --root. #line directives keep the real file and line
-in compiler messages. Every unit starts with FP_CONTRACT OFF: contraction opens cracks.
+in compiler messages. Comments go, since a driver reads its source anew in every run; so may a header marked "/* once */"
+where the same program has it already (host/cl/sources_join.c). Every unit starts with FP_CONTRACT OFF: contraction opens cracks.
 """
 import argparse
 import os
@@ -61,18 +62,16 @@ class Flattener:
         except (OSError, UnicodeDecodeError) as error:
             raise EmbedError(f"{name}: cannot be read: {error}")
         plain = without_comments(text).split("\n")
-        lines = text.split("\n")
-        if lines[-1] == "":
-            lines.pop()
+        if plain[-1] == "":
+            plain.pop()
         guarded = has_guard(plain)
         # Repeats of a guarded header are left out here to keep units short, but only if its first text is surely
         # compiled; within an #if the compiler must decide, and the guards that stay in the text let it.
         if guarded and not conditional:
             self.once.add(path)
-        self.line(1, name)
+        self.line(1, name, " /* once */" if guarded and not conditional else "")
         depth = -1 if guarded else 0
-        for number, line in enumerate(lines, 1):
-            directive = plain[number - 1]
+        for number, directive in enumerate(plain, 1):
             if re.match(r"\s*#\s*if", directive):
                 depth += 1
             elif re.match(r"\s*#\s*endif", directive):
@@ -86,7 +85,7 @@ class Flattener:
                 # For the C side of a shared header. PoCL preprocesses a source that contains the word, and is slower.
                 self.out.append(f'#error "<{angled.group(1)}> in a kernel: there are no system headers"\n')
             else:
-                self.out.append(line.replace("#include", "# include") + "\n")
+                self.out.append(directive.strip().replace("#include", "# include") + "\n")
 
     def include(self, wanted, includer, number, stack, conditional):
         for folder in (os.path.dirname(includer), self.root):
@@ -102,8 +101,8 @@ class Flattener:
         self.file(path, stack + [includer], conditional)
         self.line(number + 1, self.name(includer))
 
-    def line(self, number, name):
-        self.out.append(f'#line {number} "{name}"\n')
+    def line(self, number, name, mark=""):
+        self.out.append(f'#line {number} "{name}"{mark}\n')
 
 
 def c_string(text):

@@ -152,7 +152,7 @@ class Compile(Case):
         self.assertEqual([self.compiled(kernel) for kernel in TRAVERSAL], [2, 2, 1, 1])
 
     def test_a_short_render_does_not(self):
-        report, _ = self.render(spp=1)
+        report, _ = self.render(eclat_is=self.idle_compiler(), spp=1)
         self.skip_unless_late(report)
         self.assertEqual((report["first_kernels"], report["fast_kernels_after_seconds"]), ("narrow", None))
 
