@@ -9,7 +9,7 @@
 #define HEADERS_MOST 512
 #define ONCE "/* once */" /* of tools/embed_kernels.py: a header that its guard leaves out where it is already there */
 
-/* Of a #line directive; the name as it stands there, in quotes. */
+/* What a #line directive names, quotes included; begins: it has line 1. */
 typedef struct place {
     const char *name;
     size_t length;
@@ -35,7 +35,8 @@ static bool is_there(const place *headers, size_t count, const place *at)
     return false;
 }
 
-/* Without the headers that sources before it have brought, headers[0 .. *count): drivers read all of a program anew in every run. */
+/* Writes a source without the headers that those before it have brought, headers[0 .. *count): drivers read all of a program anew in
+ * every run. */
 static void join(const char *source, place headers[HEADERS_MOST], size_t *count, FILE *to)
 {
     const size_t before = *count;
@@ -60,17 +61,13 @@ ec_result ec_kernel_sources_join(const char *const *names, char **joined, ec_err
 {
     char *text = NULL;
     size_t size = 0, count = 0;
-    place *headers = malloc(HEADERS_MOST * sizeof *headers);
+    place headers[HEADERS_MOST];
     *joined = NULL;
-    for (size_t i = 0; names[i]; i++) {
-        if (ec_kernel_source(names[i])) continue;
-        free(headers);
-        return ec_fail(err, "no kernels named %s are built into this program", names[i]);
-    }
-    FILE *to = headers ? open_memstream(&text, &size) : NULL;
+    for (size_t i = 0; names[i]; i++)
+        if (!ec_kernel_source(names[i])) return ec_fail(err, "no kernels named %s are built into this program", names[i]);
+    FILE *to = open_memstream(&text, &size);
     for (size_t i = 0; to && names[i]; i++) join(ec_kernel_source(names[i]), headers, &count, to);
     if (to && fclose(to) == 0) *joined = text;
     else free(text);
-    free(headers);
     return *joined ? EC_OK : ec_fail(err, "out of memory while joining kernel sources");
 }

@@ -26,7 +26,7 @@ typedef struct hit8 {
     TALLIES
 } hit8;
 
-/* What follows from q->r. */
+/* Fills in the rest from q->r. */
 EC_INLINED void ray8_signs(ray8 *q)
 {
     /* Selects, not branches: nobody can predict the signs of a bounced ray. */

@@ -112,7 +112,7 @@ EC_INLINED ray8 packet8_ray(const packet8 *p, uint k)
     return q;
 }
 
-/* Those of `rays` into what is below `child`, one by one. */
+/* Sends those of `rays` into what is below `child`, one by one. */
 EC_CALLED void packet8_each(const accel *a, const packet8 *p, const hit_filter *filter, uint child, uint rays, uint8 skip, hits8 *h)
 {
     float *t = (float *)&h->t, *b1 = (float *)&h->b1, *b2 = (float *)&h->b2;
@@ -135,7 +135,7 @@ EC_CALLED void packet8_each(const accel *a, const packet8 *p, const hit_filter *
     }
 }
 
-/* The rays together, until they part: once one has come to a leaf alone, each node that one alone meets is left to it. h->t: as hit8's,
+/* Sends the rays together, until they part: once one has come to a leaf alone, each node that one alone meets is left to it. h->t: as hit8's,
  * negative in lanes that are off. */
 EC_INLINED void packet8_closest(const accel *a, const packet8 *p, const hit_filter *filter, uint8 skip, hits8 *h)
 {

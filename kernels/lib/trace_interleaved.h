@@ -162,7 +162,7 @@ EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part,
     uint wave = params->wave;
     turns t = turns_of(left);
     const accel a = ACCEL_ARGUMENTS;
-    hit_filter filter = {FILTER_GEOMETRY, U(0), bounce == 0, 0};
+    hit_filter filter = {FILTER_GEOMETRY, U(0), false, 0};
     walk walks[INTERLEAVE];
     for (; bounce == 0 && t.next < t.left; t.next += 8u) camera_rays(i + t.next, t.left - t.next, params INTERSECT_PARAMETERS(EC_ARGUMENT));
     for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {

@@ -1,0 +1,42 @@
+/* tier: quick */
+/* Trees that caches do not hold are traced by interleaved rays, and camera rays eight at a time: the same bits, also where each ray has a
+ * random number of its own for the coverage that it meets. */
+#include "accel/accel.h"
+#include "device/stages.h"
+#include "support/render_case.h"
+
+static ec_render_options options(void)
+{
+    ec_render_options o = case_quick(case_options(48, 36, 16));
+    o.accel = "bvh8";
+    return o;
+}
+
+static bool is_interleaved(const case_image *image)
+{
+    return strstr(ec_traversal_options(&case_cl()->info, ec_accel_find("bvh8"), 1000, image->stats.effects.built), "INTERLEAVE") != NULL;
+}
+
+int main(void)
+{
+    const ec_render_options o = options();
+    ec_scene *scene = case_load(OWN_SCENE("toy/toy.gltf"), "1,1,1");
+    case_image opaque = case_render(scene, &o);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        scene->materials[i].alpha_mode = EC_ALPHA_BLEND;
+        scene->materials[i].base_color[3] = 0.5f;
+    }
+    case_image expected = case_render(scene, &o);
+    CHECK(!is_interleaved(&expected));
+    CHECK(expected.stats.effects.called.bits & EC_FEATURE_ALPHA);
+    CHECK(!case_same_bits(&opaque.film, &expected.film));
+    case_cl()->info.cache_bytes = 0;
+    case_image image = case_render(scene, &o);
+    if (case_cl()->info.type & CL_DEVICE_TYPE_CPU) CHECK(is_interleaved(&image));
+    CHECK(case_same_bits(&image.film, &expected.film));
+    case_free(&opaque);
+    case_free(&expected);
+    case_free(&image);
+    ec_scene_free(scene);
+    TEST_END();
+}
