@@ -160,7 +160,7 @@ void ec_branch_join(const ec_branch *branch, ec_bvh_build_node *nodes);
 void ec_branch_free(ec_branch *branch);
 
 /* tree.c */
-/* Cache-line aligned memory for at least one element, for free(). */
+/* Memory for at least one element that a processor may take where it is (base/memory.h), for free(). */
 void *ec_allocate_lines(size_t count, size_t size);
 
 /* Room for `wanted` elements in such memory, at least twice what there was; the first `used` stay. array: the address of a pointer of some type. False:

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 ec_subtree *ec_bvh_subtrees(const ec_bvh *bvh)
 {
     ec_subtree *subtrees = malloc(bvh->node_count * sizeof *subtrees);
@@ -23,8 +25,7 @@ ec_subtree *ec_bvh_subtrees(const ec_bvh *bvh)
 
 void *ec_allocate_lines(size_t count, size_t size)
 {
-    size_t bytes = (count ? count : 1) * size;
-    return aligned_alloc(64, (bytes + 63) / 64 * 64);
+    return ec_shared_alloc((count ? count : 1) * size);
 }
 
 int ec_reserve_lines(void *array, uint32_t *room, uint32_t used, uint64_t wanted, size_t size)

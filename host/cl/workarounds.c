@@ -4,7 +4,8 @@
  * XDG_CACHE_HOME. Asking it for binaries compiles every kernel once more, for any local size, which takes as long as the first
  * launches did (the sketch's five kernels: 1.2-1.5 s), and the result lacks what launches use unless they ran before. Warm, its
  * cache is as good: 0.03-0.05 s instead of 0.01 s. It compiles under one lock for the process, so threads do not help, nor do
- * contexts, and each program more costs 0.1-0.2 s: see ec_kernel_sources_join.
+ * contexts, and each program more costs 0.1-0.2 s: see ec_kernel_sources_join. It reads its header of built-in functions, 0.9 MB,
+ * for each program and in every run; _OPENCL_H_, the header's guard, keeps it out (so since PoCL 1.5, and still in its newest source).
  *
  * rusticl was still busy with kernels of eight lanes after five minutes of processor time. It ends the process over a binary that it
  * does not know, and has a cache of its own.
@@ -18,7 +19,7 @@
 #include <strings.h>
 
 static const ec_workaround workarounds[] = {
-    {"PoCL", "3.1, 2026-11", "binaries lack what launches use", .source_only = true, .compiles_late = true},
+    {"PoCL", "3.1, 2026-11", "binaries lack what launches use", .source_only = true, .compiles_late = true, .slow_header = true},
     {"Oclgrind", "21.10, 2026-11", "names lines of the source; what lanes that are off read counts as uninitialised once another part of the buffer is written",
      .source_only = true, .no_touch = true},
     {"rusticl", "Mesa 22.3.6, 2026-11", "its compiler takes gigabytes and many minutes for kernels of more than one lane", .most_lanes = 1,
@@ -63,6 +64,12 @@ bool ec_compiles_late(const ec_cl *cl)
 {
     const ec_workaround *driver = ec_workaround_for(&cl->info);
     return driver && driver->compiles_late;
+}
+
+const char *ec_builtin_options(const ec_device_info *device)
+{
+    const ec_workaround *driver = ec_workaround_for(device);
+    return driver && driver->slow_header ? " -D_OPENCL_H_ -DEC_OWN_BUILTINS" : "";
 }
 
 bool ec_device_rounds(const ec_device_info *device)

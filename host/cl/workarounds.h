@@ -12,6 +12,7 @@ typedef struct ec_workaround {
     uint32_t most_lanes;    /* 0: any */
     bool compiles_late;     /* at a kernel's first launch, under one lock, into a cache that processes share */
     bool rounds;            /* division and square root correctly, though it does not say so */
+    bool slow_header;       /* of built-in functions, with Clang's guard: kernels declare what they call (kernels/shared/builtins.h) */
     bool no_touch;          /* buffers are not written to only to see whether there is memory for them */
 } ec_workaround;
 
@@ -22,6 +23,9 @@ const ec_workaround *ec_workaround_for(const ec_device_info *device);
 ec_result ec_workaround_check(ec_error *err);
 
 bool ec_compiles_late(const ec_cl *cl);
+
+/* For kernels of the pipeline: " -D…" or "". */
+const char *ec_builtin_options(const ec_device_info *device);
 
 /* Does arithmetic give the same bits as on other devices of which this is true? */
 bool ec_device_rounds(const ec_device_info *device);

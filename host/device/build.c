@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cl/workarounds.h"
 #include "device/pipeline.h"
 
 /* One of a stage, or of an accelerator's two; at least as many as there can be. */
@@ -74,8 +75,8 @@ static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, 
         const char *own = ec_traversal_options(&p->cl->info, entries[i].accel, p->accels[entries[i].accel].bytes, set->features);
         if (*own) traversal = own;
     }
-    snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s", lanes, features, traversal,
-             lanes == 1 && set->calls ? " -DCALLS" : "", p->fast_math ? " " EC_FAST_MATH : "");
+    snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s%s", lanes, features, traversal,
+             lanes == 1 && set->calls ? " -DCALLS" : "", ec_builtin_options(&p->cl->info), p->fast_math ? " " EC_FAST_MATH : "");
     snprintf(program->label, sizeof program->label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     return ec_kernel_sources_join(names, &program->source, err);
 }

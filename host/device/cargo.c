@@ -280,11 +280,10 @@ static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, cons
 }
 
 static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
-                            const ec_render_options *o, uint32_t batch, ec_cl *alone, ec_render_stats *stats, ec_error *err)
+                            const ec_render_options *o, uint32_t batch, ec_render_stats *stats, ec_error *err)
 {
     ec_pack *pack = &cargo->pack;
     ec_cargo_head *head = &cargo->head;
-    EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, alone, batch, err));
     set_params(o, batch, pack, head->effects.called.bits, &head->params);
     head->bodies_too_many = pack->bodies.too_many;
     EC_TRY(ec_insides_make(pack, head->effects.called.bits, &cargo->insides, err));
@@ -313,16 +312,17 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     if (scene->motion.segments && !ec_traces_paths(o->integrator))
         return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");
     EC_TRY(ec_pipeline_set_camera(&scene->cameras[o->camera], o, &head->params, err));
+    if (o->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(head, scene, o->accel, kinds, err));
     double start = ec_now();
-    if (o->integrator != EC_INTEGRATOR_RASTER) {
-        EC_TRY(choose_accels(head, scene, o->accel, kinds, err));
-        EC_TRY(add_accels(cargo, scene, o, err));
-        if (o->followed) stats->followed = o->followed->report;
-    }
+    EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, alone, batch, err));
+    stats->pack_seconds = ec_now() - start;
+    start = ec_now();
+    if (o->integrator != EC_INTEGRATOR_RASTER) EC_TRY(add_accels(cargo, scene, o, err));
+    if (o->followed && o->integrator != EC_INTEGRATOR_RASTER) stats->followed = o->followed->report;
     stats->accel_seconds = ec_now() - start;
     start = ec_now();
-    EC_TRY(add_packed(cargo, scene, called_for, o, batch, alone, stats, err));
-    stats->pack_seconds = ec_now() - start;
+    EC_TRY(add_packed(cargo, scene, called_for, o, batch, stats, err));
+    stats->pack_seconds += ec_now() - start;
     stats->replicates = head->replicates;
     stats->instances = scene->placed_count;
     stats->triangles = ec_scene_met_count(scene);

@@ -82,9 +82,11 @@ ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, ec_pack *pa
         const ec_upload *u = &plan[i];
         uint64_t bytes = u->buffer.bytes;
         if (!bytes) continue; /* an absent stream stays NULL */
+        void *owned = u->arg == EC_ARG_TEXELS ? (void *)pack->texels : u->arg == EC_ARG_PRIMS ? pack->prims : NULL;
         if (u->arg == EC_ARG_UVS) EC_TRY(add_uvs(cargo, scene, u, err));
-        else ec_cargo_add(cargo, u->arg, u->buffer.label, bytes - u->slack, u->slack, u->data, u->arg == EC_ARG_TEXELS ? pack->texels : NULL);
+        else ec_cargo_add(cargo, u->arg, u->buffer.label, bytes - u->slack, u->slack, u->data, owned);
         if (u->arg == EC_ARG_TEXELS) pack->texels = NULL; /* the cargo's */
+        if (u->arg == EC_ARG_PRIMS) pack->prims_lent = true;
     }
     return EC_OK;
 }

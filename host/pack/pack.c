@@ -4,15 +4,17 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "base/memory.h"
 #include "pack/coplanar.h"
 #include "scene/material_fields.h"
 
 static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     pack->prim_count = scene->triangle_count;
-    pack->prims = calloc((size_t)pack->prim_count + 1, sizeof *pack->prims);
+    pack->prims = ec_shared_alloc(((size_t)pack->prim_count + 1) * sizeof *pack->prims);
     EC_FREED bool *is_pane = calloc(scene->material_count, sizeof *is_pane);
     if (!pack->prims || !is_pane) return ec_fail(err, "out of memory for %u triangles", pack->prim_count);
+    memset(&pack->prims[pack->prim_count], 0, sizeof *pack->prims);
     for (uint32_t m = 0; m < scene->material_count; m++) is_pane[m] = ec_pack_is_pane(scene, &scene->materials[m]);
     for (uint32_t t = 0; t < pack->prim_count; t++) {
         const uint32_t *i = scene->indices + 3 * (size_t)t;
@@ -121,7 +123,7 @@ ec_result ec_pack_scene(const ec_scene *all, ec_pack *pack, ec_error *err)
 void ec_pack_free(ec_pack *pack)
 {
     ec_scene_view_free(&pack->plain);
-    free(pack->prims);
+    if (!pack->prims_lent) free(pack->prims);
     free(pack->materials);
     free(pack->textures);
     free(pack->texels);

@@ -32,6 +32,7 @@ typedef struct ec_pack {
     ec_effects effects;            /* that the scene calls for (those that options call for are the caller's) */
     uint32_t prim_count;
     ec_prim *prims;
+    bool prims_lent;               /* the cargo's: a processor takes them where they are */
     ec_bodies bodies;              /* in order; none unless some may be nested */
     uint32_t material_count;
     ec_material_data *materials;

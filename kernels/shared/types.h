@@ -3,6 +3,7 @@
 #define EC_SHARED_TYPES_H
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+#include "builtins.h"
 #define EC_DEVICE_CODE
 #define EC_INLINED static inline __attribute__((always_inline))
 #ifdef CALLS /* functions that compile once each, where compiling soon matters more than running fast */

@@ -45,6 +45,7 @@ static void workarounds_can_be_forced(void)
     setenv("ECLAT_WORKAROUND", "PoCL", 1);
     const ec_workaround *row = ec_workaround_for(&cl.info);
     CHECK(row && row->source_only && ec_compiles_late(&cl) && !ec_device_rounds(&cl.info));
+    CHECK(strstr(ec_builtin_options(&cl.info), "-DEC_OWN_BUILTINS"));
     setenv("ECLAT_WORKAROUND", "oclgrind", 1);
     row = ec_workaround_for(&cl.info);
     CHECK(row && row->source_only && row->no_touch && !ec_compiles_late(&cl));
@@ -55,6 +56,7 @@ static void workarounds_can_be_forced(void)
     CHECK(row && !row->source_only && ec_device_rounds(&cl.info));
     strcpy(cl.info.platform_name, "rusticl");
     setenv("ECLAT_WORKAROUND", "none", 1);
+    CHECK(!*ec_builtin_options(&cl.info));
     CHECK(!ec_workaround_for(&cl.info) && ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 8);
     CHECK(ec_workaround_check(&err) == EC_OK);
     setenv("ECLAT_WORKAROUND", "nvidia", 1);
