@@ -5,8 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#define HUGE_PAGE (UINT64_C(2) << 20)
 
 static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
@@ -129,5 +132,10 @@ uint64_t ec_memory_free(void)
 
 void *ec_shared_alloc(uint64_t bytes)
 {
-    return aligned_alloc(EC_SHARED_ALIGNMENT, (bytes / EC_SHARED_ALIGNMENT + 1) * EC_SHARED_ALIGNMENT);
+    const uint64_t alignment = bytes < 2 * HUGE_PAGE ? EC_SHARED_ALIGNMENT : HUGE_PAGE, size = (bytes / alignment + 1) * alignment;
+    void *memory = aligned_alloc(alignment, size);
+#ifdef MADV_HUGEPAGE
+    if (memory && alignment == HUGE_PAGE) (void)madvise(memory, size, MADV_HUGEPAGE); /* asked for, no more: rays go from page to page */
+#endif
+    return memory;
 }

@@ -16,9 +16,12 @@ typedef struct entry {
 } entry;
 enum { ENTRIES = EC_STAGE_ID_COUNT + 2 * EC_ACCEL_COUNT };
 
+#define EC_CACHE_LARGE (UINT64_C(32) << 20) /* bytes; a larger one is shared by many cores, and slow: to wait for it costs as much */
+
 const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features)
 {
-    bool is_large = bytes > device->cache_bytes / 8; /* the last cache: those of a core are so much smaller */
+    const uint64_t cache = device->cache_bytes < EC_CACHE_LARGE ? device->cache_bytes : EC_CACHE_LARGE;
+    bool is_large = bytes > cache / 8; /* the last cache: those of a core are so much smaller */
     bool is_known = !(features & (EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_COPLANAR)); /* to trace_interleaved.h */
     if (!ec_accels[accel].lanes || !(device->type & CL_DEVICE_TYPE_CPU)) return "";
     return accel == ec_accel_find("bvh8") && is_large && is_known ? " -DINTERLEAVE=8" : " -DRUN=16u";

@@ -17,8 +17,23 @@ static bool is_interleaved(const case_image *image)
     return strstr(ec_traversal_options(&case_cl()->info, ec_accel_find("bvh8"), 1000, image->stats.effects.built), "INTERLEAVE") != NULL;
 }
 
+/* A cache of hundreds of megabytes is shared by many cores, and slow. */
+static void large_bvhs_are_told_by_what_is_fast(void)
+{
+    const uint64_t MIB = 1 << 20;
+    const struct { uint64_t cache, bytes; bool interleaved; } cases[] = {
+        {32 * MIB, 3 * MIB, false}, {32 * MIB, 5 * MIB, true}, {300 * MIB, 3 * MIB, false}, {300 * MIB, 5 * MIB, true}, {8 * MIB, 2 * MIB, true},
+    };
+    ec_device_info info = {.type = CL_DEVICE_TYPE_CPU};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        info.cache_bytes = cases[i].cache;
+        CHECK(!strstr(ec_traversal_options(&info, ec_accel_find("bvh8"), cases[i].bytes, 0), "INTERLEAVE") == !cases[i].interleaved);
+    }
+}
+
 int main(void)
 {
+    large_bvhs_are_told_by_what_is_fast();
     const ec_render_options o = options();
     ec_scene *scene = case_load(OWN_SCENE("toy/toy.gltf"), "1,1,1");
     case_image opaque = case_render(scene, &o);
