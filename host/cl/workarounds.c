@@ -5,7 +5,7 @@
  * launches did (the sketch's five kernels: 1.2-1.5 s), and the result lacks what launches use unless they ran before. Warm, its
  * cache is as good: 0.03-0.05 s instead of 0.01 s. It compiles under one lock for the process, so threads do not help, nor do
  * contexts, and each program more costs 0.1-0.2 s: see ec_kernel_sources_join. It reads its header of built-in functions, 0.9 MB,
- * for each program and in every run; _OPENCL_H_, the header's guard, keeps it out (so since PoCL 1.5, and still in its newest source).
+ * for each program and in every run; _OPENCL_H_, the header's guard, keeps it out (in 3.1, and in the newest source).
  *
  * rusticl was still busy with kernels of eight lanes after five minutes of processor time. It ends the process over a binary that it
  * does not know, and has a cache of its own.

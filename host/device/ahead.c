@@ -4,7 +4,7 @@
 #include "cl/workarounds.h"
 #include "device/pipeline.h"
 
-enum { BVH8_BYTES = 52 }; /* a triangle, about: it is not there yet, and who foretells its kernels wrongly builds them for nothing */
+enum { BVH8_BYTES = 52 }; /* a triangle, about: the BVH is not built yet. A wrong guess costs the time of kernels that are built for nothing. */
 
 void ec_build_ahead(ec_cl *cl, const ec_cargo *cargo, const ec_render_effects *effects, uint32_t width, uint32_t height, uint32_t batch)
 {
