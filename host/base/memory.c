@@ -135,7 +135,7 @@ void *ec_shared_alloc(uint64_t bytes)
     const uint64_t alignment = bytes < 2 * HUGE_PAGE ? EC_SHARED_ALIGNMENT : HUGE_PAGE, size = (bytes / alignment + 1) * alignment;
     void *memory = aligned_alloc(alignment, size);
 #ifdef MADV_HUGEPAGE
-    if (memory && alignment == HUGE_PAGE) (void)madvise(memory, size, MADV_HUGEPAGE); /* asked for, no more: rays go from page to page */
+    if (memory && alignment == HUGE_PAGE) (void)madvise(memory, size, MADV_HUGEPAGE); /* a wish: rays go all over it, and there are too few entries for small pages */
 #endif
     return memory;
 }

@@ -312,13 +312,14 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     if (scene->motion.segments && !ec_traces_paths(o->integrator))
         return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");
     EC_TRY(ec_pipeline_set_camera(&scene->cameras[o->camera], o, &head->params, err));
-    if (o->integrator != EC_INTEGRATOR_RASTER) EC_TRY(choose_accels(head, scene, o->accel, kinds, err));
+    const bool traces = o->integrator != EC_INTEGRATOR_RASTER;
+    if (traces) EC_TRY(choose_accels(head, scene, o->accel, kinds, err));
     double start = ec_now();
     EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, alone, batch, err));
     stats->pack_seconds = ec_now() - start;
     start = ec_now();
-    if (o->integrator != EC_INTEGRATOR_RASTER) EC_TRY(add_accels(cargo, scene, o, err));
-    if (o->followed && o->integrator != EC_INTEGRATOR_RASTER) stats->followed = o->followed->report;
+    if (traces) EC_TRY(add_accels(cargo, scene, o, err));
+    if (traces && o->followed) stats->followed = o->followed->report;
     stats->accel_seconds = ec_now() - start;
     start = ec_now();
     EC_TRY(add_packed(cargo, scene, called_for, o, batch, stats, err));

@@ -5,14 +5,13 @@
 #define EC_SHARED_BUILTINS_H
 #ifdef EC_OWN_BUILTINS
 
-#ifndef _OPENCL_BASE_H_
+#ifndef _OPENCL_BASE_H_ /* PoCL has types in a header of their own; Oclgrind, where PoCL's row is forced, has them in the one that is kept out */
 typedef unsigned char uchar;
 typedef unsigned int uint;
 typedef unsigned long ulong;
 typedef __SIZE_TYPE__ size_t;
 #define EC_VECTORS(type)                                                                                                                \
     typedef type type##2 __attribute__((ext_vector_type(2)));                                                                           \
-    typedef type type##3 __attribute__((ext_vector_type(3)));                                                                           \
     typedef type type##4 __attribute__((ext_vector_type(4)));                                                                           \
     typedef type type##8 __attribute__((ext_vector_type(8)));                                                                           \
     typedef type type##16 __attribute__((ext_vector_type(16)));
