@@ -13,6 +13,10 @@ EVERY = [["--integrator", "path", "--accel", accel] for accel in ("bvh2", "bvh8"
         [["--integrator", "whitted", "--accel", "bvh2"], ["--integrator", "raster"]]
 
 
+# Options that only the driver that renders here is given (host/cl/workarounds.c).
+OF_POCL = {"-D_OPENCL_H_", "-DEC_OWN_BUILTINS"}
+
+
 class NoKernels(Exception):
     pass
 
@@ -24,7 +28,7 @@ class Source:
         with open(path, encoding="utf-8") as file:
             first = file.readline()
         self.path, self.label = path, label
-        self.options = first.removeprefix("// options: ").split()
+        self.options = [option for option in first.removeprefix("// options: ").split() if option not in OF_POCL]
 
 
 def of_scene(words, folder):
