@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <sha2.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/sha256.h"
 
 #define EC_CACHE_MAGIC "eclatkb1"
 #define EC_CACHE_LARGEST ((uint64_t)1 << 30)
@@ -24,18 +24,18 @@ typedef struct cache_header {
 
 static void sha256(const unsigned char *data, size_t bytes, uint8_t digest[32])
 {
-    SHA2_CTX context;
-    SHA256Init(&context);
-    SHA256Update(&context, data, bytes);
-    SHA256Final(digest, &context);
+    ec_sha256 hash;
+    ec_sha256_begin(&hash);
+    ec_sha256_add(&hash, data, bytes);
+    ec_sha256_end(&hash, digest);
 }
 
 /* The length goes in front: otherwise moving a character from one text to the next would leave the key as it is. */
-static void add_text(SHA2_CTX *context, const char *text)
+static void add_text(ec_sha256 *hash, const char *text)
 {
     uint64_t length = strlen(text);
-    SHA256Update(context, (const uint8_t *)&length, sizeof length);
-    SHA256Update(context, (const uint8_t *)text, length);
+    ec_sha256_add(hash, &length, sizeof length);
+    ec_sha256_add(hash, text, length);
 }
 
 ec_cache_key ec_cache_key_of(const ec_device_info *device, const char *source, const char *options)
@@ -43,12 +43,12 @@ ec_cache_key ec_cache_key_of(const ec_device_info *device, const char *source, c
     const char *parts[] = {EC_CACHE_MAGIC,  source,         options,
                            device->name,    device->vendor, device->version,
                            device->driver,  device->platform_name, device->platform_version};
-    SHA2_CTX context;
-    SHA256Init(&context);
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) add_text(&context, parts[i]);
+    ec_sha256 hash;
+    ec_sha256_begin(&hash);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) add_text(&hash, parts[i]);
     ec_cache_key key;
-    SHA256Final(key.bytes, &context);
-    for (int i = 0; i < 32; i++) snprintf(key.hex + 2 * i, 3, "%02x", key.bytes[i]);
+    ec_sha256_end(&hash, key.bytes);
+    ec_sha256_write(key.bytes, sizeof key.bytes, key.hex);
     return key;
 }
 

@@ -2,19 +2,17 @@
  * waves: they make no difference to a sample. */
 #include "device/content.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <sys/types.h>
 
-#include <sha2.h>
-
+#include "base/sha256.h"
 #include "device/light_share.h"
 #include "device/pipeline.h"
 
-static void add(SHA2_CTX *digests, ec_content_id id, const void *bytes, uint64_t size)
+static void add(ec_sha256 *digests, ec_content_id id, const void *bytes, uint64_t size)
 {
-    SHA256Update(&digests[id], (const uint8_t *)&size, sizeof size);
-    if (size) SHA256Update(&digests[id], bytes, (size_t)size);
+    ec_sha256_add(&digests[id], &size, sizeof size);
+    if (size) ec_sha256_add(&digests[id], bytes, (size_t)size);
 }
 
 static ec_content_id group_of(ec_arg arg)
@@ -35,14 +33,14 @@ static ec_content_id group_of(ec_arg arg)
     }
 }
 
-static void add_buffers(SHA2_CTX *digests, const ec_scene *scene, const ec_pack *pack, ec_render_effects effects)
+static void add_buffers(ec_sha256 *digests, const ec_scene *scene, const ec_pack *pack, ec_render_effects effects)
 {
     ec_upload plan[EC_SCENE_BUFFERS];
     uint32_t count = ec_upload_plan(scene, pack, plan, &effects);
     for (uint32_t i = 0; i < count; i++) {
         const ec_upload *u = &plan[i];
         ec_content_id id = group_of(u->arg);
-        SHA256Update(&digests[id], (const uint8_t *)u->buffer.label, strlen(u->buffer.label));
+        ec_sha256_add(&digests[id], u->buffer.label, strlen(u->buffer.label));
         if (u->data) add(digests, id, u->data, u->buffer.bytes ? u->buffer.bytes - u->slack : 0);
         for (int set = 0; !u->data && u->buffer.bytes && set < 2; set++)
             add(digests, id, scene->uv[set], scene->uv[set] ? 8ull * scene->vertex_count : 0);
@@ -50,7 +48,7 @@ static void add_buffers(SHA2_CTX *digests, const ec_scene *scene, const ec_pack 
 }
 
 /* Not with the scene's buffers: only that of the chosen camera goes to the device. */
-static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
+static void add_moving_cameras(ec_sha256 *digests, const ec_motion *motion)
 {
     for (uint32_t i = 0; i < motion->camera_count * (motion->segments + 1); i++) {
         const ec_camera *c = &motion->cameras[i];
@@ -64,7 +62,7 @@ static void add_moving_cameras(SHA2_CTX *digests, const ec_motion *motion)
 #define TAKE(id, field) (add(digests, id, &p.field, sizeof p.field), memset(&p.field, 0, sizeof p.field))
 
 /* Field by field what is the camera's and the environment's; what is left is settings. */
-static void add_params(SHA2_CTX *digests, ec_params p)
+static void add_params(ec_sha256 *digests, ec_params p)
 {
     p.batch = p.first_sample = p.wave = p.part = p.film_rows = p.light_apart = 0;
     p.limit = 0; /* limit and share of lights follow from what else there is */
@@ -97,23 +95,23 @@ static void add_params(SHA2_CTX *digests, ec_params p)
     add(digests, EC_CONTENT_SETTINGS, &p, sizeof p);
 }
 
-static void add_kernels(SHA2_CTX *digests)
+static void add_kernels(ec_sha256 *digests)
 {
     for (const char *const *name = ec_kernel_source_names(); *name; name++)
         add(digests, EC_CONTENT_KERNELS, ec_kernel_source(*name), strlen(ec_kernel_source(*name)));
 }
 
-static void write_digest(SHA2_CTX *digest, char text[33])
+static void write_digest(ec_sha256 *digest, char text[33])
 {
-    uint8_t bytes[SHA256_DIGEST_LENGTH];
-    SHA256Final(bytes, digest);
-    for (int k = 0; k < 16; k++) snprintf(text + 2 * k, 3, "%02x", bytes[k]);
+    uint8_t bytes[EC_SHA256_BYTES];
+    ec_sha256_end(digest, bytes);
+    ec_sha256_write(bytes, 16, text);
 }
 
 void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content)
 {
-    SHA2_CTX digests[EC_CONTENT_COUNT];
-    for (int i = 0; i < EC_CONTENT_COUNT; i++) SHA256Init(&digests[i]);
+    ec_sha256 digests[EC_CONTENT_COUNT];
+    for (int i = 0; i < EC_CONTENT_COUNT; i++) ec_sha256_begin(&digests[i]);
     add_buffers(digests, scene, pack, head->effects);
     add_params(digests, head->params);
     const uint64_t called = content->called = head->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
@@ -125,8 +123,8 @@ void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec
 
 void ec_content_kernels(char digest[33])
 {
-    SHA2_CTX digests[EC_CONTENT_COUNT];
-    SHA256Init(&digests[EC_CONTENT_KERNELS]);
+    ec_sha256 digests[EC_CONTENT_COUNT];
+    ec_sha256_begin(&digests[EC_CONTENT_KERNELS]);
     add_kernels(digests);
     write_digest(&digests[EC_CONTENT_KERNELS], digest);
 }

@@ -1,20 +1,17 @@
 /* Hashes every file of a document: two documents with the same digest give the same scenes. */
-#include <sys/types.h>
-
-#include <sha2.h>
-
 #include "base/freed.h"
+#include "base/sha256.h"
 #include "gltf/gltf.h"
 
 /* A chain: what came before, how many bytes, and these. */
 void ec_gltf_digest_add(ec_gltf *g, const uint8_t *bytes, uint64_t length)
 {
-    SHA2_CTX digest;
-    SHA256Init(&digest);
-    SHA256Update(&digest, g->digest, sizeof g->digest);
-    SHA256Update(&digest, (const uint8_t *)&length, sizeof length);
-    if (length) SHA256Update(&digest, bytes, (size_t)length);
-    SHA256Final(g->digest, &digest);
+    ec_sha256 hash;
+    ec_sha256_begin(&hash);
+    ec_sha256_add(&hash, g->digest, sizeof g->digest);
+    ec_sha256_add(&hash, &length, sizeof length);
+    ec_sha256_add(&hash, bytes, (size_t)length);
+    ec_sha256_end(&hash, g->digest);
 }
 
 /* An image that cannot be read is one that the scene goes without. */

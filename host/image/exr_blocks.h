@@ -8,16 +8,16 @@
 
 /* A chunk on its way: packed, as the predictor leaves it, and compressed. */
 typedef struct ec_exr_block {
-    struct libdeflate_compressor *compressor; /* owned; made when it is needed */
-    uint8_t *memory;                          /* owned */
+    struct ec_exr_compressor *compressor; /* owned; made when it is needed */
+    uint8_t *memory;                      /* owned */
     size_t room;
-    const uint8_t *data;                      /* what of that goes into the file */
+    const uint8_t *data;                  /* what of that goes into the file */
     size_t size;
 } ec_exr_block;
 
 /* Several for each thread, so that none waits for the slowest. */
 typedef struct ec_exr_blocks {
-    ec_exr_block *each;          /* owned */
+    ec_exr_block *each; /* owned */
     uint32_t count;
 } ec_exr_blocks;
 

@@ -3,36 +3,24 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/types.h>
 #include <unistd.h>
 
-#include <sha2.h>
-
 #include "base/atomic_file.h"
-#include "base/freed.h"
+#include "base/sha256.h"
 #include "image/image.h"
 
 static const char mark[] = "eclat: sealed by SHA-256\n";
-enum { MARK_SIZE = sizeof mark - 1, SEAL_SIZE = MARK_SIZE + SHA256_DIGEST_LENGTH, AT_ONCE = 1 << 20 };
+enum { MARK_SIZE = sizeof mark - 1, SEAL_SIZE = MARK_SIZE + EC_SHA256_BYTES };
 
 /* The fingerprint of the first `size` bytes; 0 or an errno value. */
-static int digest_of(int fd, off_t size, uint8_t digest[SHA256_DIGEST_LENGTH])
+static int digest_of(int fd, off_t size, uint8_t digest[EC_SHA256_BYTES])
 {
-    EC_FREED uint8_t *bytes = malloc(AT_ONCE);
-    SHA2_CTX context;
-    int failed = bytes ? 0 : ENOMEM;
-    SHA256Init(&context);
-    for (off_t done = 0; !failed && done < size;) {
-        size_t wanted = size - done < AT_ONCE ? (size_t)(size - done) : AT_ONCE;
-        ssize_t got = pread(fd, bytes, wanted, done);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) failed = got < 0 ? errno : EIO;
-        else SHA256Update(&context, bytes, (size_t)got);
-        done += got;
-    }
-    SHA256Final(digest, &context);
+    ec_sha256 hash;
+    ec_sha256_begin(&hash);
+    const int failed = ec_sha256_add_file(&hash, fd, (uint64_t)size);
+    ec_sha256_end(&hash, digest);
     return failed;
 }
 
@@ -48,7 +36,7 @@ int ec_seal(int fd)
 
 static ec_result check(int fd, const char *path, ec_error *err)
 {
-    uint8_t seal[SEAL_SIZE], digest[SHA256_DIGEST_LENGTH];
+    uint8_t seal[SEAL_SIZE], digest[EC_SHA256_BYTES];
     off_t size = lseek(fd, 0, SEEK_END);
     int is_sealed = size > SEAL_SIZE && pread(fd, seal, SEAL_SIZE, size - SEAL_SIZE) == SEAL_SIZE && !memcmp(seal, mark, MARK_SIZE);
     if (!is_sealed)

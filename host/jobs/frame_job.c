@@ -6,8 +6,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include <sha2.h>
-
+#include "base/sha256.h"
 #include "jobs/given.h"
 #include "image/exr_header.h"
 #include "image/seal.h"
@@ -36,17 +35,15 @@ static void add(ec_identity *identity, const char *name, const char *value) { pu
 /* A file that an option names counts by its bytes, not by its name. */
 static ec_result add_file(ec_identity *identity, const char *option, const char *environment, ec_error *err)
 {
-    char text[96];
+    char hex[EC_SHA256_TEXT], text[96];
     if (!environment) return EC_OK;
     if (ec_is_built_in(environment) || access(environment, R_OK) != 0) {
         add(identity, option, environment);
         return EC_OK;
     }
     EC_TRY(ec_image_check_regular(environment, err));
-    char *hex = SHA256File(environment, NULL);
-    if (!hex) return ec_fail(err, "cannot read '%s'", environment);
+    if (!ec_sha256_file(environment, hex)) return ec_fail(err, "cannot read '%s'", environment);
     snprintf(text, sizeof text, "the file of SHA-256 %s", hex);
-    free(hex);
     add(identity, option, text);
     return EC_OK;
 }

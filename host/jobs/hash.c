@@ -1,7 +1,7 @@
 #include "jobs/hash.h"
 
-#include <stdio.h>
 #include <string.h>
+
 enum { FLOATS_AT_ONCE = 1024 };
 
 static void put_little_endian(const float *from, size_t count, uint8_t *to)
@@ -13,7 +13,7 @@ static void put_little_endian(const float *from, size_t count, uint8_t *to)
     }
 }
 
-void ec_hash_begin(ec_hash *hash) { SHA256Init(&hash->context); }
+void ec_hash_begin(ec_hash *hash) { ec_sha256_begin(&hash->sha256); }
 
 void ec_hash_add(ec_hash *hash, const float *rgb, uint64_t pixel_count)
 {
@@ -21,17 +21,12 @@ void ec_hash_add(ec_hash *hash, const float *rgb, uint64_t pixel_count)
     for (uint64_t done = 0, all = 3 * pixel_count; done < all;) {
         size_t count = all - done < FLOATS_AT_ONCE ? (size_t)(all - done) : FLOATS_AT_ONCE;
         put_little_endian(rgb + done, count, bytes);
-        SHA256Update(&hash->context, bytes, 4 * count);
+        ec_sha256_add(&hash->sha256, bytes, 4 * count);
         done += count;
     }
 }
 
-void ec_hash_end(ec_hash *hash, char text[EC_HASH_SIZE])
-{
-    uint8_t digest[SHA256_DIGEST_LENGTH];
-    SHA256Final(digest, &hash->context);
-    for (int i = 0; i < SHA256_DIGEST_LENGTH; i++) snprintf(text + 2 * i, 3, "%02x", digest[i]);
-}
+void ec_hash_end(ec_hash *hash, char text[EC_HASH_SIZE]) { ec_sha256_end_text(&hash->sha256, text); }
 
 void ec_hash_rgb(const float *rgb, uint64_t pixel_count, char text[EC_HASH_SIZE])
 {

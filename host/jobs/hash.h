@@ -4,13 +4,13 @@
 
 #include <stdint.h>
 
-#include <sha2.h>
+#include "base/sha256.h"
 
-enum { EC_HASH_SIZE = 65 };
+enum { EC_HASH_SIZE = EC_SHA256_TEXT };
 
 /* Hashes pixels that come one after the other. */
 typedef struct ec_hash {
-    SHA2_CTX context;
+    ec_sha256 sha256;
 } ec_hash;
 void ec_hash_begin(ec_hash *hash);
 void ec_hash_add(ec_hash *hash, const float *rgb, uint64_t pixel_count);

@@ -5,9 +5,9 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include <sha2.h>
 
 #include "base/clock.h"
+#include "base/sha256.h"
 #include "base/text.h"
 #include "image/image.h"
 #include "jobs/frame_job.h"
@@ -86,21 +86,21 @@ static ec_result find_devices(series *s, ec_error *err)
 }
 
 /* Of the bytes of all files that a scene is made of; what is not there is told of when it is loaded. */
-static void digest_scene(const char *scene, char hex[SHA256_DIGEST_STRING_LENGTH])
+static void digest_scene(const char *scene, char hex[EC_SHA256_TEXT])
 {
     ec_scene_files files = {0};
     ec_error ignored;
-    SHA2_CTX all;
-    SHA256Init(&all);
+    ec_sha256 all;
+    ec_sha256_begin(&all);
     ec_scene_files_list(scene, &files);
     for (uint32_t i = 0; i < files.count; i++) {
         const bool is_there = access(files.paths[i], R_OK) == 0 && ec_image_check_regular(files.paths[i], &ignored) == EC_OK;
-        char *one = is_there ? SHA256File(files.paths[i], NULL) : NULL;
-        SHA256Update(&all, (const uint8_t *)(one ? one : "-"), one ? strlen(one) : 1);
-        free(one);
+        char one[EC_SHA256_TEXT] = "-";
+        if (is_there) (void)ec_sha256_file(files.paths[i], one);
+        ec_sha256_add(&all, one, strlen(one));
     }
     ec_scene_files_free(&files);
-    SHA256End(&all, hex);
+    ec_sha256_end_text(&all, hex);
 }
 
 static ec_result tell_json(const series *s, cJSON *object, ec_error *err)
@@ -143,7 +143,7 @@ static ec_result render(series *s, uint32_t i, ec_render_request *r, const ec_id
 static ec_result take_picture(series *s, uint32_t i, ec_render_request *r, bool *stopped, ec_error *err)
 {
     const ec_entry *entry = &s->entries->list[i];
-    char files[SHA256_DIGEST_STRING_LENGTH], difference[PATH_MAX + 1400];
+    char files[EC_SHA256_TEXT], difference[PATH_MAX + 1400];
     ec_identity identity;
     digest_scene(r->scene, files);
     EC_TRY(ec_frames_identify(&entry->given, r, files, &identity, err));

@@ -39,7 +39,7 @@ class Files(unittest.TestCase):
             text = read("tools", f"packages.{system}")
             self.assertIn("UNTESTED", text.split("\n\n")[0])
             names = set(re.sub(r"#.*", "", text).split())
-            for part in ("cmake", "boost", "cjson", "deflate", "imath", "jpeg", "libmd", "openexr", "libpng", "json", "zlib", "draco", "webp", "pocl",
+            for part in ("cmake", "boost", "cjson", "imath", "isa-l", "jpeg", "nettle", "openexr", "libpng", "json", "zlib", "draco", "webp", "pocl",
                          "opencl-headers"):
                 self.assertTrue(any(part in name for name in names), f"{system}: {part}")
 
