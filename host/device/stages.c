@@ -110,9 +110,9 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_WHITTED] = {"whitted", "grow ray trees", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES, EC_ARG_COUNTERS, ARGS(whitted)},
     [EC_WHITTED_LIGHT] = {"whitted_light", "shade one light", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES | EC_FEATURE_MATCHED,
                           EC_ARG_COUNTERS, ARGS(whitted_light)},
-    [EC_ACCUMULATE] = {"accumulate", "accumulate", EC_OF_ALL, 1, 0, 0, EC_ARG_PIXEL_COUNT, ARGS(accumulate)},
-    [EC_STORE_FEATURES] = {"features", "accumulate first-hit features", EC_OF_ALL, 1, 0, 0, EC_ARG_PIXEL_COUNT, ARGS(store_features)},
-    [EC_SLOT_LAYERS] = {"slot_layers", "accumulate layers", EC_OF_ALL, 1, EC_FEATURE_LAYERS, 0, EC_ARG_PIXEL_COUNT, ARGS(slot_layers)},
+    [EC_ACCUMULATE] = {"accumulate", "accumulate", EC_OF_ALL, EC_LANES_OF_PIPELINE, 0, 0, EC_ARG_PIXEL_COUNT, ARGS(accumulate)},
+    [EC_STORE_FEATURES] = {"features", "accumulate first-hit features", EC_OF_ALL, EC_LANES_OF_PIPELINE, 0, 0, EC_ARG_PIXEL_COUNT, ARGS(store_features)},
+    [EC_SLOT_LAYERS] = {"slot_layers", "accumulate layers", EC_OF_ALL, EC_LANES_OF_PIPELINE, EC_FEATURE_LAYERS, 0, EC_ARG_PIXEL_COUNT, ARGS(slot_layers)},
 };
 
 bool ec_stage_is_of(const ec_stage_entry *stage, ec_integrator integrator, uint64_t features)

@@ -40,12 +40,12 @@ EC_FN void pixel_to_xy(constant ec_params *params, lane_u pixel, lane_u *x, lane
     *y = tile_row * EC_TILE + line;
 }
 
-EC_FN void pixel_to_xy_one(constant ec_params *params, uint pixel, uint *x, uint *y)
+/* Where pixels stand in a film in row order from film_row on. */
+EC_FN void pixel_to_places(constant ec_params *params, lane_u pixel, uint places[LANES])
 {
-    lane_u xs, ys;
-    pixel_to_xy(params, U(pixel), &xs, &ys);
-    *x = LANE(xs, 0);
-    *y = LANE(ys, 0);
+    lane_u x, y;
+    pixel_to_xy(params, pixel, &x, &y);
+    LANE_STORE((y - params->film_row) * params->width + x, places);
 }
 
 #endif

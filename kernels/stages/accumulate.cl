@@ -77,17 +77,22 @@ static void add_splats(global const uint *splat, float unit, uint batch, global 
     DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, pixel_count) DO(global float *, radiance) DO(global float *, batch_film)       \
     DO(global const uint *, splats)
 
-EC_KERNEL(ec_accumulate, 1u, ACCUMULATE_PARAMETERS, slot_entries(pixel_count, i))
+static void accumulate_one(constant ec_params *params, global float *radiance, global const uint *splats, uint place, global float *out)
 {
     uint wave = params->wave, batch = params->batch;
-    uint x, y;
-    pixel_to_xy_one(params, first_pixel + i, &x, &y);
-    global float *out = batch_film + EC_BATCH_FIELDS * (pixel_list ? (ulong)(first_pixel + i)
-                                                                   : (ulong)(y - params->film_row) * params->width + x);
-    if (params->apart) limit_indirect(radiance + i * batch, wave, batch, params->limit);
-    for (uint c = 0; c < 3; c++) out[c] = mean_of(radiance + c * wave + i * batch, batch);
-    write_tail(radiance + i * batch, wave, batch, out);
-    if (params->light_paths > 0.0f && !params->light_apart)
-        add_splats(splats + EC_SPLAT_WORDS * ((ulong)(y - params->film_row) * params->width + x), params->splat_unit, batch, out);
-    if (params->apart) write_cut(radiance + 3 * (ulong)wave + i * batch, batch, params->limit, out);
+    if (params->apart) limit_indirect(radiance, wave, batch, params->limit);
+    for (uint c = 0; c < 3; c++) out[c] = mean_of(radiance + c * wave, batch);
+    write_tail(radiance, wave, batch, out);
+    if (params->light_paths > 0.0f && !params->light_apart) add_splats(splats + EC_SPLAT_WORDS * (ulong)place, params->splat_unit, batch, out);
+    if (params->apart) write_cut(radiance + 3 * (ulong)wave, batch, params->limit, out);
+}
+
+EC_KERNEL(ec_accumulate, LANES, ACCUMULATE_PARAMETERS, slot_entries(pixel_count, i))
+{
+    uint places[LANES];
+    pixel_to_places(params, LANE_NUMBERS + (first_pixel + i), places);
+    for (uint k = 0; k < min(left, (uint)LANES); k++) {
+        ulong entry = pixel_list ? first_pixel + i + k : places[k];
+        accumulate_one(params, radiance + (i + k) * params->batch, splats, places[k], batch_film + EC_BATCH_FIELDS * entry);
+    }
 }

@@ -7,15 +7,16 @@
 #define FEATURES_PARAMETERS(DO)                                                                                                                       \
     DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, pixel_count) DO(global const float *, aov) DO(global float *, feature_film)
 
-EC_KERNEL(ec_features, 1u, FEATURES_PARAMETERS, slot_entries(pixel_count, i))
+EC_KERNEL(ec_features, LANES, FEATURES_PARAMETERS, slot_entries(pixel_count, i))
 {
     uint wave = params->wave, batch = params->batch;
-    uint x, y;
-    pixel_to_xy_one(params, pixel_list ? pixel_list[EC_LIST_WORDS * (first_pixel + i)] : first_pixel + i, &x, &y);
-    global float *out = feature_film + EC_AOV_FIELDS * ((ulong)(y - params->film_row) * params->width + x);
-    for (uint c = 0; c < EC_AOV_FIELDS; c++) {
-        float sum = 0.0f;
-        for (uint s = 0; s < batch; s++) sum += aov[c * wave + i * batch + s];
-        out[c] = sum / (float)batch;
-    }
+    uint places[LANES];
+    lane_u pixel = LANE_NUMBERS + (first_pixel + i);
+    pixel_to_places(params, pixel_list ? gather_u(pixel_list, pixel * EC_LIST_WORDS) : pixel, places);
+    for (uint k = 0; k < min(left, (uint)LANES); k++)
+        for (uint c = 0; c < EC_AOV_FIELDS; c++) {
+            float sum = 0.0f;
+            for (uint s = 0; s < batch; s++) sum += aov[c * wave + (i + k) * batch + s];
+            feature_film[EC_AOV_FIELDS * (ulong)places[k] + c] = sum / (float)batch;
+        }
 }

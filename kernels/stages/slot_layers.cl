@@ -8,11 +8,13 @@
     DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(uint, pixel_count) DO(global const float *, radiance)                                \
     DO(global float *, layer_film)
 
-EC_KERNEL(ec_slot_layers, 1u, SLOT_LAYERS_PARAMETERS, slot_entries(pixel_count, i))
+EC_KERNEL(ec_slot_layers, LANES, SLOT_LAYERS_PARAMETERS, slot_entries(pixel_count, i))
 {
     uint wave = params->wave, batch = params->batch, fields = 3 * params->layer_count;
-    uint x, y;
-    pixel_to_xy_one(params, first_pixel + i, &x, &y);
-    ulong place = pixel_list ? (ulong)(first_pixel + i) : (ulong)(y - params->film_row) * params->width + x;
-    for (uint c = 0; c < fields; c++) layer_film[fields * place + c] = mean_of(radiance + (3 + c) * (ulong)wave + i * batch, batch);
+    uint places[LANES];
+    pixel_to_places(params, LANE_NUMBERS + (first_pixel + i), places);
+    for (uint k = 0; k < min(left, (uint)LANES); k++) {
+        ulong place = pixel_list ? first_pixel + i + k : places[k];
+        for (uint c = 0; c < fields; c++) layer_film[fields * place + c] = mean_of(radiance + (3 + c) * (ulong)wave + (i + k) * batch, batch);
+    }
 }

@@ -128,6 +128,7 @@ class LightPaths(OtherWay):
         again = self.render(*job, "--error", "40%", "--resume", self.path("e.exr"))
         self.assertEqual((again["adaptive"], again["image_sha256"]), (True, found["image_sha256"]))
 
+    @full
     def test_adaptive(self):
         """What light paths bring is a film of its own where pixels are due different numbers of samples; bits are the same on any way to it."""
         job = [scene("spheres"), "--light", "sky:120,40", "--size", "48x48", "--light-paths", "0.0625", "--adaptive"]

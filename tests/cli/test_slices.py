@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, read_alike, read_exr
+from support import CORNELL, ECLAT, ENVIRONMENT, NARROW, RING, Case, eclat, read_alike, read_exr
 from tiers import full
 
 SIZE = ["--size", "20x18"]
@@ -19,7 +19,8 @@ class Slices(Case):
     def render(self, name, *options, scene=CORNELL):
         path = self.path(name)
         every = () if "--samples" in options else ("--channels", "all")
-        self.assert_ok(eclat("render", scene, *SIZE, *options, *every, "-q", "-o", path))
+        compile = () if "--lanes" in options else NARROW
+        self.assert_ok(eclat("render", scene, *SIZE, *options, *every, *compile, "-q", "-o", path))
         return path
 
     def merge(self, *arguments):

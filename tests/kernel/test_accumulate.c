@@ -76,19 +76,24 @@ static void check_wave(ec_cl *cl, cl_program program, uint32_t batch, uint32_t f
         for (uint32_t k = 0; k < EC_BATCH_FIELDS && !is_of_wave[i]; k++) CHECK(film[EC_BATCH_FIELDS * i + k] == -7);
 }
 
+static void check_width(ec_cl *cl, int lanes)
+{
+    cl_program program = kernel_build(cl, "accumulate", lanes, NULL);
+    const uint32_t batches[] = {1, 2, 4, 64, 65, MOST};
+    for (size_t i = 0; program && i < sizeof batches / sizeof *batches; i++) {
+        check_wave(cl, program, batches[i], 0, PIXELS, false);
+        check_wave(cl, program, batches[i], 30, 41, false);
+        check_wave(cl, program, batches[i], 7, 50, true);
+    }
+    if (program) clReleaseProgram(program);
+}
+
 int main(void)
 {
     ec_cl cl;
     const int opened = kernel_open(&cl);
     if (opened) return opened;
-    cl_program program = kernel_build(&cl, "accumulate", 1, NULL);
-    const uint32_t batches[] = {1, 2, 4, 64, 65, MOST};
-    for (size_t i = 0; program && i < sizeof batches / sizeof *batches; i++) {
-        check_wave(&cl, program, batches[i], 0, PIXELS, false);
-        check_wave(&cl, program, batches[i], 30, 41, false);
-        check_wave(&cl, program, batches[i], 7, 50, true);
-    }
-    if (program) clReleaseProgram(program);
+    for (int i = 0; i < LANE_WIDTHS; i++) check_width(&cl, lane_widths[i]);
     ec_cl_close(&cl);
     TEST_END();
 }
