@@ -29,6 +29,7 @@ typedef struct ec_render_stats {
     uint64_t samples_per_pixel, samples, rays; /* samples: in the film; rays: those of a batch that was given up too */
     double samples_per_second, rays_per_second;
     ec_film_error film;           /* the error, its bound, or why there is none */
+    ec_error_sums sums;           /* what that is made of; zeros: it is of no one film */
     ec_forecast forecast;         /* the pilot's */
     bool is_clean;                /* film->clean is of all its samples: the last look at its error */
     double clamp_luminance;       /* most of a sample's indirect light; 0: no limit */

@@ -167,6 +167,9 @@ typedef struct ec_error_sums {
 } ec_error_sums;
 void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums);
 
+/* ec_film_estimate_error, and what it is made of. */
+ec_film_error ec_film_look_at_error(const ec_film *film, ec_error_sums *sums);
+
 /* The error of so many pixels that have `replicates` replicates each. rare, limit: as ec_film's. */
 ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare, double limit);
 

@@ -223,10 +223,16 @@ ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_
     return result;
 }
 
+ec_film_error ec_film_look_at_error(const ec_film *film, ec_error_sums *sums)
+{
+    const uint32_t replicates = ec_film_replicates(film);
+    *sums = (ec_error_sums){0};
+    if (replicates) ec_film_sum_errors(film, sums);
+    return ec_film_error_of(sums, (double)film->width * film->height, replicates, film->rare, film->limit);
+}
+
 ec_film_error ec_film_estimate_error(const ec_film *film)
 {
-    ec_error_sums sums = {0};
-    const uint32_t replicates = ec_film_replicates(film);
-    if (replicates) ec_film_sum_errors(film, &sums);
-    return ec_film_error_of(&sums, (double)film->width * film->height, replicates, film->rare, film->limit);
+    ec_error_sums sums;
+    return ec_film_look_at_error(film, &sums);
 }

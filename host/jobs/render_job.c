@@ -297,7 +297,7 @@ ec_render_report ec_render_job_report(ec_render_job *job, const char *outputs[EC
         .view = &request->ocio,
         .ocio = job->ocio,
         .is_png_deep = request->png_depth != 0,
-        .mean_luminance = ec_film_estimate_error(&job->film).mean_luminance,
+        .mean_luminance = job->stats.film.mean_luminance,
         .replicates = ec_film_replicates(&job->film),
         .denoised = request->options.denoise ? &job->denoised : NULL,
         .load_seconds = job->load_seconds,

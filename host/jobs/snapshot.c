@@ -24,7 +24,8 @@ static uint32_t list(const ec_render_job *job, const ec_film_error *error, const
 ec_result ec_snapshot_write(ec_render_job *job, const ec_film *film, const ec_past *past, ec_error *err)
 {
     const ec_render_request *request = job->request;
-    const ec_film_error error = ec_film_estimate_error(film);
+    ec_error_sums sums;
+    const ec_film_error error = ec_film_look_at_error(film, &sums);
     ec_attribute attributes[ATTRIBUTES];
     ec_outputs file = {.count = 0};
     ec_row_writer *writer;
@@ -34,7 +35,7 @@ ec_result ec_snapshot_write(ec_render_job *job, const ec_film *film, const ec_pa
                                     .attributes = attributes,
                                     .attribute_count = list(job, &error, past, attributes)};
     EC_TRY(ec_outputs_add(&file, request->snapshot, err));
-    EC_TRY(ec_row_writer_open(&writer, &file, film, film->height, &style, 0, err));
+    EC_TRY(ec_row_writer_open(&writer, &file, film, &sums, film->height, &style, 0, err));
     const ec_result result = ec_row_writer_finish(writer, &told, err);
     if (result != EC_OK) {
         ec_row_writer_abort(writer);

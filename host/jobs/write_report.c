@@ -51,7 +51,8 @@ ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, ec_ch
                                     .attribute_count = attributes.count,
                                     .text = {EC_FRAME_ATTRIBUTE, report->frame ? report->frame->job : NULL},
                                     .is_sealed = report->frame != NULL};
-    ec_result result = ec_row_writer_open(writer, outputs, film, height, &style, room, err);
+    const ec_error_sums *sums = &report->stats->sums;
+    ec_result result = ec_row_writer_open(writer, outputs, film, sums->samples > 0 && film->height == height ? sums : NULL, height, &style, room, err);
     report->image_sha256 = "";
     return result;
 }

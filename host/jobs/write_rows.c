@@ -79,7 +79,7 @@ static void list_channels(const ec_row_writer *w, ec_channel_list *channels)
     ec_channels_choose(channels, w->wanted, w->wide_errors);
 }
 
-static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
+static ec_result create(ec_row_writer *w, const ec_film *film, const ec_error_sums *sums, ec_error *err)
 {
     const uint32_t rows = w->height < w->band_rows ? w->height : w->band_rows;
     const bool with_intervals = w->wanted & ec_channels_of(EC_PLANE_LOW) || w->wanted & ec_channels_of(EC_PLANE_HIGH);
@@ -88,7 +88,8 @@ static ec_result create(ec_row_writer *w, const ec_film *film, ec_error *err)
     if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
     w->band.aov = film->aov;
     w->band.clean = film->clean;
-    ec_film_sum_errors(film, &w->sums);
+    if (sums) w->sums = *sums;
+    else ec_film_sum_errors(film, &w->sums);
     w->wide_errors = are_errors_wide(&w->sums, (uint64_t)film->width * film->height);
     list_channels(w, &w->channels);
     w->bytes = malloc((size_t)w->width * rows * 12); /* floats at most */
@@ -222,7 +223,7 @@ static ec_result take(ec_row_writer *w, const ec_film *film, ec_error *err)
     return fail_without_files(w, err);
 }
 
-ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec_film *film, uint32_t height,
+ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec_film *film, const ec_error_sums *sums, uint32_t height,
                              const ec_picture_style *style, uint32_t room, ec_error *err)
 {
     ec_row_writer *w = calloc(1, sizeof *w);
@@ -238,7 +239,7 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
     w->wanted = style->channels;
     w->style = *style;
     ec_hash_begin(&w->hash);
-    if (create(w, film, err) != EC_OK) {
+    if (create(w, film, sums, err) != EC_OK) {
         ec_row_writer_abort(w);
         return EC_FAILED;
     }

@@ -9,10 +9,10 @@
 typedef struct ec_row_writer ec_row_writer;
 
 /* Begins with the rows of `film`, the first ones: what they have, an error and first-hit features perhaps, all have; and where their standard
- * errors do not fit into half floats, all errors are floats. The style's attributes are those of the beginning; they may become longer or shorter by
- * `room` bytes (image.h). outputs must live as long.
+ * errors do not fit into half floats, all errors are floats. sums: of a film that is all of the picture; NULL: not known. The style's attributes
+ * are those of the beginning; they may become longer or shorter by `room` bytes (image.h). outputs must live as long.
  * A file that cannot be written does not keep the others from being written: what failed first is told at the end. */
-ec_result ec_row_writer_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, uint32_t height,
+ec_result ec_row_writer_open(ec_row_writer **writer, ec_outputs *outputs, const ec_film *film, const ec_error_sums *sums, uint32_t height,
                              const ec_picture_style *style, uint32_t room, ec_error *err);
 
 /* The next rows, a multiple of EC_EXR_ROWS or up to the last. Fails where no file is left that could be written. */

@@ -41,6 +41,7 @@ static ec_render_stats stats_of(const ec_renderer *r, const ec_render_options *o
     stats.samples = (uint64_t)options->spp * options->width * options->height;
     stats.samples_per_second = p->seconds > 0 ? (double)stats.samples / p->seconds : 0;
     stats.film = p->error;
+    stats.sums = (ec_error_sums){0};
     stats.invalid_samples = p->invalid;
     snprintf(stats.stopped_by, sizeof stats.stopped_by, "%s", p->stopped_by ? p->stopped_by : "user");
     return stats;

@@ -169,7 +169,7 @@ static void look_at_error(ec_render_state *r)
 {
     const double start = ec_now();
     if (r->is_looked_at) return;
-    r->error = ec_film_estimate_error(r->film);
+    r->error = ec_film_look_at_error(r->film, &r->sums);
     r->look_seconds = ec_now() - start;
     r->is_looked_at = true;
 }

@@ -27,6 +27,7 @@ typedef struct ec_render_state {
     uint32_t end;              /* whole batches end before this one; UINT32_MAX where no number of samples ends them */
     uint32_t cut;              /* samples that batch `end` lacks, where it is wanted: else 0 */
     ec_film_error error;
+    ec_error_sums sums;        /* of the film as it was looked at last */
     bool is_looked_at;         /* error is the film's as it is now */
     double look_seconds;       /* that this took; 0: not known */
     double look_cpu_seconds;   /* of looks at the picture's paths, which no limit of time counts */

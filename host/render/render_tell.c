@@ -54,6 +54,7 @@ void ec_render_finish_stats(ec_render_state *r)
     s->samples_per_second = s->seconds > 0.0 ? (double)s->samples / s->seconds : 0.0;
     s->rays_per_second = s->seconds > 0.0 ? (double)s->rays / s->seconds : 0.0;
     s->film = r->error;
+    s->sums = r->strip_rows ? (ec_error_sums){0} : r->sums;
     s->trace_seconds = r->source->clocked_rays > 0
                            ? r->source->clocked_seconds / r->source->clocked_rays * (double)s->rays
                            : s->seconds;

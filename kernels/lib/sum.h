@@ -20,6 +20,7 @@ EC_FN float sum_of(global const float *in, uint count, float scale)
 
 EC_FN float mean_of(global const float *in, uint count)
 {
+    if (count == 1u) return 0.0f + in[0]; /* as the sum would, never -0 */
     float mean = sum_of(in, count, 1.0f) / (float)count;
     return is_finite_one(mean) ? mean : sum_of(in, count, 1.0f / (float)count); /* their sum is more than a float holds */
 }

@@ -16,7 +16,8 @@ static void write_tail(global const float *in, uint wave, uint count, global flo
     float largest = 0.0f, squares = 0.0f, fourths = 0.0f;
     for (uint s = 0; s < count; s++) largest = max(largest, luminance_of(in, wave, s));
     largest = is_finite_one(largest) ? largest : MAXFLOAT;
-    for (uint s = 0; s < count && largest > 0.0f; s++) {
+    if (count == 1u && largest > 0.0f) squares = fourths = 1.0f;
+    for (uint s = 0; count > 1u && s < count && largest > 0.0f; s++) {
         float y = min(luminance_of(in, wave, s), largest) / largest, square = y * y;
         squares += square;
         fourths += square * square;
