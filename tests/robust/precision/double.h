@@ -30,6 +30,7 @@ typedef uint32_t uint;
 
 #define LANES 1
 #define LANE_NUMBERS 0u
+#define LANE_STORE(v, p) (*(p) = (v))
 #define LANE(v, k) (v)
 typedef double lane_f;
 typedef int32_t lane_i;
