@@ -12,7 +12,7 @@
 static void add(ec_sha256 *digests, ec_content_id id, const void *bytes, uint64_t size)
 {
     ec_sha256_add(&digests[id], &size, sizeof size);
-    if (size) ec_sha256_add(&digests[id], bytes, (size_t)size);
+    ec_sha256_add(&digests[id], bytes, (size_t)size);
 }
 
 static ec_content_id group_of(ec_arg arg)

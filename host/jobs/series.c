@@ -5,7 +5,6 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-
 #include "base/clock.h"
 #include "base/sha256.h"
 #include "base/text.h"

@@ -25,12 +25,12 @@ ec_result ec_snapshot_write(ec_render_job *job, const ec_film *film, const ec_pa
 {
     const ec_render_request *request = job->request;
     ec_error_sums sums;
-    const ec_film_error error = ec_film_look_at_error(film, &sums);
     ec_attribute attributes[ATTRIBUTES];
     ec_outputs file = {.count = 0};
     ec_row_writer *writer;
     ec_rows_told told;
     if (film->batch_count == 0 || film->batch_count == job->shot_batches) return EC_OK;
+    const ec_film_error error = ec_film_look_at_error(film, &sums);
     const ec_picture_style style = {.channels = ec_render_channels(request),
                                     .attributes = attributes,
                                     .attribute_count = list(job, &error, past, attributes)};

@@ -19,8 +19,8 @@ class Slices(Case):
     def render(self, name, *options, scene=CORNELL):
         path = self.path(name)
         every = () if "--samples" in options else ("--channels", "all")
-        compile = () if "--lanes" in options else NARROW
-        self.assert_ok(eclat("render", scene, *SIZE, *options, *every, *compile, "-q", "-o", path))
+        kernels = () if "--lanes" in options else NARROW
+        self.assert_ok(eclat("render", scene, *SIZE, *options, *every, *kernels, "-q", "-o", path))
         return path
 
     def merge(self, *arguments):
