@@ -46,7 +46,7 @@ static size_t compress(struct ec_exr_compressor *c, uint8_t *from, size_t bytes,
 /* For a chunk as it is packed, predicted and compressed. */
 static bool make_room(ec_exr_block *b, size_t bytes)
 {
-    if (!b->compressor) b->compressor = malloc(sizeof *b->compressor);
+    if (!b->compressor) b->compressor = calloc(1, sizeof *b->compressor); /* ISA-L reads a field that its init leaves */
     if (b->room >= 3 * bytes) return b->compressor != NULL;
     free(b->memory);
     b->memory = malloc(3 * bytes);

@@ -32,7 +32,7 @@ class Races(unittest.TestCase):
         build = subprocess.run(
             [CLANG, "-std=c11", "-g", "-O1", "-fsanitize=thread", "-fopenmp", "-ffp-contract=off", "-D_POSIX_C_SOURCE=200809L",
              "-D_DEFAULT_SOURCE", "-I", os.path.join(SOURCE, "host"), "-I", os.path.join(SOURCE, "kernels"), *sources, "-o",
-             program, *libraries, "-lm"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", timeout=600)
+             program, *libraries, "-lnettle", "-lm"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", timeout=600)
         if build.returncode:
             missing = [line for line in build.stdout.splitlines() if "libclang_rt.tsan" in line or "omp.h" in line or "-lomp" in line]
             if missing:
