@@ -1,19 +1,13 @@
 #include "image/exr_blocks.h"
 
-#include <isa-l/igzip_lib.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/deflate.h"
 #include "image/exr_pack.h"
 
-/* Noise hardly gets smaller by a higher level: docs/internals.md has what was tried. */
-enum { LEVEL = 2, LEVEL_ROOM = ISAL_DEF_LVL2_DEFAULT, BLOCKS_A_THREAD = 4 };
-
-struct ec_exr_compressor {
-    struct isal_zstream stream;
-    uint8_t room[LEVEL_ROOM];
-};
+enum { BLOCKS_A_THREAD = 4 };
 
 /* What OpenEXR's ZIP compresses: even bytes before odd ones, each as its difference from the one before, off by 128 (ImfZip.cpp). */
 static void predict(const uint8_t *packed, size_t bytes, uint8_t *to)
@@ -26,32 +20,15 @@ static void predict(const uint8_t *packed, size_t bytes, uint8_t *to)
     for (size_t i = 1; i < bytes / 2; i++) to[half + i] = (uint8_t)(packed[2 * i + 1] - packed[2 * i - 1] + 128);
 }
 
-/* The size of what has been written; 0: it would take more than `most` bytes. */
-static size_t compress(struct ec_exr_compressor *c, uint8_t *from, size_t bytes, uint8_t *to, size_t most)
-{
-    struct isal_zstream *z = &c->stream;
-    isal_deflate_stateless_init(z);
-    z->gzip_flag = IGZIP_ZLIB;
-    z->level = LEVEL;
-    z->level_buf = c->room;
-    z->level_buf_size = LEVEL_ROOM;
-    z->end_of_stream = 1;
-    z->next_in = from;
-    z->avail_in = (uint32_t)bytes;
-    z->next_out = to;
-    z->avail_out = (uint32_t)most;
-    return isal_deflate_stateless(z) == COMP_OK ? z->total_out : 0;
-}
-
 /* For a chunk as it is packed, predicted and compressed. */
 static bool make_room(ec_exr_block *b, size_t bytes)
 {
-    if (!b->compressor) b->compressor = calloc(1, sizeof *b->compressor); /* ISA-L reads a field that its init leaves */
-    if (b->room >= 3 * bytes) return b->compressor != NULL;
+    if (!b->deflate) b->deflate = ec_deflate_create();
+    if (b->room >= 3 * bytes) return b->deflate != NULL;
     free(b->memory);
     b->memory = malloc(3 * bytes);
     b->room = b->memory ? 3 * bytes : 0;
-    return b->memory != NULL && b->compressor != NULL;
+    return b->memory != NULL && b->deflate != NULL;
 }
 
 /* The part's channels in the file's order; false: it has others. */
@@ -85,7 +62,7 @@ static exr_result_t encode(ec_exr_block *b, const ec_exr_part *part, const ec_ch
     if (part->is_plain) return EXR_ERR_SUCCESS;
     uint8_t *const predicted = b->memory + bytes, *const packed = predicted + bytes;
     predict(b->memory, bytes, predicted);
-    const size_t size = compress(b->compressor, predicted, bytes, packed, bytes - 1);
+    const size_t size = ec_deflate_pack(b->deflate, EC_DEFLATE_ZLIB, predicted, bytes, packed, bytes - 1);
     if (size > 0) b->data = packed, b->size = size;
     return EXR_ERR_SUCCESS;
 }
@@ -125,7 +102,7 @@ exr_result_t ec_exr_blocks_write(ec_exr_blocks *blocks, exr_context_t context, i
 void ec_exr_blocks_free(ec_exr_blocks *blocks)
 {
     for (uint32_t k = 0; blocks->each && k < blocks->count; k++) {
-        free(blocks->each[k].compressor);
+        ec_deflate_free(blocks->each[k].deflate);
         free(blocks->each[k].memory);
     }
     free(blocks->each);

@@ -8,10 +8,10 @@
 
 /* A chunk on its way: packed, as the predictor leaves it, and compressed. */
 typedef struct ec_exr_block {
-    struct ec_exr_compressor *compressor; /* owned; made when it is needed */
-    uint8_t *memory;                      /* owned */
+    struct ec_deflate *deflate; /* owned; made when it is needed */
+    uint8_t *memory;            /* owned */
     size_t room;
-    const uint8_t *data;                  /* what of that goes into the file */
+    const uint8_t *data;        /* what of that goes into the file */
     size_t size;
 } ec_exr_block;
 

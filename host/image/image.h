@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "film/channels.h"
 #include "image/screen.h"
+#include "image/srgb.h"
 
 /* One EXR channel. */
 typedef struct ec_channel {
@@ -79,9 +80,6 @@ void ec_exr_free(ec_exr *exr);
 /* Equirectangular map, .hdr or .exr by content, to 3 floats a pixel (malloc'ed, caller frees). As in the file: nothing
  * is clamped here. */
 ec_result ec_image_read_rgb(const char *path, uint32_t *width, uint32_t *height, float **rgb, ec_error *err);
-
-double ec_srgb_to_linear(double encoded); /* IEC 61966-2-1, on [0, 1] */
-const double *ec_srgb_bytes(void);        /* that of i / 255.0, 256 of them: a power takes as long as twenty look-ups */
 
 /* ec_screen_pixels before the environment. in: 3 floats a pixel; out: 3 bytes a pixel. */
 void ec_tonemap_rgb(const float *in, uint8_t *out, uint64_t pixel_count, float exposure_ev, ec_tonemap tonemap);

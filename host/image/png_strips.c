@@ -5,7 +5,9 @@
 #include <string.h>
 #include <zlib.h>
 
-enum { FILTERS = 5, RAW_DEFLATE = -15, MEMORY_LEVEL = 8 };
+#include "image/deflate.h"
+
+enum { FILTERS = 5 };
 
 const uint8_t ec_png_stream_head[2] = {0x78, 0x9c}; /* zlib: deflate, window of 32 KiB, default level */
 
@@ -57,33 +59,26 @@ static void choose_filter(const uint8_t *row, const uint8_t *above, size_t bytes
 
 static bool make_room(ec_png_strip *strip, size_t bytes)
 {
-    if (strip->room >= bytes) return true;
+    if (!strip->deflate) strip->deflate = ec_deflate_create();
+    if (strip->room >= bytes) return strip->deflate != NULL;
     free(strip->packed);
     strip->packed = malloc(bytes);
     strip->room = strip->packed ? bytes : 0;
-    return strip->packed != NULL;
+    return strip->packed != NULL && strip->deflate != NULL;
 }
 
 static void pack(const ec_png_strips *s, ec_png_strip *strip, const uint8_t *first, uint32_t rows, bool is_last)
 {
     const size_t line = s->row_bytes + 1;
     uint8_t *filtered = malloc(line * (rows + 1u));
-    z_stream z = {0};
     strip->is_packed = false;
-    if (filtered && deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, RAW_DEFLATE, MEMORY_LEVEL, Z_FILTERED) == Z_OK) {
+    if (filtered && make_room(strip, ec_deflate_bound(line * rows))) {
         for (uint32_t y = 0; y < rows; y++)
             choose_filter(first + y * s->row_bytes, first + y * s->row_bytes - s->row_bytes, s->row_bytes, s->pixel_bytes,
                           filtered + y * line, filtered + rows * line);
         strip->adler = adler32_z(adler32_z(0, NULL, 0), filtered, line * rows);
-        if (make_room(strip, deflateBound(&z, (uLong)(line * rows)) + 16)) { /* 16: the empty block at the end of what is no last strip */
-            z.next_in = filtered;
-            z.avail_in = (uInt)(line * rows);
-            z.next_out = strip->packed;
-            z.avail_out = (uInt)strip->room;
-            strip->is_packed = deflate(&z, is_last ? Z_FINISH : Z_SYNC_FLUSH) == (is_last ? Z_STREAM_END : Z_OK) && z.avail_in == 0;
-            strip->size = strip->room - z.avail_out;
-        }
-        deflateEnd(&z);
+        strip->size = ec_deflate_pack(strip->deflate, is_last ? EC_DEFLATE_LAST : EC_DEFLATE_PART, filtered, line * rows, strip->packed, strip->room);
+        strip->is_packed = strip->size > 0;
     }
     free(filtered);
 }
@@ -103,7 +98,10 @@ bool ec_png_strips_create(ec_png_strips *s, uint32_t width, uint32_t height, uin
 
 void ec_png_strips_free(ec_png_strips *s)
 {
-    for (uint32_t k = 0; s->strip && k < s->strip_count; k++) free(s->strip[k].packed);
+    for (uint32_t k = 0; s->strip && k < s->strip_count; k++) {
+        ec_deflate_free(s->strip[k].deflate);
+        free(s->strip[k].packed);
+    }
     free(s->strip);
     free(s->rows);
     *s = (ec_png_strips){0};

@@ -1,19 +1,7 @@
-/* Linear radiance to sRGB of 8 and 16 bits, and sRGB to linear. */
+/* Linear radiance to sRGB of 8 and 16 bits. */
 #include <math.h>
-#include <pthread.h>
 
 #include "image/image.h"
-
-/* IEC 61966-2-1, on [0, 1]. */
-static double srgb_encode(double linear)
-{
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-}
-
-double ec_srgb_to_linear(double encoded)
-{
-    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 /* Non-finite to 0 and negative to 0; the upper limit keeps infinity out of the curves' squares, when the exposure is absurd. */
 static double expose(double value, double scale)
@@ -22,25 +10,11 @@ static double expose(double value, double scale)
     return fmin(value * scale, 1e30);
 }
 
-static double srgb_bytes[256];
-
-static void fill_srgb_bytes(void)
-{
-    for (int i = 0; i < 256; i++) srgb_bytes[i] = ec_srgb_to_linear(i / 255.0);
-}
-
-const double *ec_srgb_bytes(void)
-{
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, fill_srgb_bytes);
-    return srgb_bytes;
-}
-
 void ec_tonemap_pixel(double rgb[3], double scale, ec_tonemap tonemap)
 {
     for (int c = 0; c < 3; c++) rgb[c] = expose(rgb[c], scale);
     ec_tone_curve_apply(tonemap, rgb);
-    for (int c = 0; c < 3; c++) rgb[c] = srgb_encode(rgb[c]);
+    for (int c = 0; c < 3; c++) rgb[c] = ec_srgb_encode(rgb[c]);
 }
 
 static void put(double x, const ec_raster *to, uint8_t *out, uint32_t channel)
@@ -61,7 +35,9 @@ typedef struct showing {
     uint64_t stride, first;
     const ec_raster *to;
     uint8_t *out;
+    double scale;     /* of the exposure */
     double behind[3]; /* the background's colour, linear */
+    const ec_srgb_rounder *rounder;
 } showing;
 
 /* A pixel's radiance after the exposure, not multiplied by how much of it is covered, which is returned. */
@@ -71,7 +47,7 @@ static double light_of(const showing *s, uint64_t i, double light[3])
     const double alone = screen->background.kind != EC_BACKDROP_ENVIRONMENT ? fmin(fmax(s->alpha[s->stride * i], 0), 1) : 1, covered = screen->behind ? 1 : alone;
     double far[3] = {0};
     if (screen->behind && alone < 1) ec_behind_look(screen->behind, (uint32_t)((s->first + i) % s->to->width), (uint32_t)((s->first + i) / s->to->width), far);
-    for (int c = 0; c < 3; c++) light[c] = covered > 0 ? expose(s->rgb[3 * i + (uint64_t)c] + (1 - alone) * far[c], exp2(screen->exposure) / covered) : 0;
+    for (int c = 0; c < 3; c++) light[c] = covered > 0 ? expose(s->rgb[3 * i + (uint64_t)c] + (1 - alone) * far[c], s->scale / covered) : 0;
     return covered;
 }
 
@@ -80,7 +56,11 @@ static void put_pixel(const showing *s, uint64_t i, const double shown[3], doubl
 {
     uint8_t *pixel = s->out + i * ec_raster_pixel_bytes(s->to);
     const bool lies_on = s->screen->background.kind == EC_BACKDROP_COLOR;
-    for (uint32_t c = 0; c < 3; c++) put(srgb_encode(lies_on ? covered * shown[c] + (1 - covered) * s->behind[c] : shown[c]), s->to, pixel, c);
+    for (uint32_t c = 0; c < 3; c++) {
+        const double linear = lies_on ? covered * shown[c] + (1 - covered) * s->behind[c] : shown[c];
+        if (s->to->bits == 8) pixel[c] = ec_srgb_round(s->rounder, linear);
+        else put(ec_srgb_encode(linear), s->to, pixel, c);
+    }
     if (s->to->channels == 4) put(covered, s->to, pixel, 3);
 }
 
@@ -109,6 +89,8 @@ static void show_block(const showing *s, uint64_t first, uint64_t count)
 void ec_screen_pixels(const ec_screen *screen, const float *rgb, const float *alpha, uint32_t stride, uint64_t first, uint64_t count, const ec_raster *to, void *out)
 {
     showing s = {.screen = screen, .rgb = rgb, .alpha = alpha, .stride = stride, .first = first, .to = to, .out = out};
+    s.scale = exp2(screen->exposure);
+    s.rounder = ec_srgb_get_rounder();
     for (int c = 0; c < 3; c++) s.behind[c] = ec_srgb_to_linear(screen->background.rgb[c] / 255.0);
 #pragma omp parallel for schedule(static) if (count > 1 << 14)
     for (uint64_t block = 0; block < count; block += BLOCK) {

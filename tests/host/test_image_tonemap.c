@@ -34,6 +34,27 @@ static void every_byte_comes_back(void)
     CHECK(out[0] == 10 && out[1] == 10 && out[2] == 188);
 }
 
+static void check_rounding(double x)
+{
+    const long byte = lrint(255 * ec_srgb_encode(x));
+    CHECK_MSG(ec_srgb_round(ec_srgb_get_rounder(), x) == byte, "%.17g became %d, not %ld", x, ec_srgb_round(ec_srgb_get_rounder(), x), byte);
+}
+
+/* Also where a byte ends and the next begins, to the last bit. */
+static void the_table_rounds_as_the_power_does(void)
+{
+    for (int i = 0; i <= 1 << 20; i++) check_rounding(i / (double)(1 << 20));
+    for (int i = 0; i < 255; i++) {
+        double low = 0, high = 1;
+        for (double middle = 0.5; middle > low && middle < high; middle = (low + high) / 2)
+            *(lrint(255 * ec_srgb_encode(middle)) > i ? &high : &low) = middle;
+        check_rounding(low);
+        check_rounding(high);
+        check_rounding(nextafter(low, 0));
+        check_rounding(nextafter(high, 1));
+    }
+}
+
 static void nothing_strange_gets_out(void)
 {
     const float in[] = {NAN, INFINITY, -INFINITY, -1, -FLT_MAX, -0.0f, FLT_MAX, FLT_MAX, FLT_MAX, NAN, 1, 0};
@@ -139,6 +160,7 @@ int main(void)
     magma_is_even();
     the_error_map_is_logarithmic();
     every_byte_comes_back();
+    the_table_rounds_as_the_power_does();
     nothing_strange_gets_out();
     neutral_follows_its_specification();
     a_png_holds_the_bytes();
