@@ -52,11 +52,15 @@ eclat_room(live base cl denoise device film gltf image jobs pack render report s
 eclat_room(commands accel base cl cost device film gltf image jobs ranks report scene selftest)
 eclat_room(lib base cl commands film jobs live ranks report scene)
 
-# Rooms that know nothing of OpenCL, once more as a library by other compiler options.
+# Rooms that know nothing of OpenCL, once more as a library by other compiler options. A third argument chooses among their files.
+set(host_rooms base film image denoise scene gltf accel pack)
 function(eclat_host_library name)
-  foreach(room base film image denoise scene gltf accel pack)
+  foreach(room ${host_rooms})
     list(APPEND sources ${sources_of_${room}})
   endforeach()
+  if(ARGN)
+    list(FILTER sources INCLUDE REGEX ${ARGN})
+  endif()
   add_library(${name} STATIC ${sources})
   target_include_directories(${name} PUBLIC ${include_folders} PRIVATE ${TINYGLTF_INCLUDE} ${BOOST_MATH_INCLUDE} ${codec_includes})
   target_link_libraries(${name} PUBLIC ${library_needs})

@@ -19,7 +19,10 @@ RING = os.path.join(SOURCE, "scenes", "ring", "ring.gltf")
 LINE = 12 if os.path.exists("/usr/include/stb/stb_easy_font.h") else 0  # pixels of a name on a contact sheet
 ENVIRONMENT = dict(os.environ)
 ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
-ENVIRONMENT["ECLAT_COMPILE"] = "first"  # no processes that outlive a test; test_compile has its own
+# No processes that outlive a test; test_compile has its own. Wide kernels, as users have them, take three times as long to compile and give the same
+# bits: stat/test_same_bits, cli/test_render and the full tier have them.
+WIDE = {"ECLAT_COMPILE": "first"}
+ENVIRONMENT["ECLAT_COMPILE"] = "narrow" if os.environ.get("ECLAT_TIER") == "quick" else "first"
 
 # NARROW: kernels for the scene alone. QUICK: kernels with all effects, which every scene can share, unless options (motion, instances) make them others.
 NARROW = ("--compile", "narrow")

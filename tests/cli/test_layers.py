@@ -56,6 +56,7 @@ class Light(Layers):
         for a, b in zip(planes["direct.stderr.Y"], direct["stderr.Y"]):
             self.assertTrue(math.isclose(a, b, rel_tol=2e-3, abs_tol=1e-6))
 
+    @full
     def test_light_groups_add_up_to_the_picture(self):
         """Lamps by the tree of lights and by paths that meet them; the same bits in any width, wave and structure, in any order of names, with other layers."""
         names = ["light.bulb-over-table", "light.ceiling", "light.rest"]

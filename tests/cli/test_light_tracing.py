@@ -92,6 +92,7 @@ class LightTracing(OtherWay):
     def test_cornell_box(self):
         self.assert_same_picture([CORNELL, "--size", "32x32"], 64, fewer=0)
 
+    @full
     def test_bits(self):
         job = [scene("ring"), "--size", "24x18", *self.WAY, "--lanes", "4"]
         self.assert_same_bits(job, [["--lanes", "1"], ["--wave", "4096"], ["--accel", "kdtree"]])

@@ -5,7 +5,7 @@ import os
 import re
 import unittest
 
-from support import CORNELL, SOURCE, Case, eclat, read_alike, read_exr
+from support import CORNELL, SOURCE, WIDE, Case, eclat, read_alike, read_exr
 from tiers import full
 
 PINLAMP = os.path.join(SOURCE, "scenes", "pinlamp", "pinlamp.gltf")
@@ -14,9 +14,9 @@ ALONE = ["--light-paths", "0"]  # they would find it
 
 
 class NoBound(Case):
-    def render(self, *options, scene=PINLAMP, output="out.exr"):
+    def render(self, *options, scene=PINLAMP, output="out.exr", env=None):
         alone = [] if "--integrator" in options else ALONE
-        run = self.assert_ok(eclat("render", scene, *SIZE, *alone, *options, "-o", output, cwd=self.folder))
+        run = self.assert_ok(eclat("render", scene, *SIZE, *alone, *options, "-o", output, cwd=self.folder, env=env))
         return run, read_exr(self.path(output))
 
     def assert_open(self, report):
@@ -37,7 +37,7 @@ class NoBound(Case):
         self.assertEqual(planes["heavy"].count(1), report["heavy_pixels"])
 
     def test_an_error_is_not_met_and_the_render_says_so(self):
-        run, _ = self.render("--error", "60%", "--spp", "256", "--adaptive=off")
+        run, _ = self.render("--error", "60%", "--spp", "256", "--adaptive=off", env=WIDE)
         self.assertRegex(run.stderr, r'would do for --error 0\.6, but there is no bound: rare bright paths \(through "mirror" to "lamp"\)')
         self.assertEqual(len(re.findall("would do for", run.stderr)), 1)
         self.assertRegex(run.stdout, r"(?m)^forecast .* not foreseeable")

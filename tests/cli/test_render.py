@@ -8,7 +8,7 @@ import re
 import struct
 import unittest
 
-from support import CORNELL, FLOAT, HALF, RING, UINT, Case, eclat, png_size, quad_scene, read_exr, write_gltf
+from support import CORNELL, FLOAT, HALF, RING, UINT, WIDE, Case, eclat, png_size, quad_scene, read_exr, write_gltf
 from tiers import full
 
 SMALL = ["--size", "24x16", "--spp", "16"]
@@ -33,7 +33,7 @@ class Render(Case):
 
 class Files(Render):
     def test_default_outputs_and_size_follow_scene_and_camera(self):
-        run = self.assert_ok(eclat("render", self.scene, "--spp", "2", cwd=self.folder))
+        run = self.assert_ok(eclat("render", self.scene, "--spp", "2", cwd=self.folder, env=WIDE))
         self.assertEqual(sorted(os.listdir(self.folder)), ["quad.exr", "quad.gltf", "quad.png"])
         self.assertIn("no -o given", run.stderr)
         for name in ["quad.exr", "quad.png"]:
@@ -211,10 +211,10 @@ class Reports(Render):
         self.assertEqual(with_sign["image_sha256"], without["image_sha256"])
 
     def test_a_forecast_is_told_before_and_compared_after(self):
-        run = self.assert_ok(eclat("render", self.scene, *SMALL[:2], "--spp", "64", "-o", self.path("a.png"), cwd=self.folder))
+        run = self.assert_ok(eclat("render", self.scene, *SMALL[:2], "--spp", "64", "-o", self.path("a.png"), cwd=self.folder, env=WIDE))
         self.assertRegex(run.stderr, r"after 32 samples a pixel: about 64 samples a pixel, .+ \(95 %: .+ to .+\), error then about")
         self.assertRegex(run.stdout, r"(?m)^forecast about 64 samples a pixel.*; said after 32 samples$")
-        forecast = self.render(*SMALL[:2], "--error", "1", "--spp", "4096")["forecast"]
+        forecast = self.render(*SMALL[:2], "--error", "1", "--spp", "4096", env=WIDE)["forecast"]
         self.assertTrue(forecast["seconds_low"] <= forecast["seconds"] <= forecast["seconds_high"])
         self.assertTrue(forecast["samples_per_pixel_low"] <= forecast["samples_per_pixel"] <= forecast["samples_per_pixel_high"] <= 4096)
         self.assertIsNone(self.render(*SMALL[:2], "--spp", "1")["forecast"])

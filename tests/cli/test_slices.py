@@ -153,21 +153,39 @@ class Slices(Case):
         self.assert_ok(self.merge(a, b, "--partial"))
         self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {11.0})
 
-    def test_other_jobs_are_refused_with_the_difference(self):
-        a = self.render("a.exr", "--spp", "32", "--samples", "0:16")
-        for options, says in [(["--seed", "2"], "--seed is 0 there and 2 here"), (["--max-depth", "3"], "--max-depth is inf there and 3 here"),
-                              (["--size", "20x17"], "--size is 20x18 there and 20x17 here"), (["--replicates", "8"], "--replicates is 4 there and 8 here"),
-                              (["--sampler", "independent"], "--sampler is sobol there"), (["--fstop", "2", "--focus", "3"], "--fstop is 0 there and 2 here"),
-                              (["--env", "1,1,1"], "environment"), (["--without", "emission"], "--without is nothing there and emission here")]:
-            b = self.render("b.exr", "--spp", "32", "--samples", "16:32", *options)
+    def refuse_others(self, job, others, alike):
+        """others: options, and what the merge says of them; alike: options that change no bit."""
+        job = [*job, "--spp", "32", "--samples"]
+        a = self.render("a.exr", *job, "0:16")
+        for options, says in others:
+            b = self.render("b.exr", *job, "16:32", *options)
             error = self.assert_one_error(self.merge(a, b), 1)
             self.assertIn(f"'{b}' is not of the same job as '{a}': ", error)
             self.assertIn(says, error)
-        b = self.render("b.exr", "--spp", "32", "--samples", "16:32", scene=RING)
+        b = self.render("b.exr", *job, "16:32", scene=RING)
         self.assertRegex(self.assert_one_error(self.merge(a, b), 1), "not the same are the scene's camera, geometry, ")
-        c = self.render("c.exr", "--spp", "32", "--samples", "16:32", "--lanes", "4", "--wave", "2048", "--effects", "all",
-                        "--exposure", "1", "--light-choice", "power")
+        c = self.render("c.exr", *job, "16:32", *alike)
         self.assert_ok(self.merge(a, c))
+
+    def test_other_jobs_are_refused_with_the_difference(self):
+        """By the rasteriser, whose kernels compile soonest."""
+        self.refuse_others(["--integrator", "raster"], [
+            (["--seed", "2"], "--seed is 0 there and 2 here"), (["--size", "20x17"], "--size is 20x18 there and 20x17 here"),
+            (["--replicates", "8"], "--replicates is 4 there and 8 here"), (["--sampler", "independent"], "--sampler is sobol there"),
+            (["--env", "1,1,1"], "environment"), (["--without", "emission"], "--without is nothing there and emission here")],
+            ["--wave", "2048", "--exposure", "1"])
+
+    @full
+    def test_other_paths_are_refused_with_the_difference(self):
+        self.refuse_others([], [(["--max-depth", "3"], "--max-depth is inf there and 3 here"), (["--fstop", "2", "--focus", "3"], "--fstop is 0 there and 2 here"),
+                                (["--env", "1,1,1"], "environment"), (["--without", "emission"], "--without is nothing there and emission here")],
+                           ["--wave", "2048", "--exposure", "1", "--light-choice", "power"])
+
+    @full
+    def test_kernels_of_all_effects_are_of_the_same_job(self):
+        a = self.render("a.exr", "--spp", "32", "--samples", "0:16")
+        b = self.render("b.exr", "--spp", "32", "--samples", "16:32", "--lanes", "4", "--wave", "2048", "--effects", "all")
+        self.assert_ok(self.merge(a, b))
 
     def test_a_changed_scene_is_another(self):
         with open(CORNELL, encoding="utf-8") as file:

@@ -1,13 +1,14 @@
 """Tiers of tests: the first line of a test file names its own, '# tier: quick'. With '# tiers: quick, full' it has parts of both, and @full
 and @long say which classes or tests are not quick; a C file asks test_tier() of support/test.h.
 usage: python3 -m tiers TIER MODULE   Runs the tests of MODULE that are of TIER."""
+import os
 import re
 import sys
 import unittest
 
 FIRST_LINE = re.compile(r"(?:# (.*)|/\* (.*) \*/)\n")
 KINDS = {"tier: quick": ["quick"], "tier: full": ["full"], "tier: long": ["long"], "tiers: quick, full": ["quick", "full"],
-         "tiers: quick, full, long": ["quick", "full", "long"]}
+         "tiers: quick, long": ["quick", "long"], "tiers: quick, full, long": ["quick", "full", "long"]}
 
 
 def full(marked):
@@ -42,6 +43,7 @@ def flat(suite):
 
 
 def main(name, module):
+    os.environ["ECLAT_TIER"] = name
     suite = unittest.defaultTestLoader.loadTestsFromName(module)
     tiers = of_file(module + ".py") or ["quick"]
     tests = [test for test in flat(suite) if of_test(test, tiers) == name]

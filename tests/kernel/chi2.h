@@ -43,7 +43,7 @@ static inline void check_chi2(const char *name, const double *expected, const ui
 
 static inline void chi2_build(cl_program *programs, const char *features)
 {
-    for (int i = 0; i < LANE_WIDTHS; i++) programs[i] = kernel_build(&cl, "chi2", lane_widths[i], features);
+    for (int i = 0; i < kernel_widths(&cl); i++) programs[i] = kernel_build(&cl, "chi2", lane_widths[i], features);
 }
 
 static inline void chi2_release(cl_program *programs)

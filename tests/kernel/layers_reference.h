@@ -90,7 +90,7 @@ static inline double albedo(const float *m, double *se)
     static uint32_t seed = 7;
     double sum = 0, squares = 0;
     seed++;
-    if (!KERNEL_CALL(&cl, programs[2], "bsdf_samples", count / 8, SCALAR(count), SCALAR(seed), IN(m, PACKED_FIELDS), OUT(out, 5 * COUNT))) return 0;
+    if (!KERNEL_CALL(&cl, programs[EIGHT], "bsdf_samples", count / 8, SCALAR(count), SCALAR(seed), IN(m, PACKED_FIELDS), OUT(out, 5 * COUNT))) return 0;
     for (uint32_t i = 0; i < count; i++) {
         double weight = out[4 * COUNT + i];
         CHECK_MSG(weight >= 0 && weight < 1e4, "weight %g", weight);
@@ -114,7 +114,7 @@ static inline void check_reciprocity(const char *what, const float *m)
         float turned[PACKED_FIELDS];
         memcpy(turned, m, sizeof turned);
         turned[PACKED_COSINE] = (float)cosines[o];
-        if (!KERNEL_CALL(&cl, programs[2], "bsdf_values", n / 8, SCALAR(n), IN(turned, PACKED_FIELDS), IN(wi, 3 * N), OUT(values[o], N), OUT(pdf, N))) return;
+        if (!KERNEL_CALL(&cl, programs[EIGHT], "bsdf_values", n / 8, SCALAR(n), IN(turned, PACKED_FIELDS), IN(wi, 3 * N), OUT(values[o], N), OUT(pdf, N))) return;
     }
     for (uint32_t i = 0; i + 6 <= N; i += 6)
         for (uint32_t o = 0; o < 6; o++)

@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* What a batch tells of a pixel against sums in double: mean radiance, and of the samples' luminance the largest and the powers in units of that.
  * Means are of floats added one by one, 64 at a time: 64 roundings of half an ulp, of sums of what is not negative. A luminance is rounded five
  * times, a ratio twice more; a fourth power takes four times that. */
@@ -93,7 +93,7 @@ int main(void)
     ec_cl cl;
     const int opened = kernel_open(&cl);
     if (opened) return opened;
-    for (int i = 0; i < LANE_WIDTHS; i++) check_width(&cl, lane_widths[i]);
+    for (int i = 0; i < kernel_widths(&cl); i++) check_width(&cl, lane_widths[i]);
     ec_cl_close(&cl);
     TEST_END();
 }

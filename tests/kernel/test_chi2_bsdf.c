@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tiers: quick, full, long */
 /* What bsdf_sample samples against bsdf_eval's density, by chi-square; the density against 1. A sample where the density is 0 fails at
  * once. Polar cells about the mirrored direction above the surface and about the refracted one below, finer where the lobe is. */
 #include "kernel/chi2.h"
@@ -8,7 +8,6 @@
  * alone: the code is written once for all widths, and that of the others takes long to compile. */
 static cl_program programs[LANE_WIDTHS], glass_programs[LANE_WIDTHS], layered_programs[LANE_WIDTHS], multi_programs[LANE_WIDTHS];
 
-#define EIGHT 2 /* of lane_widths */
 #define RINGS 20
 #define SECTORS 24
 #define CELLS (RINGS * SECTORS) /* each side */
@@ -167,9 +166,9 @@ static void check_opaque(void)
     for (int m = 0; m < 3; m++)
         for (int a = 0; a < 3; a++)
             for (int c = 0; c < 3; c++)
-                check_bsdf(programs, (m + a + c) % LANE_WIDTHS, (material){metals[m], alphas[a], cosines[c], 0.8f, 0, 1});
-    check_bsdf(programs, 2, (material){1.0f, 1e-3f, 0.5f, 0.8f, 0, 1});
-    check_bsdf(programs, 1, (material){0.0f, 0.5f, 0.5f, 0.0f, 0, 1}); /* black: one lobe */
+                check_bsdf(programs, (m + a + c) % kernel_widths(&cl), (material){metals[m], alphas[a], cosines[c], 0.8f, 0, 1});
+    check_bsdf(programs, EIGHT, (material){1.0f, 1e-3f, 0.5f, 0.8f, 0, 1});
+    check_bsdf(programs, 0, (material){0.0f, 0.5f, 0.5f, 0.0f, 0, 1}); /* black: one lobe */
 }
 
 static void check_coat_over(material m, float weight, float alpha, float tilt)
@@ -253,7 +252,7 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    if (test_tier("quick")) {
+    if (test_tier("quick") || test_tier("long")) {
         chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
         glass_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
     }
@@ -261,7 +260,7 @@ int main(void)
         layered_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION)");
         multi_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_MULTISCATTER)");
     }
-    if (!test_failures && test_tier("quick")) {
+    if (!test_failures && (test_tier("quick") || test_tier("long"))) {
         check_opaque();
         check_glass();
     }

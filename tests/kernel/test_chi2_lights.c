@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* What light_sample_one samples, triangles and environments, against its densities by chi-square; the environment's density against 1. */
 #include "kernel/chi2.h"
 #include "pack/distribution.h"
@@ -47,6 +47,7 @@ static void check_triangle(int lanes, bool two_sided, bool near, const float *p)
     for (int i = 0; i < 2; i++) table[i].pmf = (float)pmf[i];
     table[0].pdf_a = (float)(pmf[0] / area);
     const float nothing[16] = {0};
+    lanes %= kernel_widths(&cl);
     if (!KERNEL_CALL(&cl, programs[lanes], "light_samples", samples / (uint32_t)lane_widths[lanes], SCALAR(samples), SCALAR(seed),
                      IN(&params, 1), IN(p, 4), IN(table, 2), IN(shares, 2), IN(nothing, 16), IN(nothing, 16), OUT(out, 4 * SAMPLES)))
         return;
@@ -177,7 +178,7 @@ static void check_looked_up(const char *name, const float *rgb, const ec_pack *p
         directions_of((i % (WIDTH * 21) + 0.5) / (WIDTH * 21), (i / (WIDTH * 21) + 0.5) / (HEIGHT * 21), w);
         for (uint32_t k = 0; k < 3; k++) wi[k * n + i] = (float)w[k];
     }
-    if (!KERNEL_CALL(&cl, programs[3], "environment_densities", n / 16, SCALAR(n), IN(params, 1), IN(pack->environment_texels, 4 * WIDTH * (HEIGHT + 1)),
+    if (!KERNEL_CALL(&cl, programs[EIGHT], "environment_densities", n / 8, SCALAR(n), IN(params, 1), IN(pack->environment_texels, 4 * WIDTH * (HEIGHT + 1)),
                      IN(pack->environment_table, (WIDTH + 1) * (HEIGHT + 1)), IN(wi, 3 * n), OUT(look, 2 * n)))
         return;
     double total = 0, worst = 0, most = 0;
@@ -205,7 +206,7 @@ static void check_environment(const char *name, const float *rgb)
     if (!pack.environment_table) return;
     const ec_params params = {.light_choices = 1, .environment = {2, 2, 2, 0}, .environment_width = WIDTH, .environment_height = HEIGHT,
                               .environment_pmf = 1, .scene_radius = 3};
-    for (int lanes = 0; lanes < LANE_WIDTHS; lanes += 3) check_sampled(name, rgb, &pack, &params, lanes);
+    for (int lanes = 0; lanes <= EIGHT; lanes++) check_sampled(name, rgb, &pack, &params, lanes);
     check_looked_up(name, rgb, &pack, &params);
     free(pack.environment_texels);
     free(pack.environment_table);

@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Directions of light that is scattered inside a body, against Henyey and Greenstein's distribution by chi-square: cells of equal
  * probability by its closed form in double precision, which also says what density each sample has. */
 #include "kernel/chi2.h"
@@ -54,8 +54,9 @@ int main(void)
     int open = kernel_open(&cl);
     if (open) return open;
     chi2_build(programs, NULL);
-    for (size_t i = 0; i < sizeof forward / sizeof *forward; i++) check_phase(programs[LANE_WIDTHS - 1], lane_widths[LANE_WIDTHS - 1], forward[i], along[i % 2]);
-    for (int i = 0; i < LANE_WIDTHS - 1; i++) check_phase(programs[i], lane_widths[i], 0.7, along[1]);
+    const int last = kernel_widths(&cl) - 1;
+    for (size_t i = 0; i < sizeof forward / sizeof *forward; i++) check_phase(programs[last], lane_widths[last], forward[i], along[i % 2]);
+    for (int i = 0; i < last; i++) check_phase(programs[i], lane_widths[i], 0.7, along[1]);
     CHECK(tests <= TESTS);
     chi2_release(programs);
     ec_cl_close(&cl);

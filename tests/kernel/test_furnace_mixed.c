@@ -97,9 +97,9 @@ int main(void)
                  "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+"
                  "EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION%s)",
                  again ? "+EC_FEATURE_MULTISCATTER" : "");
-        programs[2] = kernel_build(&cl, "chi2", 8, options);
-        if (programs[2]) surfaces(again ? "facets scatter again" : "facets scatter once");
-        if (programs[2]) clReleaseProgram(programs[2]);
+        programs[EIGHT] = kernel_build(&cl, "chi2", 8, options);
+        if (programs[EIGHT]) surfaces(again ? "facets scatter again" : "facets scatter once");
+        if (programs[EIGHT]) clReleaseProgram(programs[2]);
     }
     ec_cl_close(&cl);
     TEST_END();

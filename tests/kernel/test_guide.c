@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Path guiding's table: densities of directions integrate to 1, samples go by them, the host reads the same ones, and they lie where photons came
  * from. Where light comes evenly from all around, nothing is guided. */
 #include "device/guide.h"

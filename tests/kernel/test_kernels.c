@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* The one driver of kernel tests: runs every tests/kernel/test_*.cl on the device, for each lane width. See
  * kernel_test.h. `kernel_test_kernels driver lanes` runs test_driver.cl and test_lanes.cl only. */
 #include <dirent.h>

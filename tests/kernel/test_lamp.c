@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Triangles as lamps, against double precision: solid angle, the map from random numbers to points, densities that are the same
  * from both sides, and nothing that is not a number where a point touches its lamp. (Distributions: test_chi2_lights.c.) */
 #include "kernel/kernel_reference.h"
@@ -175,14 +175,14 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    for (int i = 0; i < LANE_WIDTHS; i++) programs[i] = kernel_build(&cl, "lamp", lane_widths[i], "-DFEATURES=EC_FEATURE_AREA_LIGHTS");
+    for (int i = 0; i < kernel_widths(&cl); i++) programs[i] = kernel_build(&cl, "lamp", lane_widths[i], "-DFEATURES=EC_FEATURE_AREA_LIGHTS");
     if (!test_failures) {
         static const double sizes[] = {4, 1, 0.1, 0.01};
         for (int i = 0; i < 4; i++) check_lamps(sizes[i]);
         check_touching();
         check_extremes();
     }
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);
     ec_cl_close(&cl);
     TEST_END();

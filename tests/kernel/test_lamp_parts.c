@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* A lamp in parts, as kernels take them: numbers choose each part as often as its share says, what is left of them is even, a point finds the part
  * that it was chosen by, a sample's density is the one found where it went, and densities add up to 1 from near and far. */
 #include "gltf/reader.h"

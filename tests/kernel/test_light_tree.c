@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* The light tree's probabilities, lamp by lamp and point by point: they add up to the share of all lamps, are those sampled, are the same
  * found from the lamp's trail, and no lamp that shines on a point is left without; among the lamps a ball and a panel that are bulbs. What is left of
  * the numbers that choose is uniform. */

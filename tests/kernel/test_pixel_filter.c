@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Places that the pixel filter's table gives to uniform numbers, against the density of Blackman and Harris' window by chi-square. */
 #include "kernel/chi2.h"
 #include "device/pixel_filter.h"

@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Ray against triangle, compared with double precision; every lane width must give the same bits. */
 #include "kernel/kernel_reference.h"
 

@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Kernels against double precision: transcendental functions, the BRDF of glTF 2.0 appendix B. Every
  * lane width must give the same bits. */
 #include "kernel/kernel_reference.h"

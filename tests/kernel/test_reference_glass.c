@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Glass against double precision: Fresnel's reflectance, Snell's law, Beer and Lambert's exponential, the rough transmission of
  * Walter et al. 2007, and the single directions of smooth surfaces. Every lane width must give the same bits. */
 #include "kernel/kernel_reference.h"

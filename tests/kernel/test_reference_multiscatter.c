@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* What facets scatter more than once (--scattering multiple): its table against quadrature, its value against Kulla and Conty's formula
  * in double, both ways alike, and the energy of all with and without it. */
 #include "kernel/layers_reference.h"
@@ -143,7 +143,7 @@ static void through_both_ways(float alpha, float eta)
                 double z = cosines[i % 4], r = sqrt(1 - z * z);
                 wi[i] = 0, wi[N + i] = (float)r, wi[2 * N + i] = (float)-z;
             }
-            if (!KERNEL_CALL(&cl, programs[2], "bsdf_values", N / 8, SCALAR(n), IN(m, PACKED_FIELDS), IN(wi, 3 * N), OUT(f, N), OUT(pdf, N))) return;
+            if (!KERNEL_CALL(&cl, programs[EIGHT], "bsdf_values", N / 8, SCALAR(n), IN(m, PACKED_FIELDS), IN(wi, 3 * N), OUT(f, N), OUT(pdf, N))) return;
             if (!KERNEL_CALL(&cl, single, "bsdf_values", N / 8, SCALAR(n), IN(m, PACKED_FIELDS), IN(wi, 3 * N), OUT(without, N), OUT(pdf, N))) return;
             for (int k = 0; k < 4; k++) *(side ? &back[k][o] : &there[o][k]) = ((double)f[k] - (double)without[k]) / cosines[k] * (side ? (double)eta * eta : 1);
         }
@@ -159,11 +159,11 @@ static void through_both_ways(float alpha, float eta)
 static void energy(const char *what, const float *white)
 {
     static const float roughness[3] = {0.25f, 0.5f, 1};
-    cl_program with = programs[2];
+    cl_program with = programs[EIGHT];
     for (int r = 0; r < 3; r++) {
         double sum[2] = {0}, se;
         for (int which = 0; which < 2; which++) {
-            programs[2] = which ? with : single;
+            programs[EIGHT] = which ? with : single;
             for (int c = 0; c < 8; c++) {
                 float m[PACKED_FIELDS];
                 memcpy(m, white, sizeof m);
@@ -175,7 +175,7 @@ static void energy(const char *what, const float *white)
         printf("%s, roughness %g: %.2f %% lost, with multiple scattering %.2f %%\n", what, (double)roughness[r], 100 * (1 - sum[0]), 100 * (1 - sum[1]));
         CHECK_MSG(sum[1] > 0.985, "%s, roughness %g: %.4f comes back", what, (double)roughness[r], sum[1]);
     }
-    programs[2] = with;
+    programs[EIGHT] = with;
 }
 
 int main(void)

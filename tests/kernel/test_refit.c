@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Trees whose triangles have moved: refitted ones find the hits of every triangle with every ray, bit by bit, however badly the boxes lie
  * by then; and where nothing has moved not a byte of them changes. */
 #include "accel/refit.h"

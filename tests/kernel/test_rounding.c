@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* The bits of a picture are the same on two devices if these operations are correctly rounded on both. Expected values are the
  * host's, which rounds as IEEE 754 asks. Sum, product and fma have to be right on every device of OpenCL 1.2; quotient and root
  * where the device says so, elsewhere within the 2.5 and 3 ulp of the specification (7.4), and how often is printed. Numbers
@@ -62,7 +62,7 @@ int main(void)
     int open = kernel_open(&cl);
     if (open) return open;
     expect();
-    for (int w = 0; w < LANE_WIDTHS; w++) {
+    for (int w = 0; w < kernel_widths(&cl); w++) {
         cl_program program = kernel_build(&cl, "rounding", lane_widths[w], NULL);
         memset(out, 0xff, sizeof out);
         if (program && KERNEL_CALL(&cl, program, "rounding", COUNT / lane_widths[w], IN(a, COUNT), IN(b, COUNT), IN(c, COUNT),

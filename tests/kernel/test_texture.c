@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Texture look-ups against double precision: wrap modes, nearest and bilinear, sRGB, float texels, uv transforms. */
 #include "kernel/kernel_reference.h"
 #include "image/image.h"
@@ -226,7 +226,7 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         programs[i] = kernel_build(&cl, "texture", lane_widths[i], "-DFEATURES=(EC_FEATURE_BASE_COLOR_TEXTURE+EC_FEATURE_FLOAT_TEXTURE)");
     if (!test_failures) {
         make_images();
@@ -236,7 +236,7 @@ int main(void)
         srgb_is_exact();
         no_coordinate_leaves_the_image();
     }
-    for (int i = 0; i < LANE_WIDTHS; i++)
+    for (int i = 0; i < kernel_widths(&cl); i++)
         if (programs[i]) clReleaseProgram(programs[i]);
     ec_cl_close(&cl);
     TEST_END();

@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Every accelerator against brute force, bit by bit: the stages' own kernels on structures of the host's own builders, on rays
  * and triangles chosen to be awkward. Culling must never change an answer (kernels/lib/ray.h). */
 #include "kernel/traversal_run.h"
