@@ -1,18 +1,17 @@
 /* Keeps a list, for each job that was compiled, of the files in the driver's own cache and their hashes, since the cache cannot be asked.
  * A driver loads whatever it finds, and a damaged file ends the process; so each file is checked first. */
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/fingerprint.h"
 #include "cl/ahead.h"
 #include "cl/cache.h"
 #include "cl/compile_job.h"
+#include "cl/file_mark.h"
+#include "cl/prepared.h"
 
 #define PATH_SIZE 4096
-#define MARK_SIZE 33
 #define LIST_FORMAT "2" /* lists of another are not found: their files would seem damaged */
 #define PROGRAM "program.bc" /* of PoCL, two folders above the kernels */
 
@@ -27,7 +26,30 @@ static bool driver_folder(char path[PATH_SIZE])
     return size > 0 && size < PATH_SIZE;
 }
 
-/* The key of all that it was compiled from and for, and where to. False where there is no cache to speak of. */
+/* Of all that it was compiled from and for. where: which cache is meant. */
+static ec_cache_key key_in(const ec_cl *cl, const ec_compile_job *job, const char *where)
+{
+    ec_cache_key key = ec_cache_key_of(&cl->info, where, "");
+    for (uint32_t i = 0; i < job->program_count; i++) {
+        char options[256];
+        snprintf(options, sizeof options, "%s %s", job->programs[i].options, key.hex);
+        key = ec_cache_key_of(&cl->info, job->programs[i].source, options);
+    }
+    for (uint32_t i = 0; i < job->kernel_count; i++) {
+        const ec_compile_kernel *k = &job->kernels[i];
+        char launch[256];
+        snprintf(launch, sizeof launch, "%s %u %d %s", k->name, k->local, ec_compile_is_small(k), key.hex);
+        key = ec_cache_key_of(&cl->info, launch, "");
+    }
+    return key;
+}
+
+static ec_cache_key prepared_key(const ec_cl *cl, const ec_compile_job *job)
+{
+    return key_in(cl, job, LIST_FORMAT " prepared");
+}
+
+/* The key of the list, and where that is kept. False where there is no cache to speak of. */
 static bool key_of(const ec_cl *cl, const ec_compile_job *job, char folder[PATH_SIZE], ec_cache_key *key)
 {
     char path[PATH_SIZE], where[PATH_SIZE + 64];
@@ -36,18 +58,7 @@ static bool key_of(const ec_cl *cl, const ec_compile_job *job, char folder[PATH_
     if (is_used && !strcmp(is_used, "0")) return false;
     if (!ec_cache_folder(cl->cache_dir, folder, PATH_SIZE) || !driver_folder(path) || stat(path, &status) != 0) return false;
     snprintf(where, sizeof where, LIST_FORMAT " %s %llu %llu", path, (unsigned long long)status.st_dev, (unsigned long long)status.st_ino);
-    *key = ec_cache_key_of(&cl->info, where, "");
-    for (uint32_t i = 0; i < job->program_count; i++) {
-        char options[256];
-        snprintf(options, sizeof options, "%s %s", job->programs[i].options, key->hex);
-        *key = ec_cache_key_of(&cl->info, job->programs[i].source, options);
-    }
-    for (uint32_t i = 0; i < job->kernel_count; i++) {
-        const ec_compile_kernel *k = &job->kernels[i];
-        char launch[256];
-        snprintf(launch, sizeof launch, "%s %u %d %s", k->name, k->local, ec_compile_is_small(k), key->hex);
-        *key = ec_cache_key_of(&cl->info, launch, "");
-    }
+    *key = key_in(cl, job, where);
     return true;
 }
 
@@ -62,35 +73,32 @@ static void set_aside(const ec_cl *cl, const char *path, const char *driver)
     if (rename(program, aside) == 0) ec_warn(cl->log, "a damaged file in the driver's cache, '%s', is set aside: its kernels are compiled again", aside);
 }
 
-/* Of a file's bytes, in hexadecimal; damage is no attack. False: it cannot be read. */
-static bool mark_of(const char *path, char mark[MARK_SIZE])
-{
-    static const size_t block = 1 << 20;
-    ec_fingerprint sum = {{0}};
-    FILE *file = fopen(path, "rbe");
-    char *bytes = file ? malloc(block) : NULL;
-    size_t size;
-    while (bytes && (size = fread(bytes, 1, block, file)) > 0) sum = ec_fingerprint_add(sum, bytes, size);
-    const bool is_read = bytes && !ferror(file);
-    snprintf(mark, MARK_SIZE, "%016" PRIx64 "%016" PRIx64, sum.half[0], sum.half[1]);
-    if (file) fclose(file);
-    free(bytes);
-    return is_read;
-}
-
 /* Is each file of the list as it was? One that is gone is compiled again by the driver; one that is other than it was would end the process. */
 static bool is_intact(const ec_cl *cl, char *list, bool mends)
 {
-    char driver[PATH_SIZE], mark[MARK_SIZE], *rest = NULL;
+    char driver[PATH_SIZE], mark[EC_FILE_MARK], *rest = NULL;
     bool is_whole = driver_folder(driver);
     for (char *line = strtok_r(list, "\n", &rest); line && is_whole; line = strtok_r(NULL, "\n", &rest)) {
         char *path = strchr(line, ' ');
         if (!path) return false;
         *path++ = 0;
-        is_whole = mark_of(path, mark) && !strcmp(mark, line);
+        is_whole = ec_file_mark(path, mark) && !strcmp(mark, line);
         if (!is_whole && mends && access(path, F_OK) == 0 && !strncmp(path, driver, strlen(driver))) set_aside(cl, path, driver);
     }
     return is_whole;
+}
+
+/* Those that came with the program, copied into the driver's cache. */
+static bool take_prepared(const ec_cl *cl, const ec_compile_job *job, const char *folder, const ec_cache_key *key)
+{
+    char driver[PATH_SIZE], *text = NULL;
+    size_t size = 0;
+    const ec_cache_key prepared = prepared_key(cl, job);
+    FILE *list = driver_folder(driver) ? open_memstream(&text, &size) : NULL;
+    bool is_there = list && ec_prepared_take(&prepared, driver, list);
+    if (list) is_there = fclose(list) == 0 && is_there && ec_cache_store(folder, key, (const unsigned char *)text, size);
+    free(text);
+    return is_there;
 }
 
 bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job, bool mends)
@@ -99,7 +107,8 @@ bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job, bool mends)
     ec_cache_key key;
     unsigned char *found = NULL;
     size_t bytes = 0;
-    if (!key_of(cl, job, folder, &key) || !ec_cache_load(folder, &key, &found, &bytes)) return false;
+    if (!key_of(cl, job, folder, &key)) return false;
+    if (!ec_cache_load(folder, &key, &found, &bytes)) return take_prepared(cl, job, folder, &key);
     list = strndup((char *)found, bytes);
     const bool is_done = list && is_intact(cl, list, mends);
     free(list);
@@ -114,8 +123,8 @@ bool ec_compile_job_is_done(const ec_cl *cl, const ec_compile_job *job)
 
 static void add_file(FILE *list, const char *path)
 {
-    char mark[MARK_SIZE];
-    if (mark_of(path, mark)) fprintf(list, "%s %s\n", mark, path);
+    char mark[EC_FILE_MARK];
+    if (ec_file_mark(path, mark)) fprintf(list, "%s %s\n", mark, path);
 }
 
 /* A kernel's own file, and its program's: .../program.bc for .../kernel/size/kernel.so. */
@@ -154,6 +163,10 @@ void ec_compile_job_done(const ec_cl *cl, const ec_compile_job *job)
     FILE *list = open_memstream(&text, &size);
     if (!list) return;
     list_files(list, driver);
-    if (fclose(list) == 0 && size) ec_cache_store(folder, &key, (const unsigned char *)text, size);
+    if (fclose(list) == 0 && size) {
+        const ec_cache_key prepared = prepared_key(cl, job);
+        ec_cache_store(folder, &key, (const unsigned char *)text, size);
+        if (ec_prepared_target() && !ec_prepared_put(&prepared, driver, text)) ec_warn(cl->log, "kernels could not be kept in '%s'", ec_prepared_target());
+    }
     free(text);
 }

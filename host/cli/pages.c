@@ -11,6 +11,7 @@ static const eclat_note notes[] = {
     {"Exit code", "2", "the command line is wrong"},
     {"Environment", "ECLAT_DEVICE", "OpenCL device to use where --device is not given"},
     {"Environment", "ECLAT_COMPILE", "when to compile kernels where --compile is not given"},
+    {"Environment", "ECLAT_KERNELS", "folder of kernels for first renders (default: those that were compiled when eclat was built); empty: none"},
     {"Environment", "NO_COLOR", "anything: messages on a terminal are not coloured"},
     {"Environment", "XDG_CACHE_HOME", "compiled kernels are kept in eclat/kernels below this folder (default: ~/.cache)"},
     {0}};

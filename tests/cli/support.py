@@ -19,6 +19,7 @@ RING = os.path.join(SOURCE, "scenes", "ring", "ring.gltf")
 LINE = 12 if os.path.exists("/usr/include/stb/stb_easy_font.h") else 0  # pixels of a name on a contact sheet
 ENVIRONMENT = dict(os.environ)
 ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
+ENVIRONMENT["ECLAT_KERNELS"] = ""  # nothing that was compiled before
 # No processes that outlive a test; test_compile has its own. Wide kernels, as users have them, take three times as long to compile and give the same
 # bits: stat/test_same_bits, cli/test_render and the full tier have them.
 WIDE = {"ECLAT_COMPILE": "first"}

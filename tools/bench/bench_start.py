@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Time to the first pixel: with empty caches, after a render of another scene, and with full caches; time to a small error with empty caches; and
-memory on a million triangles. See README.md."""
+"""Time to the first pixel: with empty caches, with and without the kernels that were compiled when eclat was built; after a render of another scene;
+and with full caches. Time to a small error with empty caches. Memory on a million triangles. See README.md."""
 import argparse
 import glob
 import os
@@ -68,19 +68,20 @@ class Caches:
             return False
 
 
-def start(eclat, scene, folder, caches, size="512x512"):
-    report = common.run_eclat(eclat, [scene, "--size", size, "--spp", "1", "-o", os.path.join(folder, "start.exr")], caches.environment)
+def start(eclat, scene, folder, caches, size="512x512", **more):
+    """more: environment."""
+    report = common.run_eclat(eclat, [scene, "--size", size, "--spp", "1", "-o", os.path.join(folder, "start.exr")], dict(caches.environment, **more))
     return first_pixel(report)
 
 
 def measure_start(eclat, runs, folder):
     caches, found = Caches(folder), scenes()
-    times = {name: {"first": [], "after": [], "warm": []} for name in found}
+    times = {name: {"nothing": [], "first": [], "after": [], "warm": []} for name in found}
     for name, scene in found.items():
-        for _ in range(runs):
+        for kind, more in [("nothing", {"ECLAT_KERNELS": ""}), ("first", {})] * runs:
             caches.wait()
             caches.empty()
-            times[name]["first"].append(start(eclat, scene, folder, caches))
+            times[name][kind].append(start(eclat, scene, folder, caches, **more))
         caches.wait()
         times[name]["warm"] = [start(eclat, scene, folder, caches) for _ in range(runs)]
     caches.empty()
@@ -174,7 +175,8 @@ def main():
         memory = measure_memory(eclat, folder)
     rows = []
     for scene, times in starts.items():
-        for name, what, target in (("first", "first use", FIRST[scene]), ("after", "after another scene", AFTER), ("warm", "warm", WARM)):
+        for name, what, target in (("nothing", "first use, no kernels from building", FIRST[scene]), ("first", "first use", FIRST[scene]),
+                                   ("after", "after another scene", AFTER), ("warm", "warm", WARM)):
             value = common.median(times[name])
             rows.append(common.row(f"first pixel, {what}, {scene}", f"{value:.2f} s", f"<= {target:.1f} s", value <= target, f"+- {common.spread(times[name]):.0%}"))
     for scene, times in errors.items():

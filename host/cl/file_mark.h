@@ -1,0 +1,18 @@
+/* Marks of files in the driver's cache, in hexadecimal: damage is no attack. Inside host/cl only. */
+#ifndef EC_CL_FILE_MARK_H
+#define EC_CL_FILE_MARK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#define EC_FILE_MARK 33
+
+void ec_bytes_mark(const void *bytes, size_t size, char mark[EC_FILE_MARK]);
+
+/* False: it cannot be read. */
+bool ec_file_mark(const char *path, char mark[EC_FILE_MARK]);
+
+/* All of its bytes, malloc'ed; NULL: it cannot be read. */
+char *ec_file_bytes(const char *path, size_t *size);
+
+#endif

@@ -1,0 +1,54 @@
+# tier: quick
+"""Kernels that were compiled when eclat was built: a first render begins with them, to the same bits, and never with damaged ones."""
+import json
+import os
+import shutil
+import unittest
+
+from support import ECLAT, NARROW, Case, eclat, quad_scene, write_gltf
+
+PREPARED = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "eclat-kernels")
+
+
+@unittest.skipUnless(os.path.isdir(PREPARED), "no kernels were compiled when this was built: there was no device, or it compiles in time")
+class Prepared(Case):
+    picture = None  # that of kernels that were compiled for it
+
+    def setUp(self):
+        super().setUp()
+        write_gltf(self.path("quad.gltf"), quad_scene()[0])
+        if not Prepared.picture:
+            begun, Prepared.picture = self.render("without", "")
+            self.assertEqual(begun, "narrow")
+
+    def render(self, cache, kernels, *options):
+        where = {"XDG_CACHE_HOME": self.path(cache), "POCL_CACHE_DIR": self.path(cache, "pocl"), "ECLAT_KERNELS": kernels}
+        run = eclat("render", "quad.gltf", "--size", "64x48", "--spp", "1", *NARROW, *options, "--json", "-q", "-o", "a.exr", cwd=self.folder, env=where)
+        report = json.loads(self.assert_ok(run).stdout)
+        return report["first_kernels"], report["image_sha256"]
+
+    def files(self, folder):
+        return sorted(os.path.join(where, name) for where, _, names in os.walk(folder) for name in names if name.endswith((".so", ".bc")))
+
+    def test_a_first_render_begins_with_them(self):
+        self.assertEqual(self.render("with", PREPARED), ("universal", self.picture))
+        copied = [os.path.relpath(path, self.path("with", "pocl")) for path in self.files(self.path("with", "pocl"))]
+        kept = [os.path.relpath(path, os.path.join(PREPARED, "files")) for path in self.files(PREPARED)]
+        self.assertTrue(copied and set(copied) < set(kept), copied)  # none was compiled, and none is there of what was not asked for
+
+    def test_damaged_ones_are_left_alone(self):
+        shutil.copytree(PREPARED, self.path("damaged"))
+        for path in self.files(self.path("damaged")):
+            with open(path, "r+b") as file:
+                file.seek(1000)
+                file.write(b"damage")
+        self.assertEqual(self.render("with", self.path("damaged")), ("narrow", self.picture))
+
+    def test_a_cache_that_cannot_be_written(self):
+        os.makedirs(self.path("with", "pocl"))
+        os.symlink("/proc/none", self.path("with", "eclat"))
+        self.assertEqual(self.render("with", PREPARED)[1], self.picture)
+
+
+if __name__ == "__main__":
+    unittest.main()
