@@ -20,7 +20,7 @@ import scenes  # noqa: E402
 from polling import GUARD  # noqa: E402
 from support import ENVIRONMENT, ECLAT, Case, eclat, read_exr  # noqa: E402
 
-os.environ.update({name: ENVIRONMENT[name] for name in ("XDG_CACHE_HOME", "ECLAT_COMPILE")}, ECLAT=os.path.abspath(ECLAT))
+os.environ.update({name: ENVIRONMENT[name] for name in ("XDG_CACHE_HOME", "ECLAT_COMPILE", "ECLAT_KERNELS")}, ECLAT=os.path.abspath(ECLAT))
 import eclat_blender  # noqa: E402
 from eclat_blender import final, glb, losses, main_thread  # noqa: E402
 

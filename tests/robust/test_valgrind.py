@@ -17,7 +17,7 @@ CACHE = os.path.join(os.path.dirname(os.path.abspath(support.ECLAT)), "tests", "
 # One thread each for kernels and builders, since valgrind runs one at a time. memcheck knows no AVX-512 and hides it from LLVM, so
 # that these kernels must not mix with those of other tests.
 ENVIRONMENT = dict(os.environ, XDG_CACHE_HOME=CACHE, POCL_CACHE_DIR=os.path.join(CACHE, "pocl"), POCL_MAX_PTHREAD_COUNT="1",
-                   OMP_NUM_THREADS="1", OCL_ICD_VENDORS="pocl.icd")  # other drivers are not ours to judge
+                   OMP_NUM_THREADS="1", OCL_ICD_VENDORS="pocl.icd", ECLAT_KERNELS="")  # other drivers are not ours to judge
 
 
 @full
