@@ -149,7 +149,7 @@ static bool goes_on(void *user)
 static bool help(ec_device_source *s, const ec_batch_order *order, uint32_t reached)
 {
     const double samples = order->left - (double)(reached - order->done) * s->pipeline.params.batch;
-    while (s->has_begun && ec_help_compile(&s->pipeline, fmin(samples / s->first_rate, order->until - ec_now())))
+    while (s->has_shown && ec_help_compile(&s->pipeline, fmin(samples / s->first_rate, order->until - ec_now())))
         if (!order->go_on(order->user, reached)) return false;
     return true;
 }
@@ -192,6 +192,7 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
         EC_TRY(run_wave(s, order, before + reached, count, seed, err));
         if (order->matte) EC_TRY(ec_mattes_read(&s->mattes, p, order->list != NULL, reached, count, err));
         reached += count;
+        s->has_shown |= order->left > 0;
         *complete = order->go_on(order->user, reached) || reached == order->count;
     }
     EC_TRY(tell(s, order, !*complete, err));

@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 
-#define SECONDS_A_KERNEL 0.2  /* at least, where the first kernels' own time says less because they were there */
+#define SECONDS_A_KERNEL 0.4  /* at least, where the first kernels' own time says less because they were there */
 #define MOMENT_MS 20
 
 struct ec_help {
@@ -49,7 +49,8 @@ static double compiling_left(const ec_help *h, const ec_compile_states *states)
 {
     uint32_t left = 0;
     for (uint32_t i = 0; i < h->job.needed; i++) left += atomic_load(&states->kernels[i]) != EC_COMPILE_DONE;
-    return left * fmax(h->first / h->job.kernel_count, SECONDS_A_KERNEL);
+    const double so_far = (ec_now() - h->begun) / (h->job.needed - left + 1);
+    return left * fmax(fmax(h->first / h->job.kernel_count, SECONDS_A_KERNEL), so_far);
 }
 
 /* Waits no longer in all than all of it should take: the other process may have been stopped. */

@@ -142,13 +142,15 @@ static ec_result prepare(ec_pipeline *p, candidate *c, ec_error *err)
     (void)rasterisers_job(p, &c[RASTERISER]);
     (void)is_compiled(p, &c[EC_BEGUN_UNIVERSAL]);
     for (int i = 0; i < 2; i++) {
-        if (!c[kinds[i]].set.wave) continue; /* for so small a picture there is none */
+        candidate *one = &c[kinds[i]];
+        if (one->is_compiled || !one->set.wave) continue; /* 0: for so small a picture there are none */
         ec_compile_states open = {.programs = {EC_COMPILE_OPEN}};
         ec_compile_run run;
-        ec_result result = ec_compile_run_begin(p->cl, &c[kinds[i]].job, &open, &run, err);
+        ec_result result = ec_compile_run_begin(p->cl, &one->job, &open, &run, err);
         if (result == EC_OK) result = ec_compile_run_all(&run, NULL, err);
         if (result == EC_OK) ec_compile_job_done(p->cl, run.job);
         ec_compile_run_end(&run);
+        one->is_compiled = result == EC_OK;
         EC_TRY(result);
     }
     return EC_OK;
@@ -157,8 +159,8 @@ static ec_result prepare(ec_pipeline *p, candidate *c, ec_error *err)
 ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *err)
 {
     candidate candidates[CANDIDATES] = {[EC_BEGUN_FAST] = {.set = ec_kernel_set_fast(p)}, [EC_BEGUN_NARROW] = {.set = narrow_set(p)}, [EC_BEGUN_UNIVERSAL] = {.set = universal_set(p)}};
-    candidate *chosen = &candidates[p->begun = choose(p, head, candidates)];
     ec_result result = ec_prepares_kernels() && ec_compiles_late(p->cl) ? prepare(p, candidates, err) : EC_OK;
+    candidate *chosen = &candidates[p->begun = choose(p, head, candidates)];
     if (result == EC_OK && p->is_narrow) result = ec_pipeline_use_wave(p, chosen->set.wave, err);
     if (result == EC_OK && p->compiler.report >= 0) ec_help_begin(p, &candidates[EC_BEGUN_FAST].job);
     if (result == EC_OK) result = build(p, chosen, err);

@@ -11,10 +11,13 @@ typedef enum ec_deflate_kind {
     EC_DEFLATE_LAST, /* raw deflate that ends the stream */
 } ec_deflate_kind;
 
-/* For one thread at a time; 330 KB. */
+/* For one thread at a time; some hundred KB. */
 typedef struct ec_deflate ec_deflate;
 ec_deflate *ec_deflate_create(void); /* NULL: no memory */
 void ec_deflate_free(ec_deflate *);
+
+/* Behind the bytes there is room for as many more, which become zeros: ISA-L looks at them. */
+#define EC_DEFLATE_PAST 320
 
 /* The size of what has been written at `to`; 0: it would take more than `most` bytes. */
 size_t ec_deflate_pack(ec_deflate *, ec_deflate_kind kind, uint8_t *from, size_t bytes, uint8_t *to, size_t most);

@@ -24,10 +24,11 @@ static void predict(const uint8_t *packed, size_t bytes, uint8_t *to)
 static bool make_room(ec_exr_block *b, size_t bytes)
 {
     if (!b->deflate) b->deflate = ec_deflate_create();
-    if (b->room >= 3 * bytes) return b->deflate != NULL;
+    const size_t room = 3 * bytes + EC_DEFLATE_PAST;
+    if (b->room >= room) return b->deflate != NULL;
     free(b->memory);
-    b->memory = malloc(3 * bytes);
-    b->room = b->memory ? 3 * bytes : 0;
+    b->memory = malloc(room);
+    b->room = b->memory ? room : 0;
     return b->memory != NULL && b->deflate != NULL;
 }
 
@@ -60,7 +61,7 @@ static exr_result_t encode(ec_exr_block *b, const ec_exr_part *part, const ec_ch
     b->data = b->memory;
     b->size = bytes;
     if (part->is_plain) return EXR_ERR_SUCCESS;
-    uint8_t *const predicted = b->memory + bytes, *const packed = predicted + bytes;
+    uint8_t *const predicted = b->memory + bytes, *const packed = predicted + bytes + EC_DEFLATE_PAST;
     predict(b->memory, bytes, predicted);
     const size_t size = ec_deflate_pack(b->deflate, EC_DEFLATE_ZLIB, predicted, bytes, packed, bytes - 1);
     if (size > 0) b->data = packed, b->size = size;

@@ -70,7 +70,7 @@ static bool make_room(ec_png_strip *strip, size_t bytes)
 static void pack(const ec_png_strips *s, ec_png_strip *strip, const uint8_t *first, uint32_t rows, bool is_last)
 {
     const size_t line = s->row_bytes + 1;
-    uint8_t *filtered = malloc(line * (rows + 1u));
+    uint8_t *filtered = malloc(line * (rows + 1u) + EC_DEFLATE_PAST);
     strip->is_packed = false;
     if (filtered && make_room(strip, ec_deflate_bound(line * rows))) {
         for (uint32_t y = 0; y < rows; y++)
