@@ -52,7 +52,7 @@ eclat_room(live base cl denoise device film gltf image jobs pack render report s
 eclat_room(commands accel base cl cost device film gltf image jobs ranks report scene selftest)
 eclat_room(lib base cl commands film jobs live ranks report scene)
 
-# Rooms that know nothing of OpenCL, once more as a library by other compiler options. A third argument chooses among their files.
+# Rooms that know nothing of OpenCL, once more as a library by other compiler options. A second argument is a pattern that chooses among their files.
 set(host_rooms base film image denoise scene gltf accel pack)
 function(eclat_host_library name)
   foreach(room ${host_rooms})

@@ -26,7 +26,7 @@ static bool driver_folder(char path[PATH_SIZE])
     return size > 0 && size < PATH_SIZE;
 }
 
-/* Of all that it was compiled from and for. where: which cache is meant. */
+/* The key of a job: what it was compiled from and for, and in which cache (`where`). */
 static ec_cache_key key_in(const ec_cl *cl, const ec_compile_job *job, const char *where)
 {
     ec_cache_key key = ec_cache_key_of(&cl->info, where, "");

@@ -48,7 +48,7 @@ static inline bool ec_compile_is_small(const ec_compile_kernel *kernel) { return
 /* Was this job compiled before, into the driver's cache as it is now? And: it was. Both know it by a file beside the kernel cache. */
 bool ec_compile_job_is_done(const ec_cl *cl, const ec_compile_job *job);
 void ec_compile_job_done(const ec_cl *cl, const ec_compile_job *job);
-/* Is eclat being built, and jobs that are done are kept beside it ($ECLAT_PREPARE)? */
+/* True while eclat is built: jobs that are done are kept for first renders, in the folder that $ECLAT_PREPARE names. */
 bool ec_prepares_kernels(void);
 /* The first, where nobody has looked ahead (cl/ahead.h). mends: what is damaged is set aside, with a warning. */
 bool ec_compile_job_look(const ec_cl *cl, const ec_compile_job *job, bool mends);

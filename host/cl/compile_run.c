@@ -105,6 +105,17 @@ ec_result ec_compile_run_all(ec_compile_run *run, void (*compiled)(uint32_t kern
     return EC_OK;
 }
 
+ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, ec_error *err)
+{
+    ec_compile_states states = {.programs = {EC_COMPILE_OPEN}};
+    ec_compile_run run;
+    ec_result result = ec_compile_run_begin(cl, job, &states, &run, err);
+    if (result == EC_OK) result = ec_compile_run_all(&run, NULL, err);
+    if (result == EC_OK) ec_compile_job_done(cl, job);
+    ec_compile_run_end(&run);
+    return result;
+}
+
 bool ec_compile_run_take(ec_compile_run *run, uint32_t *kernel)
 {
     for (uint32_t i = run->job->needed; i-- > 0;) {

@@ -38,6 +38,9 @@ ec_result ec_compile_run_open(ec_compile_run *run, uint32_t count, void (*compil
 /* All, but for what others have taken and finish. */
 ec_result ec_compile_run_all(ec_compile_run *run, void (*compiled)(uint32_t kernel), ec_error *err);
 
+/* All of a job that nobody else is at; it is done then (ec_compile_job_done). */
+ec_result ec_compile_job_run(ec_cl *cl, const ec_compile_job *job, ec_error *err);
+
 /* The last needed kernel that nobody is at, and that no program under way elsewhere has to be waited for: it is the caller's then. False: there is none. */
 bool ec_compile_run_take(ec_compile_run *run, uint32_t *kernel);
 

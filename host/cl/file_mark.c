@@ -5,8 +5,7 @@
 #include <stdlib.h>
 
 #include "base/fingerprint.h"
-
-enum { BLOCK = 1 << 20 };
+#include "base/read_file.h"
 
 void ec_bytes_mark(const void *bytes, size_t size, char mark[EC_FILE_MARK])
 {
@@ -14,31 +13,12 @@ void ec_bytes_mark(const void *bytes, size_t size, char mark[EC_FILE_MARK])
     snprintf(mark, EC_FILE_MARK, "%016" PRIx64 "%016" PRIx64, sum.half[0], sum.half[1]);
 }
 
-char *ec_file_bytes(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "rbe");
-    char *bytes = NULL, *grown;
-    size_t got;
-    *size = 0;
-    if (!file) return NULL;
-    do {
-        grown = realloc(bytes, *size + BLOCK);
-        if (!grown) break;
-        bytes = grown;
-        *size += got = fread(bytes + *size, 1, BLOCK, file);
-    } while (got == BLOCK);
-    const bool is_read = grown && !ferror(file);
-    fclose(file);
-    if (is_read) return bytes;
-    free(bytes);
-    return NULL;
-}
-
 bool ec_file_mark(const char *path, char mark[EC_FILE_MARK])
 {
+    uint8_t *bytes;
     size_t size;
-    char *bytes = ec_file_bytes(path, &size);
-    if (bytes) ec_bytes_mark(bytes, size, mark);
+    const bool is_read = ec_read_file(path, &bytes, &size, NULL) == EC_OK;
+    if (is_read) ec_bytes_mark(bytes, size, mark);
     free(bytes);
-    return bytes != NULL;
+    return is_read;
 }

@@ -12,7 +12,4 @@ void ec_bytes_mark(const void *bytes, size_t size, char mark[EC_FILE_MARK]);
 /* False: it cannot be read. */
 bool ec_file_mark(const char *path, char mark[EC_FILE_MARK]);
 
-/* All of its bytes, malloc'ed; NULL: it cannot be read. */
-char *ec_file_bytes(const char *path, size_t *size);
-
 #endif

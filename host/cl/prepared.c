@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/module.h"
+#include "base/read_file.h"
 #include "cl/compile_job.h"
 #include "cl/file_mark.h"
 
@@ -40,29 +41,34 @@ static bool make_parent(const char *path)
 static bool copy(const char *from, const char *to, const char *mark)
 {
     char found[EC_FILE_MARK];
-    size_t size = 0;
+    uint8_t *bytes;
+    size_t size;
     if (access(to, F_OK) == 0) return ec_file_mark(to, found) && !strcmp(found, mark);
-    char *bytes = ec_file_bytes(from, &size);
-    if (bytes) ec_bytes_mark(bytes, size, found);
-    const bool is_good = bytes && !strcmp(found, mark) && make_parent(to) && ec_atomic_write(to, bytes, size, NULL) == EC_OK;
+    bool is_good = ec_read_file(from, &bytes, &size, NULL) == EC_OK;
+    if (is_good) ec_bytes_mark(bytes, size, found);
+    is_good = is_good && !strcmp(found, mark) && make_parent(to) && ec_atomic_write(to, bytes, size, NULL) == EC_OK;
     free(bytes);
     return is_good;
 }
 
-/* Each line of `list`, "mark path" with paths below `from`, once copied to `to`, as a line of `out` with paths below `out_root`. */
-static bool copy_all(char *list, const char *from, const char *to, const char *out_root, FILE *out)
+/* Copies the files of a list, each a line "mark path", from a folder to another. Paths are below the first one after `skip` characters; `out` gets the
+ * lines with `root` in place of these. */
+static bool copy_all(const char *list, size_t bytes, size_t skip, const char *from, const char *to, const char *root, FILE *out)
 {
-    char source[2 * PATH_MAX], target[2 * PATH_MAX], *rest = NULL;
-    for (char *line = strtok_r(list, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+    char source[2 * PATH_MAX], target[2 * PATH_MAX], *rest = NULL, *lines = strndup(list, bytes);
+    bool is_good = lines != NULL;
+    for (char *line = is_good ? strtok_r(lines, "\n", &rest) : NULL; line && is_good; line = strtok_r(NULL, "\n", &rest)) {
         char *path = strchr(line, ' ');
-        if (!path) return false;
-        *path++ = 0;
+        is_good = path && strlen(path) > 1 + skip && !strstr(path, "..");
+        if (!is_good) break;
+        *path = 0;
+        path += 1 + skip;
         snprintf(source, sizeof source, "%s/%s", from, path);
         snprintf(target, sizeof target, "%s/%s", to, path);
-        if (strstr(path, "..") || !copy(source, target, line)) return false;
-        fprintf(out, "%s %s%s\n", line, out_root, path);
+        is_good = copy(source, target, line) && fprintf(out, "%s %s%s\n", line, root, path) > 0;
     }
-    return true;
+    free(lines);
+    return is_good;
 }
 
 bool ec_prepared_take(const ec_cache_key *key, const char *driver, FILE *list)
@@ -73,31 +79,19 @@ bool ec_prepared_take(const ec_cache_key *key, const char *driver, FILE *list)
     if (!find_folder(folder) || !ec_cache_load(folder, key, &found, &bytes)) return false;
     snprintf(files, sizeof files, "%s/files", folder);
     snprintf(root, sizeof root, "%s/", driver);
-    char *lines = strndup((char *)found, bytes);
-    const bool is_good = lines && copy_all(lines, files, driver, root, list);
-    free(lines);
+    const bool is_good = copy_all((char *)found, bytes, 0, files, driver, root, list);
     free(found);
     return is_good;
 }
 
 bool ec_prepared_put(const ec_cache_key *key, const char *driver, const char *list)
 {
-    char files[PATH_MAX + 8], *below = NULL, *lines = NULL, *line, *rest = NULL, *absolute = strdup(list);
-    size_t size = 0, skip = strlen(driver) + 1;
-    const char *folder = ec_prepared_target();
-    FILE *to = open_memstream(&below, &size);
-    for (line = absolute && to ? strtok_r(absolute, "\n", &rest) : NULL; line; line = strtok_r(NULL, "\n", &rest)) {
-        const char *path = strchr(line, ' ') + 1;
-        fprintf(to, "%.*s%s\n", (int)(path - line), line, path + skip);
-    }
-    bool is_good = to && fclose(to) == 0 && absolute;
-    snprintf(files, sizeof files, "%s/files", folder);
-    FILE *nowhere = fopen("/dev/null", "we");
-    lines = is_good ? strdup(below) : NULL;
-    is_good = lines && nowhere && copy_all(lines, driver, files, "", nowhere) && ec_cache_store(folder, key, (const unsigned char *)below, size);
-    if (nowhere) fclose(nowhere);
-    free(lines);
-    free(below);
-    free(absolute);
+    char files[PATH_MAX + 8], *text = NULL;
+    size_t size = 0;
+    FILE *below = open_memstream(&text, &size);
+    snprintf(files, sizeof files, "%s/files", ec_prepared_target());
+    bool is_good = below && copy_all(list, strlen(list), strlen(driver) + 1, driver, files, "", below);
+    is_good = below && fclose(below) == 0 && is_good && ec_cache_store(ec_prepared_target(), key, (const unsigned char *)text, size);
+    free(text);
     return is_good;
 }

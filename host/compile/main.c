@@ -65,13 +65,13 @@ static bool find_device(const ec_compile_job *job, ec_device_info *info)
     return is_there;
 }
 
-static bool run(ec_cl *cl, const ec_compile_job *job, ec_compile_states *states, void (*told)(uint32_t kernel))
+static bool run(ec_cl *cl, const ec_compile_job *job, ec_compile_states *states)
 {
     ec_compile_run run;
     ec_result result = ec_compile_run_begin(cl, job, states, &run, NULL);
-    if (result == EC_OK) result = ec_compile_run_open(&run, job->needed, told, NULL);
-    if (told) give_way(LATER); /* the render goes on without the rest */
-    if (result == EC_OK) result = ec_compile_run_all(&run, told, NULL);
+    if (result == EC_OK) result = ec_compile_run_open(&run, job->needed, compiled, NULL);
+    give_way(LATER); /* the render goes on without the rest */
+    if (result == EC_OK) result = ec_compile_run_all(&run, compiled, NULL);
     ec_compile_run_end(&run);
     if (result == EC_OK) ec_compile_job_done(cl, job);
     return result == EC_OK;
@@ -85,15 +85,13 @@ static int compile_all(ec_compile_job *job, ec_compile_states *states)
     int turn = lock(job->cache_dir, "compiling", true);
     if (!find_device(job, &info) || ec_cl_open(&info, &cl, NULL) != EC_OK) return 1;
     if (*job->cache_dir) cl.cache_dir = job->cache_dir;
-    if (!run(&cl, job, states, compiled)) return 1;
+    if (!run(&cl, job, states)) return 1;
     tell(EC_COMPILED_ALL);
     if (turn >= 0) close(turn);
     turn = lock(job->cache_dir, "compiling-ahead", false);
     give_way(LOWEST);
-    while (turn >= 0 && ec_compile_job_read(job, stdin)) {
-        ec_compile_states own = {.programs = {EC_COMPILE_OPEN}};
-        if (!ec_compile_job_is_done(&cl, job) && !run(&cl, job, &own, NULL)) return 1;
-    }
+    while (turn >= 0 && ec_compile_job_read(job, stdin))
+        if (!ec_compile_job_is_done(&cl, job) && ec_compile_job_run(&cl, job, NULL) != EC_OK) return 1;
     return 0;
 }
 

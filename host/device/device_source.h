@@ -14,7 +14,7 @@ typedef struct ec_device_source {
     uint32_t rows;                    /* that it renders: from params.film_row on */
     uint32_t unfit;                   /* values of batches in blocks that were not finite */
     ec_mattes mattes;
-    bool has_begun, has_shown;        /* a wave has been rendered; one of the picture: a look beforehand asks for no samples that are left */
+    bool has_begun, has_shown;        /* a wave was rendered; a wave of the picture was, and not of a look beforehand, whose orders have no samples left */
     double first_rate;                /* samples a second of the first wave */
 } ec_device_source;
 

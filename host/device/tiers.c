@@ -144,14 +144,8 @@ static ec_result prepare(ec_pipeline *p, candidate *c, ec_error *err)
     for (int i = 0; i < 2; i++) {
         candidate *one = &c[kinds[i]];
         if (one->is_compiled || !one->set.wave) continue; /* 0: for so small a picture there are none */
-        ec_compile_states open = {.programs = {EC_COMPILE_OPEN}};
-        ec_compile_run run;
-        ec_result result = ec_compile_run_begin(p->cl, &one->job, &open, &run, err);
-        if (result == EC_OK) result = ec_compile_run_all(&run, NULL, err);
-        if (result == EC_OK) ec_compile_job_done(p->cl, run.job);
-        ec_compile_run_end(&run);
-        one->is_compiled = result == EC_OK;
-        EC_TRY(result);
+        EC_TRY(ec_compile_job_run(p->cl, &one->job, err));
+        one->is_compiled = true;
     }
     return EC_OK;
 }

@@ -8,9 +8,9 @@
 
 typedef struct ec_png_strip {
     struct ec_deflate *deflate; /* owned */
-    uint8_t *packed;        /* owned; raw deflate (RFC 1951) that ends at a byte */
+    uint8_t *packed;            /* owned; raw deflate (RFC 1951) that ends at a byte */
     size_t size, room;
-    unsigned long adler;    /* of the filtered rows */
+    unsigned long adler;        /* of the filtered rows */
     bool is_packed;
 } ec_png_strip;
 

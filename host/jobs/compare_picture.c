@@ -1,27 +1,13 @@
 /* What a program shows, read for a comparison: values of 8 or 16 bits, taken for sRGB as colour profiles are not read. */
-#include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/read_file.h"
 #include "gltf/image_decode.h"
 #include "jobs/compare_input.h"
 
 /* Values may be off by this share of a step: graphics cards may round so (Direct3D 11.3, section 3.2.3.6). */
 static const double rounded = 0.6;
-
-static ec_result read_bytes(const char *path, uint8_t **bytes, size_t *size, ec_error *err)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file) return ec_fail(err, "cannot open '%s': %s", path, strerror(errno));
-    bool good = fseek(file, 0, SEEK_END) == 0 && ftell(file) >= 0;
-    *size = good ? (size_t)ftell(file) : 0;
-    rewind(file);
-    *bytes = malloc(*size + 1);
-    good = good && *bytes && fread(*bytes, 1, *size, file) == *size;
-    fclose(file);
-    return good ? EC_OK : ec_fail(err, "cannot read '%s': %s", path, *bytes ? "it cannot be read to its end" : "out of memory");
-}
 
 /* Only lossless WebP has this chunk first. */
 static void name_format(const uint8_t *bytes, size_t size, bool is_deep, ec_compare_input *input)
@@ -69,7 +55,7 @@ ec_result ec_compare_read_picture(const char *path, ec_compare_input *input, ec_
     ec_decode_error why = {{0}, false};
     ec_result result;
     input->path = path;
-    EC_TRY_CLEANUP(read_bytes(path, &bytes, &size, err));
+    EC_TRY_CLEANUP(ec_read_file(path, &bytes, &size, err));
     if (!ec_image_decode(bytes, size, &image, &why)) {
         result = ec_fail(err, "cannot read '%s': %s", path, why.text);
         goto cleanup;

@@ -37,12 +37,15 @@ class Prepared(Case):
         self.assertTrue(copied and set(copied) < set(kept), copied)  # none was compiled, and none is there of what was not asked for
 
     def test_damaged_ones_are_left_alone(self):
-        shutil.copytree(PREPARED, self.path("damaged"))
-        for path in self.files(self.path("damaged")):
-            with open(path, "r+b") as file:
-                file.seek(1000)
-                file.write(b"damage")
-        self.assertEqual(self.render("with", self.path("damaged")), ("narrow", self.picture))
+        for kind in (".so", ".bc"):
+            folder = shutil.copytree(PREPARED, self.path("damaged" + kind))
+            for path in self.files(folder):
+                if path.endswith(kind):
+                    with open(path, "r+b") as file:
+                        file.seek(1000)
+                        file.write(b"damage")
+            with self.subTest(kind):
+                self.assertEqual(self.render("with" + kind, folder), ("narrow", self.picture))
 
     def test_a_cache_that_cannot_be_written(self):
         os.makedirs(self.path("with", "pocl"))

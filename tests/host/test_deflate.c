@@ -1,5 +1,5 @@
 /* tier: quick */
-/* What is compressed comes back, and its bytes depend on nothing else: not on what lies behind it in memory, nor on what was compressed before. */
+/* Blocks come back as they were, and are compressed to the same bytes each time, whatever lies behind them in memory or was compressed before. */
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>

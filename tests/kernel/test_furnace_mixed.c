@@ -99,7 +99,7 @@ int main(void)
                  again ? "+EC_FEATURE_MULTISCATTER" : "");
         programs[EIGHT] = kernel_build(&cl, "chi2", 8, options);
         if (programs[EIGHT]) surfaces(again ? "facets scatter again" : "facets scatter once");
-        if (programs[EIGHT]) clReleaseProgram(programs[2]);
+        if (programs[EIGHT]) clReleaseProgram(programs[EIGHT]);
     }
     ec_cl_close(&cl);
     TEST_END();

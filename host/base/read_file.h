@@ -1,0 +1,13 @@
+/* All of a file at once. */
+#ifndef EC_BASE_READ_FILE_H
+#define EC_BASE_READ_FILE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+/* *bytes is malloc'ed, also on failure: the caller frees it. EC_FAILED with "cannot open" or "cannot read", the path and why. */
+ec_result ec_read_file(const char *path, uint8_t **bytes, size_t *size, ec_error *err);
+
+#endif
