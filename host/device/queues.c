@@ -33,13 +33,14 @@ static uint64_t fit_wave(const ec_pipeline *p)
     return wave;
 }
 
-/* No more than the picture has samples, no fewer than a pixel's; every part of a queue holds whole packets. */
+/* No more than the picture has samples, but for kernels of all effects, whose paths take more room; no fewer than a pixel's; every part of a queue
+ * holds whole packets. */
 static void set_wave(ec_pipeline *p, uint64_t wave)
 {
-    uint64_t samples = (uint64_t)p->params.width * p->params.height * p->params.batch;
-    if (wave > samples) wave = samples;
+    const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, samples = (uint64_t)p->params.width * p->params.height * p->params.batch;
+    const uint64_t most = samples > 4 * unit ? samples : 4 * unit;
+    if (wave > most) wave = most;
     if (wave < p->params.batch) wave = p->params.batch;
-    uint64_t unit = (uint64_t)EC_PARTS * p->lanes;
     p->wave = (uint32_t)((wave + unit - 1) / unit * unit);
     p->params.wave = p->wave;
     p->params.part = p->wave / EC_PARTS;

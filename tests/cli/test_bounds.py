@@ -76,6 +76,7 @@ class Bounds(Case):
             with self.subTest(seed=seed):
                 self.assertIsNotNone(bound)
 
+    @full
     def test_lamp_with_one_bright_texel_has_a_bound_that_holds(self):
         # sampled evenly, one of 8 192 rays to it found its light: true errors of 70 % under bounds of 12 %
         room = texel_room(self.path("texel.gltf"))

@@ -9,7 +9,8 @@ from support import CORNELL, QUICK, RING, SHARED, eclat
 from tiers import full, long
 
 LADDER = scene("ladder")
-JOB = [RING, "--size", "24x18", "--guiding", "--light-paths", "0", "--lanes", "4"]
+JOB = [RING, "--size", "24x18", "--guiding", "--light-paths", "0"]
+WIDER = [*JOB, "--lanes", "4"]
 SUN = os.path.join(SHARED, "assets", "env", "polyhaven", "qwantani_afternoon_puresky_1k.hdr")
 
 
@@ -25,14 +26,15 @@ class Guiding(OtherWay):
     def test_with_light_paths(self):
         self.assert_same_picture([RING, "--size", "32x32"], 128, fewer=6, extra=["--light-paths", "0.25"])
 
+    @full
     def test_bits(self):
         """Whatever order, width, structure or share."""
-        whole = self.assert_same_bits(JOB, [["--lanes", "1"], ["--wave", "4096"]])
+        whole = self.assert_same_bits(WIDER, [["--lanes", "1"], ["--wave", "4096"]])
         self.assertGreater(whole["guide_seconds"], 0)
 
     @full
     def test_more_bits(self):
-        self.assert_same_bits(JOB, [["--lanes", "8"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]])
+        self.assert_same_bits(WIDER, [["--lanes", "8"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]])
 
     @full
     def test_slices_and_resume(self):

@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, full */
 /* The figures of a comparison against sums by hand, and the noise test on synthetic pictures: how often pairs of one truth raise
  * an alarm, and what differences are found. On renders: tests/stat/test_false_alarms.c. */
 #include "film/difference.h"
@@ -230,6 +230,12 @@ static void one_sided_noise_is_enough(void)
 
 int main(void)
 {
+    if (test_tier("full")) {
+        a_calm_pixel_among_noisy_ones_is_judged_by_them();
+        bent_noise_has_long_tails();
+        one_sided_noise_is_enough();
+    }
+    if (!test_tier("quick")) TEST_END();
     figures_are_those_of_the_definitions();
     p_values_combine();
     equal_truths_raise_few_alarms();
@@ -237,8 +243,5 @@ int main(void)
     one_block_and_one_pixel_are_found();
     many_outliers_are_found();
     exact_values_must_be_equal();
-    a_calm_pixel_among_noisy_ones_is_judged_by_them();
-    bent_noise_has_long_tails();
-    one_sided_noise_is_enough();
     TEST_END();
 }

@@ -252,18 +252,15 @@ int main(void)
 {
     int open = kernel_open(&cl);
     if (open) return open;
-    if (test_tier("quick") || test_tier("long")) {
-        chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
+    if (test_tier("quick") || test_tier("long")) chi2_build(programs, "-DFEATURES=EC_FEATURE_SPECULAR");
+    if (test_tier("full") || test_tier("long"))
         glass_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH)");
-    }
     if (test_tier("full")) {
         layered_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_ANISOTROPY+EC_FEATURE_IRIDESCENCE+EC_FEATURE_DIFFUSE_TRANSMISSION)");
         multi_programs[EIGHT] = kernel_build(&cl, "chi2", lane_widths[EIGHT], "-DFEATURES=(EC_FEATURE_SPECULAR+EC_FEATURE_TRANSMISSION+EC_FEATURE_SMOOTH+EC_FEATURE_MULTISCATTER)");
     }
-    if (!test_failures && (test_tier("quick") || test_tier("long"))) {
-        check_opaque();
-        check_glass();
-    }
+    if (!test_failures && (test_tier("quick") || test_tier("long"))) check_opaque();
+    if (!test_failures && (test_tier("full") || test_tier("long"))) check_glass();
     if (!test_failures && test_tier("full")) {
         check_coat();
         check_sheen();

@@ -1,4 +1,4 @@
-/* tiers: quick, long */
+/* tier: full */
 /* What facets scatter more than once (--scattering multiple): its table against quadrature, its value against Kulla and Conty's formula
  * in double, both ways alike, and the energy of all with and without it. */
 #include "kernel/layers_reference.h"

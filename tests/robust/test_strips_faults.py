@@ -51,6 +51,7 @@ class Strips(FaultCase):
             with open(os.path.join(folder, good), "rb") as one, open(os.path.join(self.whole, good), "rb") as other:
                 self.assertTrue(good == "a.exr" or one.read() == other.read())
 
+    @full
     def test_a_disk_that_is_full_ends_the_render_where_no_file_is_left(self):
         counts = self.count_in_strips()
         arguments, environment, folder = self.prepare("full", *TALL, *self.memory, spp=2, call="pwrite", at=counts["pwrite"] // 2, code=ENOSPC)

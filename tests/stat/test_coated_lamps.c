@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tier: full */
 /* A clear coat lies over emission (KHR_materials_clearcoat, "Emission"): what a lamp sends along v is Le (1 - c F(n . v)) with Schlick's F,
  * f0 = 0.04, about the coat's normal. In closed form where it is seen, and where it lights a floor, however it is found. */
 #include "support/gltf_writer.h"
@@ -103,16 +103,12 @@ static void lit_from_centres(void)
 
 int main(void)
 {
-    if (test_tier("quick")) {
-        seen(80, 15, 0.6, 0.5);
-    }
-    if (test_tier("full")) {
-        seen(70, 0, 0.6, 0.5);
-        seen(80, 15, 1, 1);
-        seen(0, 0, 1, 1);
-        seen(70, 0, 1, 1);
-        lit_from_everywhere();
-        lit_from_centres();
-    }
+    seen(80, 15, 0.6, 0.5);
+    seen(70, 0, 0.6, 0.5);
+    seen(80, 15, 1, 1);
+    seen(0, 0, 1, 1);
+    seen(70, 0, 1, 1);
+    lit_from_everywhere();
+    lit_from_centres();
     TEST_END();
 }

@@ -196,9 +196,9 @@ int main(void)
         check_polylum();
         check_punctual();
         check_constant_environment();
-        check_bulb(0);
     }
     if (!test_tier("full")) TEST_END();
+    check_bulb(0);
     check_bulb(1);
     check_bulb(2);
     check_random_triangles();

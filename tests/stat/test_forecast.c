@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tiers: quick, full */
 /* Forecasts on synthetic films: pixels whose noise is exponential, or fireflies on a grey ground, or in few pixels only, independent from sample
  * to sample; and one whose error falls faster. After the pilot a goal says how many samples it will take; then batches come until the bound is
  * there. The 95 % interval must hold the truth in at least 90 % of the repeats (80 % where six or 14 pixels hold all noise: their own spread is hardly
@@ -214,7 +214,9 @@ int main(void)
         {"noise in 14 pixels", EC_REPLICATES, fourteen, 0.0153, 1, 1, 0.8, 1}, /* four replicates hardly tell how many noisy pixels there are: off by 0.69 and 0.84 with two seeds */
         {"error^2 as n^-1.6 at first", EC_REPLICATES, NULL, 0.02, 1.6, 1.4, 0.9, 0.1},
     };
-    for (size_t i = 0; i < sizeof workloads / sizeof *workloads; i++) check(&workloads[i]);
+    for (size_t i = 0; i < sizeof workloads / sizeof *workloads; i++)
+        if (test_tier(i == 0 ? "quick" : "full")) check(&workloads[i]);
+    if (!test_tier("quick")) TEST_END();
     replicates = EC_REPLICATES;
     other_limits();
     limits_are_met();

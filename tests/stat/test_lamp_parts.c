@@ -1,4 +1,4 @@
-/* tier: quick */
+/* tier: full */
 /* A lamp of which one texel shines is a small lamp: the picture is that of a square of the texel's size, and so is its noise. With the nearest
  * texel taken the two are the same but for rounding. One of 4 096 even samples of the lamp would meet it: noise 110 times as large. */
 #include "support/render_case.h"

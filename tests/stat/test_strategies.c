@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tier: full */
 /* Light sampling, BSDF sampling, both together and uniform directions must converge to one picture, whatever emits and
  * whatever stands in the way: they share no code for finding light. Small pictures with many samples, every pair compared by
  * ztest.h with no allowance for a common bias. BSDF sampling and uniform directions meet a lamp seldom, so that 32 batches of
@@ -305,13 +305,10 @@ int main(void)
 {
     const char *sky = write_environment();
     gltf_writer *w;
-    if (test_tier("quick")) {
-        w = stage(matt);
-        add_lamp(w, gltf_lambert(w, 0.3, 30), 0.25);
-        run(w, "small-lamp", NULL, OPAQUE);
-        blend_in_closed_form();
-    }
-    if (!test_tier("full")) TEST_END();
+    w = stage(matt);
+    add_lamp(w, gltf_lambert(w, 0.3, 30), 0.25);
+    run(w, "small-lamp", NULL, OPAQUE);
+    blend_in_closed_form();
     w = stage(glossy_metal);
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
     run(w, "glossy-metal", NULL, OPAQUE);
