@@ -5,6 +5,10 @@
 #include <math.h>
 #include <stdbool.h>
 
+/* Neither is NaN. fmin and fmax, which take that too, are calls of a library. */
+static inline double ec_lesser(double a, double b) { return b < a ? b : a; }
+static inline double ec_greater(double a, double b) { return b > a ? b : a; }
+
 static inline double ec_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static inline void ec_cross(const double a[3], const double b[3], double out[3])

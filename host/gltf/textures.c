@@ -7,10 +7,14 @@
 #include "scene/texture_range.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
 
 /* An image of the file on its way into the scene. */
 typedef struct picture {
     bool is_wanted;
+    uint64_t bytes;               /* as it is stored, about */
     uint32_t index;               /* in the file */
     const ec_gltf_texture *gloss; /* not NULL: it becomes metallic-roughness, by that texture's factor */
     ec_image image;
@@ -178,13 +182,33 @@ static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, boo
     }
 }
 
-static void load_all(table *t, size_t most, const bool *drawn)
+static uint64_t stored_bytes(const ec_gltf *g, const ec_gltf_image *in)
 {
-    for_each_use(t, drawn, want);
-#pragma omp parallel for schedule(dynamic, 1) if (most > 1)
+    EC_FREED char *file = in->uri ? ec_gltf_uri_file(in->uri) : NULL;
+    char path[4096];
+    struct stat info;
+    if (!file) return in->uri ? strlen(in->uri) : in->view >= 0 ? g->views[in->view].length : 0;
+    snprintf(path, sizeof path, "%s%s", g->folder, file);
+    return stat(path, &info) ? 0 : (uint64_t)info.st_size;
+}
+
+static int by_bytes(const void *a, const void *b)
+{
+    const picture *const *x = a, *const *y = b;
+    if ((*x)->bytes != (*y)->bytes) return (*x)->bytes > (*y)->bytes ? -1 : 1;
+    return *x < *y ? -1 : *x > *y;
+}
+
+/* The largest first: no thread begins with it when the others are about to end. */
+static void decode_all(const table *t, picture **wanted, size_t most)
+{
+    int64_t count = 0;
     for (size_t i = 0; i < most; i++)
-        if (t->pictures[i].is_wanted) decode(t, &t->pictures[i]);
-    for_each_use(t, drawn, map_use);
+        if (t->pictures[i].is_wanted) wanted[count++] = &t->pictures[i];
+    for (int64_t i = 0; i < count; i++) wanted[i]->bytes = stored_bytes(t->g, &t->g->images[wanted[i]->index]);
+    qsort(wanted, (size_t)count, sizeof *wanted, by_bytes);
+#pragma omp parallel for schedule(dynamic, 1) if (count > 1)
+    for (int64_t i = 0; i < count; i++) decode(t, wanted[i]);
 }
 
 /* By material: does a primitive that stands somewhere have it? */
@@ -204,14 +228,17 @@ ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements,
     const size_t most = (size_t)g->image_count + g->texture_count; /* pictures: the images, and roughness made of glossiness */
     EC_FREED picture *pictures = calloc(most + 1, sizeof *pictures);
     EC_FREED int64_t *texture = malloc(((size_t)g->texture_count + 1) * sizeof *texture);
+    EC_FREED picture **wanted = malloc((most + 1) * sizeof(picture *));
     EC_FREED bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
     table t = {.g = g, .s = s, .log = log, .pictures = pictures, .texture = texture, .err = err};
     s->images = calloc(most + 1, sizeof *s->images);
     s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
-    if (!pictures || !texture || !s->images || !s->textures || !drawn)
+    if (!pictures || !wanted || !texture || !s->images || !s->textures || !drawn)
         return ec_fail(err, "%s: out of memory for textures", g->path);
     for (uint32_t i = 0; i < g->texture_count; i++) texture[i] = UNSEEN;
     mark_drawn(g, placements, drawn);
-    load_all(&t, most, drawn);
+    for_each_use(&t, drawn, want);
+    decode_all(&t, wanted, most);
+    for_each_use(&t, drawn, map_use);
     return t.result;
 }

@@ -1,5 +1,6 @@
 #include "jobs/render_job.h"
 
+#include <omp.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -209,11 +210,19 @@ static void *find_devices(void *user)
     return NULL;
 }
 
+/* The threads that load a scene. They must be there before a driver's libraries are: while these are linked, no thread can begin. */
+static void begin_threads(void)
+{
+#pragma omp parallel
+    (void)omp_get_thread_num();
+}
+
 /* Drivers take as long to load as many a scene, so both are loaded at once; but a name that no device has is told before a scene is loaded. */
 static ec_result load_both(ec_render_job *job, ec_error *err)
 {
     finder f = {.job = job};
     pthread_t thread;
+    begin_threads();
     const bool is_beside = !job->ranks && !job->request->device && pthread_create(&thread, NULL, find_devices, &f) == 0;
     if (!is_beside) EC_TRY(ec_render_job_find_devices(job, err));
     const ec_result result = load_scene(job, err);

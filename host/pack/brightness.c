@@ -22,13 +22,27 @@ static uint32_t wrapped(int64_t i, uint32_t size, ec_wrap wrap)
 static float texel_at(const ec_brightness *b, uint32_t x, uint32_t y) { return b->texels[(size_t)y * b->width + x]; }
 
 /* Right of and below a texel's middle: of a bilinear function by its values at four corners. */
+static ec_bright between(double p, double q, double r, double s)
+{
+    const double squares = p * p + q * q + r * r + s * s, edges = p * q + r * s + p * r + q * s, diagonals = p * s + q * r;
+    return (ec_bright){(float)((p + q + r + s) / 4), (float)((squares + edges + diagonals / 2) / 9)};
+}
+
 static ec_bright patch(const ec_brightness *b, uint32_t x, uint32_t y)
 {
     const uint32_t right = wrapped((int64_t)x + 1, b->width, b->wrap[0]), below = wrapped((int64_t)y + 1, b->height, b->wrap[1]);
-    const double p = texel_at(b, x, y), q = texel_at(b, right, y), r = texel_at(b, x, below), s = texel_at(b, right, below);
+    const double p = texel_at(b, x, y);
     if (b->nearest) return (ec_bright){(float)p, (float)(p * p)};
-    const double squares = p * p + q * q + r * r + s * s, edges = p * q + r * s + p * r + q * s, diagonals = p * s + q * r;
-    return (ec_bright){(float)((p + q + r + s) / 4), (float)((squares + edges + diagonals / 2) / 9)};
+    return between(p, texel_at(b, right, y), texel_at(b, x, below), texel_at(b, right, below));
+}
+
+/* So many from x on; only those at the end of a row look for their neighbours across the seam. */
+static void patches(const ec_brightness *b, uint32_t x, uint32_t y, uint32_t count, ec_bright *out)
+{
+    const float *above = b->texels + (size_t)y * b->width + x, *below = b->texels + (size_t)wrapped((int64_t)y + 1, b->height, b->wrap[1]) * b->width + x;
+    const uint32_t inside = b->nearest ? 0 : x + count < b->width ? count : count - 1;
+    for (uint32_t i = 0; i < inside; i++) out[i] = between(above[i], above[i + 1], below[i], below[i + 1]);
+    for (uint32_t i = inside; i < count; i++) out[i] = patch(b, x + i, y);
 }
 
 static ec_bright square_of(const ec_brightness *b, uint32_t level, uint32_t x, uint32_t y)
@@ -36,18 +50,36 @@ static ec_bright square_of(const ec_brightness *b, uint32_t level, uint32_t x, u
     return level ? b->levels[level][(size_t)y * b->columns[level] + x] : patch(b, x, y);
 }
 
-/* The mean of up to four of the level below. */
-static ec_bright join(const ec_brightness *b, uint32_t level, uint32_t x, uint32_t y)
+/* Means of up to four squares each, of a row of them and the one below, which may be NULL. */
+static void join(const ec_bright *above, const ec_bright *below, uint32_t count, ec_bright *out)
 {
-    double mean = 0, square = 0;
-    int count = 0;
-    for (uint32_t k = 0; k < 4; k++) {
-        const uint32_t i = 2 * x + k % 2, j = 2 * y + k / 2;
-        if (i >= b->columns[level - 1] || j >= b->rows[level - 1]) continue;
-        const ec_bright one = square_of(b, level - 1, i, j);
-        mean += one.mean, square += one.square, count++;
+    const uint32_t whole = below ? count / 2 : 0;
+    for (uint32_t i = 0; i < whole; i++) {
+        const ec_bright *a = above + 2 * i, *b = below + 2 * i;
+        out[i].mean = (float)(((double)a[0].mean + (double)a[1].mean + (double)b[0].mean + (double)b[1].mean) / 4);
+        out[i].square = (float)(((double)a[0].square + (double)a[1].square + (double)b[0].square + (double)b[1].square) / 4);
     }
-    return (ec_bright){(float)(mean / count), (float)(square / count)};
+    for (uint32_t i = whole; i < (count + 1) / 2; i++) {
+        double mean = 0, square = 0;
+        int n = 0;
+        for (uint32_t k = 2 * i; k < 2 * i + 2 && k < count; k++, n++) mean += above[k].mean, square += above[k].square;
+        for (uint32_t k = 2 * i; below && k < 2 * i + 2 && k < count; k++, n++) mean += below[k].mean, square += below[k].square;
+        out[i] = (ec_bright){(float)(mean / n), (float)(square / n)};
+    }
+}
+
+/* Row y of the first level. */
+static void join_patches(const ec_brightness *b, uint32_t y, ec_bright *out)
+{
+    enum { SOME = 256 };
+    ec_bright rows[2][SOME];
+    const bool has_below = 2 * y + 1 < b->height;
+    for (uint32_t x = 0; x < b->width; x += SOME) {
+        const uint32_t count = b->width - x < SOME ? b->width - x : SOME;
+        patches(b, x, 2 * y, count, rows[0]);
+        if (has_below) patches(b, x, 2 * y + 1, count, rows[1]);
+        join(rows[0], has_below ? rows[1] : NULL, count, out + x / 2);
+    }
 }
 
 static void fill_texels(const ec_scene *scene, const ec_material *m, ec_brightness *b)
@@ -69,8 +101,13 @@ static ec_result add_level(ec_brightness *b, uint32_t level, ec_error *err)
     b->levels[level] = malloc((size_t)columns * rows * sizeof **b->levels);
     if (!b->levels[level]) return ec_fail(err, "out of memory for the brightness of a texture of %u x %u", b->width, b->height);
 #pragma omp parallel for if (rows > 64)
-    for (uint32_t y = 0; y < rows; y++)
-        for (uint32_t x = 0; x < columns; x++) b->levels[level][(size_t)y * columns + x] = join(b, level, x, y);
+    for (uint32_t y = 0; y < rows; y++) {
+        ec_bright *out = b->levels[level] + (size_t)y * columns;
+        const uint32_t before = level > 1 ? b->columns[level - 1] : 0;
+        const ec_bright *above = before ? b->levels[level - 1] + 2 * (size_t)y * before : NULL;
+        if (before) join(above, 2 * y + 1 < b->rows[level - 1] ? above + before : NULL, before, out);
+        else join_patches(b, y, out);
+    }
     return EC_OK;
 }
 

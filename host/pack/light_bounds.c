@@ -10,8 +10,8 @@
 static void take_point(ec_light_bounds *b, const float p[3])
 {
     for (int k = 0; k < 3; k++) {
-        b->low[k] = fmin(b->low[k], (double)p[k]);
-        b->high[k] = fmax(b->high[k], (double)p[k]);
+        b->low[k] = ec_lesser(b->low[k], (double)p[k]);
+        b->high[k] = ec_greater(b->high[k], (double)p[k]);
     }
 }
 
@@ -40,14 +40,17 @@ ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power)
     return b;
 }
 
+/* Most are single lamps, of no spread. */
+static double spread_of(const ec_light_bounds *b) { return b->cos_spread >= 1 ? 0 : acos(b->cos_spread); }
+
 /* The narrowest cone around two. */
 static void join_cones(ec_light_bounds *a, const ec_light_bounds *b)
 {
     if (a->cos_spread <= -1) return; /* all ways already, as large clusters are */
     if (b->cos_spread >= 1 && ec_dot(a->axis, b->axis) >= a->cos_spread) return; /* one lamp within: no angle is asked for */
-    double angle = acos(fmin(fmax(ec_dot(a->axis, b->axis), -1), 1)), sa = acos(a->cos_spread), sb = acos(b->cos_spread);
-    if (fmin(angle + sb, PI) <= sa) return;
-    if (fmin(angle + sa, PI) <= sb) {
+    const double angle = acos(ec_lesser(ec_greater(ec_dot(a->axis, b->axis), -1), 1)), sa = spread_of(a), sb = spread_of(b);
+    if (ec_lesser(angle + sb, PI) <= sa) return;
+    if (ec_lesser(angle + sa, PI) <= sb) {
         memcpy(a->axis, b->axis, sizeof a->axis);
         a->cos_spread = b->cos_spread;
         return;
@@ -69,8 +72,8 @@ void ec_light_bounds_add(ec_light_bounds *to, const ec_light_bounds *other)
         return;
     }
     for (int k = 0; k < 3; k++) {
-        to->low[k] = fmin(to->low[k], other->low[k]);
-        to->high[k] = fmax(to->high[k], other->high[k]);
+        to->low[k] = ec_lesser(to->low[k], other->low[k]);
+        to->high[k] = ec_greater(to->high[k], other->high[k]);
     }
     join_cones(to, other);
     to->power += other->power;
@@ -88,18 +91,18 @@ double ec_light_bounds_size2(const ec_light_bounds *b)
 double ec_light_bounds_cost(const ec_light_bounds *b)
 {
     if (!(b->power > 0)) return 0;
-    double o = acos(b->cos_spread), w = fmin(o + 0.5 * PI, PI), so = sin(o), co = b->cos_spread;
+    double o = spread_of(b), w = ec_lesser(o + 0.5 * PI, PI), so = sin(o), co = b->cos_spread;
     double spread = 2 * PI * (1 - co) + 0.5 * PI * (2 * w * so - cos(o - 2 * w) - 2 * o * so + co);
     return b->power * spread * ec_light_bounds_size2(b);
 }
 
 ec_light_node ec_light_bounds_node(const ec_light_bounds *b, double most_power)
 {
-    ec_light_node node = {.power = (float)fmax(b->power / most_power, 1e-30), .flags = b->two_sided ? EC_LIGHT_NODE_TWO_SIDED : 0};
-    double radius2 = 0, co = fmax(b->cos_spread - 1e-6, -1);
+    ec_light_node node = {.power = (float)ec_greater(b->power / most_power, 1e-30), .flags = b->two_sided ? EC_LIGHT_NODE_TWO_SIDED : 0};
+    double radius2 = 0, co = ec_greater(b->cos_spread - 1e-6, -1);
     for (int k = 0; k < 3; k++) {
         node.centre[k] = (float)(0.5 * (b->low[k] + b->high[k]));
-        double reach = fmax(b->high[k] - node.centre[k], node.centre[k] - b->low[k]);
+        double reach = ec_greater(b->high[k] - node.centre[k], node.centre[k] - b->low[k]);
         radius2 += reach * reach;
         node.axis[k] = (float)b->axis[k];
     }
@@ -107,6 +110,6 @@ ec_light_node ec_light_bounds_node(const ec_light_bounds *b, double most_power)
     if (b->two_sided && co < 0) co = -1;
     node.radius2 = (float)(radius2 * (1 + 1e-6));
     node.cos_spread = (float)co;
-    node.sin_spread = (float)sqrt(fmax(1 - co * co, 0));
+    node.sin_spread = (float)sqrt(ec_greater(1 - co * co, 0));
     return node;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "base/vec3.h"
 #include "pack/distribution.h"
 #include "pack/lamp_pairs.h"
 
@@ -49,7 +50,7 @@ static double middle(const ec_light_bounds *b, int axis) { return 0.5 * (b->low[
 static uint32_t bin_of(const ec_light_bounds *b, int axis, double low, double high)
 {
     double place = BINS * ((middle(b, axis) - low) / (high - low));
-    return place < BINS - 1 ? (uint32_t)fmax(place, 0) : BINS - 1;
+    return place < BINS - 1 ? (uint32_t)ec_greater(place, 0) : BINS - 1;
 }
 
 typedef struct plane {
@@ -70,7 +71,7 @@ static void try_axis(const builder *b, const task *t, int axis, double stretch, 
     double low = INFINITY, high = -INFINITY, above[BINS];
     for (uint32_t i = t->first; i < t->end; i++) {
         double m = middle(&b->bounds[b->order[i]], axis);
-        low = fmin(low, m), high = fmax(high, m);
+        low = ec_lesser(low, m), high = ec_greater(high, m);
     }
     if (!(high > low)) return;
     ec_light_bounds bins[BINS] = {{.power = 0}}, sum = {.power = 0};
@@ -99,7 +100,7 @@ static uint32_t split(const builder *b, const task *t, const ec_light_bounds *al
     if (t->end - t->first == 2) return half;
     plane best = {.axis = -1};
     double longest = 0;
-    for (int k = 0; k < 3; k++) longest = fmax(longest, all->high[k] - all->low[k]);
+    for (int k = 0; k < 3; k++) longest = ec_greater(longest, all->high[k] - all->low[k]);
     for (int k = 0; k < 3; k++)
         if (all->high[k] > all->low[k] && (t->end - t->first < MANY || all->high[k] - all->low[k] == longest))
             try_axis(b, t, k, longest / (all->high[k] - all->low[k]), &best);
@@ -199,7 +200,7 @@ ec_result ec_light_tree_build(const ec_light_set *set, ec_light_node *nodes, uin
     builder lamps = {.set = set, .bounds = set->bounds, .order = order, .nodes = nodes, .trails = trails};
     for (uint32_t i = 0; i < count; i++) {
         order[i] = order[count + i] = i;
-        lamps.most_power = fmax(lamps.most_power, set->bounds[i].power);
+        lamps.most_power = ec_greater(lamps.most_power, set->bounds[i].power);
     }
     builder top = lamps;
     top.bounds = bounds;

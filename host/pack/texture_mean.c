@@ -22,12 +22,20 @@ ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_us
     return mean;
 }
 
+/* floor() is a call of a library. */
+static double whole(double u)
+{
+    if (!(fabs(u) < 4e15)) return floor(u);
+    const double cut = (double)(int64_t)u;
+    return cut > u ? cut - 1.0 : cut;
+}
+
 static uint32_t wrap(double u, uint32_t size, ec_wrap mode)
 {
     if (!isfinite(u)) return 0;
-    double folded = u - floor(u);
+    double folded = u - whole(u);
     if (mode == EC_WRAP_CLAMP) folded = fmin(fmax(u, 0.0), 1.0);
-    if (mode == EC_WRAP_MIRROR) folded = 1.0 - fabs(2.0 * (0.5 * u - floor(0.5 * u)) - 1.0);
+    if (mode == EC_WRAP_MIRROR) folded = 1.0 - fabs(2.0 * (0.5 * u - whole(0.5 * u)) - 1.0);
     uint32_t i = (uint32_t)(folded * size);
     return i < size ? i : size - 1;
 }
