@@ -64,20 +64,15 @@ ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const v
     return EC_OK;
 }
 
-static void CL_CALLBACK free_memory(cl_mem buffer, void *memory)
-{
-    (void)buffer;
-    free(memory);
-}
-
-bool ec_buffer_adopt(ec_cl *cl, const char *label, uint64_t bytes, void *memory, cl_mem *buffer)
+bool ec_buffer_adopt(ec_cl *cl, const char *label, uint64_t bytes, void *memory, void(CL_CALLBACK *leave)(cl_mem buffer, void *user), void *user,
+                     cl_mem *buffer)
 {
     const bool is_processor = cl->info.type & CL_DEVICE_TYPE_CPU, is_aligned = (uintptr_t)memory % EC_SHARED_ALIGNMENT == 0;
     if (!memory || !is_processor || !is_aligned || bytes < EC_ADOPTED || check_limits(cl, label, bytes, NULL) != EC_OK) return false;
     cl_int code;
     cl_mem made = clCreateBuffer(cl->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory, &code);
     if (code != CL_SUCCESS) return false;
-    if (clSetMemObjectDestructorCallback(made, free_memory, memory) != CL_SUCCESS) {
+    if (clSetMemObjectDestructorCallback(made, leave, user) != CL_SUCCESS) {
         clReleaseMemObject(made);
         return false;
     }

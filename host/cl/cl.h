@@ -130,8 +130,8 @@ ec_result ec_program_build_source(const ec_cl *cl, const char *label, const char
 ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer, ec_error *err);
 void ec_buffer_release(ec_cl *cl, cl_mem *buffer); /* sets it to NULL; NULL is fine */
 /* Where the device is a processor, makes a buffer of the caller's memory, which comes from ec_shared_alloc and is large enough to be worth it: no
- * copy. Then it is freed with the buffer; else false, and it is the caller's still. */
-bool ec_buffer_adopt(ec_cl *cl, const char *label, uint64_t bytes, void *memory, cl_mem *buffer);
+ * copy. leave(buffer, user) is called when the buffer has gone; false: it never is, and the memory is the caller's still. */
+bool ec_buffer_adopt(ec_cl *cl, const char *label, uint64_t bytes, void *memory, void(CL_CALLBACK *leave)(cl_mem buffer, void *user), void *user, cl_mem *buffer);
 /* A buffer that no kernel writes: `bytes` of data, and room for `slack` more. With a key, which is that of label and data, it stays on the
  * device after its release, and is found there by whoever puts the same again; keep_only lets go of all others that stay. */
 ec_fingerprint ec_buffer_key(const char *label, uint64_t bytes, uint64_t slack, const void *data);

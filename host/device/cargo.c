@@ -16,6 +16,7 @@
 #include "pack/bulbs.h"
 #include "pack/distribution.h"
 #include "pack/lamp_pairs.h"
+#include "scene/texels.h"
 
 static void add_accel_buffers(ec_cargo *cargo, uint32_t which, const ec_accel *accel, bool owned)
 {
@@ -359,9 +360,17 @@ ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *o, uint3
     return fill(cargo, scene, called_for, o, batch, kinds, alone, stats, err);
 }
 
+void ec_cargo_buffer_free(ec_cargo_buffer *buffer)
+{
+    free(buffer->owned);
+    ec_texels_leave(buffer->texels);
+    buffer->owned = NULL;
+    buffer->texels = NULL;
+}
+
 void ec_cargo_free(ec_cargo *cargo)
 {
-    for (uint32_t i = 0; i < cargo->head.buffer_count; i++) free(cargo->buffers[i].owned);
+    for (uint32_t i = 0; i < cargo->head.buffer_count; i++) ec_cargo_buffer_free(&cargo->buffers[i]);
     cargo->head.buffer_count = 0;
     ec_insides_free(&cargo->insides);
     ec_pack_free(&cargo->pack);

@@ -41,7 +41,8 @@ typedef struct ec_cargo_buffer {
     uint64_t bytes;                  /* of data … */
     uint64_t slack;                  /* … and so many more on the device, of any value */
     const void *data;
-    void *owned;                     /* data, if it is to be freed, and has room for the slack; NULL: it lies in what the cargo was made of */
+    void *owned;                     /* data, if it is to be freed, and has room for the slack; NULL: it lies in what the cargo was made of … */
+    struct ec_texels *texels;        /* … or in these, of which the cargo is a user */
 } ec_cargo_buffer;
 
 enum { EC_CARGO_BUFFERS = EC_SCENE_BUFFERS + 4 + EC_ACCEL_COUNT * EC_ACCEL_BUFFERS };
@@ -62,6 +63,7 @@ typedef struct ec_cargo {
 ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *options, uint32_t batch, uint32_t kinds, ec_cl *alone, ec_cargo *cargo,
                         ec_render_stats *stats, ec_error *err);
 void ec_cargo_free(ec_cargo *cargo); /* zero-initialised or freed is fine */
+void ec_cargo_buffer_free(ec_cargo_buffer *buffer); /* what it owns; a second time is fine */
 
 /* The two steps of it that tell effects. First what of the scene is rendered, and, for called_for, what says which effects
  * that takes: they are the cargo's or the scene itself. Then its pack, and the head's effects; alone, and the samples of a batch, as above. */

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "device/pipeline.h"
+#include "scene/texels.h"
 
 /* NULL: this device has no use for it. */
 static cl_mem *place_of(ec_pipeline *p, const ec_cargo_buffer *b)
@@ -20,6 +21,29 @@ static void make_room(ec_pipeline *p, const ec_cargo *cargo, ec_fingerprint keys
     ec_buffers_keep_only(p->cl, keys, cargo->head.buffer_count);
 }
 
+static void CL_CALLBACK free_memory(cl_mem buffer, void *memory)
+{
+    (void)buffer;
+    free(memory);
+}
+
+static void CL_CALLBACK leave_texels(cl_mem buffer, void *texels)
+{
+    (void)buffer;
+    ec_texels_leave(texels);
+}
+
+/* The device then works on the cargo's memory itself, and frees it. */
+static bool adopt(ec_pipeline *p, ec_cargo_buffer *b, cl_mem *place)
+{
+    if (!b->owned && !b->texels) return false;
+    void *user = b->owned ? b->owned : b->texels;
+    if (!ec_buffer_adopt(p->cl, b->label, b->bytes + b->slack, (void *)b->data, b->owned ? free_memory : leave_texels, user, place)) return false;
+    b->owned = NULL;
+    b->texels = NULL;
+    return true;
+}
+
 ec_result ec_pipeline_upload(ec_pipeline *p, const ec_cargo *cargo, ec_cargo *spent, ec_error *err)
 {
     ec_fingerprint keys[EC_CARGO_BUFFERS];
@@ -30,15 +54,9 @@ ec_result ec_pipeline_upload(ec_pipeline *p, const ec_cargo *cargo, ec_cargo *sp
         const ec_cargo_buffer *b = &cargo->buffers[i];
         cl_mem *place = place_of(p, b);
         if (place && b->accel < EC_ACCEL_COUNT) p->accels[b->accel].bytes += b->bytes;
-        const bool may_adopt = place && spent && !keeps && b->owned;
-        if (may_adopt && ec_buffer_adopt(p->cl, b->label, b->bytes + b->slack, b->owned, place)) {
-            spent->buffers[i].owned = NULL;
-            continue;
-        }
+        if (place && spent && !keeps && adopt(p, &spent->buffers[i], place)) continue;
         if (place) result = ec_buffer_put(p->cl, b->label, b->bytes, b->slack, b->data, keeps ? &keys[i] : NULL, place, err);
-        if (!spent) continue;
-        free(spent->buffers[i].owned);
-        spent->buffers[i].owned = NULL;
+        if (spent) ec_cargo_buffer_free(&spent->buffers[i]);
     }
     if (spent) ec_cargo_free(spent);
     return result;

@@ -5,6 +5,7 @@
 
 #include "device/cargo.h"
 #include "device/pipeline.h"
+#include "scene/texels.h"
 
 uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[EC_SCENE_BUFFERS], ec_render_effects *effects)
 {
@@ -25,7 +26,7 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_COLORS, s->colors, 0, {"colours", EC_FEATURE_VERTEX_COLORS, s->colors ? 16 * vertices : 0}},
         {EC_ARG_UVS, NULL, 0, {"texture coordinates", EC_FEATURES_UV, s->uv[0] || s->uv[1] ? 16 * vertices : 0}},
         {EC_ARG_TEXTURE_TABLE, pack->textures, 0, {"textures", EC_FEATURES_TEXTURED, pack->texture_count * sizeof *pack->textures}},
-        {EC_ARG_TEXELS, pack->texels, 4, {"texels", EC_FEATURES_TEXTURED, pack->texel_words * 4}},
+        {EC_ARG_TEXELS, pack->texels ? pack->texels->words : NULL, 4, {"texels", EC_FEATURES_TEXTURED, pack->texel_words * 4}},
         {EC_ARG_LIGHT_TABLE, pack->lights, 0, {"lights", light, lights * sizeof *pack->lights}},
         {EC_ARG_LIGHT_SHARES, pack->light_shares, 0, {"light table", light, pack->light_choices * sizeof *pack->light_shares}},
         {EC_ARG_ENVIRONMENT_TEXELS, pack->environment_texels, 0, {"environment map", EC_FEATURE_ENVIRONMENT_MAP, texels * 16}},
@@ -82,10 +83,13 @@ ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, ec_pack *pa
         const ec_upload *u = &plan[i];
         uint64_t bytes = u->buffer.bytes;
         if (!bytes) continue; /* an absent stream stays NULL */
-        void *owned = u->arg == EC_ARG_TEXELS ? (void *)pack->texels : u->arg == EC_ARG_PRIMS ? pack->prims : NULL;
+        void *owned = u->arg == EC_ARG_PRIMS ? pack->prims : NULL;
         if (u->arg == EC_ARG_UVS) EC_TRY(add_uvs(cargo, scene, u, err));
         else ec_cargo_add(cargo, u->arg, u->buffer.label, bytes - u->slack, u->slack, u->data, owned);
-        if (u->arg == EC_ARG_TEXELS) pack->texels = NULL; /* the cargo's */
+        if (u->arg == EC_ARG_TEXELS) { /* the cargo's */
+            cargo->buffers[cargo->head.buffer_count - 1].texels = pack->texels;
+            pack->texels = NULL;
+        }
         if (u->arg == EC_ARG_PRIMS) pack->prims_lent = true;
     }
     return EC_OK;

@@ -9,8 +9,14 @@ typedef struct ec_decode_error {
     bool out_of_memory; /* the picture may be whole */
 } ec_decode_error;
 
-/* PNG, JPEG, and WebP, AVIF and KTX2 where the build reads them, by content. Sets size and pixels of *image, which must be zero before. */
+/* PNG, JPEG, and WebP, AVIF and KTX2 where the build reads them, by content. Sets size and pixels of *image, which must be zero before; but for what
+ * ec_image_size tells of, it may have that size, and rgba8 room for its pixels. */
 bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_decode_error *err);
+
+/* Of a JPEG, and of a PNG that becomes rgba8: its size. False: another one, or not known. */
+bool ec_image_size(const uint8_t *bytes, uint64_t length, uint32_t *width, uint32_t *height);
+bool ec_image_size_png(const uint8_t *bytes, size_t length, uint32_t *width, uint32_t *height);
+bool ec_image_size_jpeg(const uint8_t *bytes, size_t length, uint32_t *width, uint32_t *height);
 
 /* image_png.c, image_jpeg.c: one format each. Call ec_image_check_size before allocating pixels. */
 bool ec_image_decode_png(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err);

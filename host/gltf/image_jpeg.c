@@ -19,7 +19,8 @@ typedef struct reader {
     struct jpeg_progress_mgr progress;
     jmp_buf escape;
     ec_decode_error *err;
-    uint8_t *pixels;
+    uint8_t *place;  /* where the caller wants them; NULL */
+    uint8_t *pixels; /* else */
 } reader;
 
 static void fail(reader *r, const char *reason)
@@ -61,51 +62,88 @@ static void cmyk_to_rgba(uint8_t *row, uint32_t width, bool inverted)
 }
 
 /* Errors leave by longjmp: what must be freed stands in *r. */
-static void read_picture(reader *r, const uint8_t *bytes, size_t length)
+static void read_header(reader *r, const uint8_t *bytes, size_t length)
+{
+    jpeg_create_decompress(&r->jpeg);
+    r->jpeg.progress = &r->progress;
+    jpeg_mem_src(&r->jpeg, bytes, (unsigned long)length);
+    jpeg_read_header(&r->jpeg, TRUE);
+    const char *reason = ec_image_check_size(r->jpeg.image_width, r->jpeg.image_height, length, PIXELS_PER_BYTE);
+    if (reason) fail(r, reason);
+}
+
+static void read_picture(reader *r, const ec_image *image)
 {
     struct jpeg_decompress_struct *jpeg = &r->jpeg;
-    jpeg_create_decompress(jpeg);
-    jpeg->progress = &r->progress;
-    jpeg_mem_src(jpeg, bytes, (unsigned long)length);
-    jpeg_read_header(jpeg, TRUE);
-    const char *reason = ec_image_check_size(jpeg->image_width, jpeg->image_height, length, PIXELS_PER_BYTE);
-    if (reason) fail(r, reason);
     bool cmyk = jpeg->jpeg_color_space == JCS_CMYK || jpeg->jpeg_color_space == JCS_YCCK;
     jpeg->out_color_space = cmyk ? JCS_CMYK : JCS_EXT_RGBA;
     jpeg_start_decompress(jpeg);
+    if (image->rgba8 && image->width == jpeg->output_width && image->height == jpeg->output_height) r->place = image->rgba8;
     size_t row_size = 4 * (size_t)jpeg->output_width;
-    r->pixels = malloc(row_size * jpeg->output_height);
+    if (!r->place) r->pixels = malloc(row_size * jpeg->output_height);
     if (jpeg->output_components != 4) fail(r, "it has an unexpected layout");
-    if (!r->pixels) {
+    uint8_t *pixels = r->place ? r->place : r->pixels;
+    if (!pixels) {
         ec_decode_out_of_memory(r->err);
         longjmp(r->escape, 1);
     }
     while (jpeg->output_scanline < jpeg->output_height) {
-        JSAMPROW row = r->pixels + jpeg->output_scanline * row_size;
+        JSAMPROW row = pixels + jpeg->output_scanline * row_size;
         jpeg_read_scanlines(jpeg, &row, 1);
         if (cmyk) cmyk_to_rgba(row, jpeg->output_width, jpeg->saw_Adobe_marker);
     }
 }
 
-bool ec_image_decode_jpeg(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
+/* On the heap, as locals may be lost over a longjmp. */
+static reader *make_reader(ec_decode_error *err)
 {
-    reader *r = calloc(1, sizeof *r); /* on the heap, as locals may be lost over a longjmp */
-    if (!r) return ec_decode_out_of_memory(err);
+    reader *r = calloc(1, sizeof *r);
+    if (!r) return NULL;
     r->err = err;
     r->jpeg.err = jpeg_std_error(&r->errors);
     r->jpeg.client_data = r;
     r->errors.error_exit = on_error;
     r->errors.emit_message = on_message;
     r->progress.progress_monitor = on_progress;
-    if (!setjmp(r->escape)) {
-        read_picture(r, bytes, length);
-        image->width = r->jpeg.output_width;
-        image->height = r->jpeg.output_height;
-        image->rgba8 = r->pixels;
-        r->pixels = NULL;
-    }
+    return r;
+}
+
+static void free_reader(reader *r)
+{
     jpeg_destroy_decompress(&r->jpeg);
     free(r->pixels);
     free(r);
-    return image->rgba8 != NULL;
+}
+
+bool ec_image_size_jpeg(const uint8_t *bytes, size_t length, uint32_t *width, uint32_t *height)
+{
+    ec_decode_error err;
+    reader *r = make_reader(&err);
+    if (!r) return false;
+    *width = *height = 0;
+    if (!setjmp(r->escape)) {
+        read_header(r, bytes, length);
+        *width = r->jpeg.image_width;
+        *height = r->jpeg.image_height;
+    }
+    free_reader(r);
+    return *width && *height;
+}
+
+bool ec_image_decode_jpeg(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
+{
+    reader *r = make_reader(err);
+    volatile bool ok = false;
+    if (!r) return ec_decode_out_of_memory(err);
+    if (!setjmp(r->escape)) {
+        read_header(r, bytes, length);
+        read_picture(r, image);
+        image->width = r->jpeg.output_width;
+        image->height = r->jpeg.output_height;
+        if (!r->place) image->rgba8 = r->pixels;
+        r->pixels = NULL;
+        ok = true;
+    }
+    free_reader(r);
+    return ok;
 }

@@ -12,8 +12,10 @@ typedef struct reader {
     const uint8_t *bytes;
     size_t length, done;
     ec_decode_error *err;
-    uint8_t *pixels;
+    uint8_t *place;  /* where the caller wants them; NULL */
+    uint8_t *pixels; /* else */
     uint8_t **rows;
+    bool is_whole;
 } reader;
 
 static void on_error(png_structp png, png_const_charp message)
@@ -59,19 +61,31 @@ static void read_picture(png_structp png, png_infop info, reader *r, ec_image *i
     set_transforms(png, info, deep);
     size_t row_size = (size_t)width * (deep ? 8 : 4);
     if (png_get_rowbytes(png, info) != row_size) png_error(png, "it has an unexpected layout");
-    r->pixels = malloc(row_size * height);
+    if (image->rgba8 && !deep && image->width == width && image->height == height) r->place = image->rgba8;
+    if (!r->place) r->pixels = malloc(row_size * height);
     r->rows = malloc(height * sizeof *r->rows);
-    if (!r->pixels || !r->rows) {
+    if ((!r->place && !r->pixels) || !r->rows) {
         ec_decode_out_of_memory(r->err);
         png_longjmp(png, 1);
     }
-    for (uint32_t y = 0; y < height; y++) r->rows[y] = r->pixels + y * row_size;
+    for (uint32_t y = 0; y < height; y++) r->rows[y] = (r->place ? r->place : r->pixels) + y * row_size;
     png_read_image(png, r->rows);
     image->width = width;
     image->height = height;
     if (deep) image->rgba16 = (uint16_t *)(void *)r->pixels; /* malloc'ed, so aligned */
-    else image->rgba8 = r->pixels;
+    else if (!r->place) image->rgba8 = r->pixels;
     r->pixels = NULL;
+    r->is_whole = true;
+}
+
+static uint32_t big_endian(const uint8_t *b) { return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3]; }
+
+bool ec_image_size_png(const uint8_t *bytes, size_t length, uint32_t *width, uint32_t *height)
+{
+    if (length < 25 || bytes[24] > 8) return false; /* the first chunk says it, with the bits of a channel */
+    *width = big_endian(bytes + 16);
+    *height = big_endian(bytes + 20);
+    return !ec_image_check_size(*width, *height, length, PIXELS_PER_BYTE);
 }
 
 bool ec_image_decode_png(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
@@ -88,10 +102,11 @@ bool ec_image_decode_png(const uint8_t *bytes, size_t length, ec_image *image, e
         read_picture(png, info, r, image);
     }
     png_destroy_read_struct(&png, &info, NULL);
+    const bool is_whole = r->is_whole;
     free(r->pixels);
     free(r->rows);
     free(r);
-    if (!image->rgba8 && !image->rgba16) return false;
+    if (!is_whole) return false;
     *err = (ec_decode_error){0};
     return true;
 }

@@ -4,18 +4,20 @@
 #include "base/text.h"
 #include "gltf/flatten.h"
 #include "gltf/image_decode.h"
+#include "scene/texels.h"
 #include "scene/texture_range.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* An image of the file on its way into the scene. */
 typedef struct picture {
     bool is_wanted;
-    uint64_t bytes;               /* as it is stored, about */
     uint32_t index;               /* in the file */
+    const uint8_t *stored;        /* as it is in the file … */
+    uint64_t bytes;               /* … so many … */
+    uint8_t *owned;               /* … and to be freed, if not NULL */
     const ec_gltf_texture *gloss; /* not NULL: it becomes metallic-roughness, by that texture's factor */
     ec_image image;
     ec_error err;                 /* why there is none, if ec_gltf_image_load failed; else how it is damaged, or "" */
@@ -28,6 +30,8 @@ typedef struct table {
     ec_scene *s;
     const ec_log *log;
     picture *pictures; /* of each image; then, where a texture has one for itself, of each texture */
+    picture **wanted;  /* those, as materials name them */
+    int64_t wanted_count;
     int64_t *texture;  /* glTF texture -> scene texture; UNSEEN or UNUSABLE */
     int slot;          /* whose use is looked at */
     ec_result result;
@@ -59,29 +63,41 @@ static bool no_memory(const char *where, ec_error *err)
     return false;
 }
 
-bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_error *err)
+/* Of the image, as it is in the file. ok: the bytes are there; else err says why not. */
+static bool decode_bytes(const ec_gltf *g, uint32_t index, bool ok, const uint8_t *bytes, uint64_t length, ec_image *out, ec_error *err)
 {
-    const ec_gltf_image *in = &g->images[index];
-    const ec_label label = ec_label_of("images", index, in->name);
+    const char *name = g->images[index].name;
+    const ec_label label = ec_label_of("images", index, name);
     const char *where = label.text;
-    const uint8_t *bytes = NULL;
-    uint8_t *owned = NULL;
-    uint64_t length = 0;
     ec_decode_error reason = {0};
-    err->text[0] = 0;
-    bool ok = get_bytes(g, in, where, &bytes, &length, &owned, err) == EC_OK;
     if (ok && ec_image_decode(bytes, length, out, &reason)) {
         if (reason.text[0]) ec_fail(err, "%s is damaged or truncated: %s", where, reason.text);
     } else if (ok) {
         ok = false;
-        *out = (ec_image){0};
         if (reason.out_of_memory) no_memory(where, err);
         else ec_fail(err, "%s cannot be decoded: %s", where, reason.text);
     }
-    free(owned);
-    if (!ok || !in->name || (out->name = strdup(in->name))) return ok;
+    if (ok && (!name || (out->name = strdup(name)))) return true;
     ec_image_free(out);
-    return no_memory(where, err);
+    return ok && no_memory(where, err);
+}
+
+static bool fetch_bytes(const ec_gltf *g, uint32_t index, const uint8_t **bytes, uint64_t *length, uint8_t **owned, ec_error *err)
+{
+    const ec_label label = ec_label_of("images", index, g->images[index].name);
+    err->text[0] = 0;
+    return get_bytes(g, &g->images[index], label.text, bytes, length, owned, err) == EC_OK;
+}
+
+bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_error *err)
+{
+    const uint8_t *bytes = NULL;
+    uint8_t *owned = NULL;
+    uint64_t length = 0;
+    const bool ok = fetch_bytes(g, index, &bytes, &length, &owned, err);
+    const bool is_loaded = decode_bytes(g, index, ok, bytes, length, out, err);
+    free(owned);
+    return is_loaded;
 }
 
 /* Metallic-roughness of a picture whose alpha is glossiness: green 1 - factor x alpha, no metal. */
@@ -97,7 +113,8 @@ static void make_roughness(ec_image *image, double glossiness)
 /* Where an animation keeps them, the same pixels serve all its scenes. */
 static ec_image *kept_of(const table *t, const picture *p) { return t->g->decoded && !p->gloss ? &t->g->decoded[p->index] : NULL; }
 
-static void decode(const table *t, picture *p)
+/* Its bytes, and its size where that can be told, unless it is decoded already. */
+static void fetch(const table *t, picture *p)
 {
     const ec_image *kept = kept_of(t, p);
     p->err.text[0] = 0;
@@ -105,7 +122,16 @@ static void decode(const table *t, picture *p)
         p->image = *kept;
         return;
     }
-    p->failed = !ec_gltf_image_load(t->g, p->index, &p->image, &p->err);
+    p->failed = !fetch_bytes(t->g, p->index, &p->stored, &p->bytes, &p->owned, &p->err);
+    if (!p->failed && !ec_image_size(p->stored, p->bytes, &p->image.width, &p->image.height)) p->image.width = p->image.height = 0;
+}
+
+static void decode(const table *t, picture *p)
+{
+    if (!p->stored) return;
+    p->failed = !decode_bytes(t->g, p->index, true, p->stored, p->bytes, &p->image, &p->err);
+    free(p->owned);
+    p->owned = NULL;
     if (p->failed) return;
     if (p->gloss) make_roughness(&p->image, (double)p->gloss->glossiness);
     ec_image_find_range(&p->image);
@@ -146,8 +172,10 @@ static void want(table *t, bool drawn, ec_texture_use *use)
 {
     const ec_gltf_texture *in = drawn && use->texture >= 0 ? &t->g->textures[use->texture] : NULL;
     if (!in || in->image < 0) return;
-    *picture_of(t, use->texture) =
-        (picture){.is_wanted = true, .index = (uint32_t)in->image, .gloss = in->is_gloss ? in : NULL, .place = UNSEEN};
+    picture *p = picture_of(t, use->texture);
+    if (p->is_wanted) return;
+    *p = (picture){.is_wanted = true, .index = (uint32_t)in->image, .gloss = in->is_gloss ? in : NULL, .place = UNSEEN};
+    t->wanted[t->wanted_count++] = p;
 }
 
 static int64_t map_texture(table *t, int32_t index)
@@ -182,14 +210,26 @@ static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, boo
     }
 }
 
-static uint64_t stored_bytes(const ec_gltf *g, const ec_gltf_image *in)
+/* Room in one piece, as kernels read it, for those whose size is known: what is decoded there is there once. Without memory each has its own. */
+static void make_room(const table *t)
 {
-    EC_FREED char *file = in->uri ? ec_gltf_uri_file(in->uri) : NULL;
-    char path[4096];
-    struct stat info;
-    if (!file) return in->uri ? strlen(in->uri) : in->view >= 0 ? g->views[in->view].length : 0;
-    snprintf(path, sizeof path, "%s%s", g->folder, file);
-    return stat(path, &info) ? 0 : (uint64_t)info.st_size;
+    uint64_t count = 0;
+    for (int64_t i = 0; i < t->wanted_count; i++)
+        if (t->wanted[i]->stored) count += (uint64_t)t->wanted[i]->image.width * t->wanted[i]->image.height;
+    ec_texels *texels = count && count <= UINT32_MAX ? ec_texels_make(count) : NULL;
+    uint32_t *words = texels ? texels->words : NULL;
+    for (int64_t i = 0; i < t->wanted_count; i++) {
+        ec_image *image = &t->wanted[i]->image;
+        if (!t->wanted[i]->stored || !image->width) continue;
+        if (!words) {
+            image->width = image->height = 0;
+            continue;
+        }
+        image->texels = ec_texels_keep(texels);
+        image->rgba8 = (uint8_t *)words;
+        words += (size_t)image->width * image->height;
+    }
+    ec_texels_leave(texels);
 }
 
 static int by_bytes(const void *a, const void *b)
@@ -200,15 +240,15 @@ static int by_bytes(const void *a, const void *b)
 }
 
 /* The largest first: no thread begins with it when the others are about to end. */
-static void decode_all(const table *t, picture **wanted, size_t most)
+static void decode_all(const table *t)
 {
-    int64_t count = 0;
-    for (size_t i = 0; i < most; i++)
-        if (t->pictures[i].is_wanted) wanted[count++] = &t->pictures[i];
-    for (int64_t i = 0; i < count; i++) wanted[i]->bytes = stored_bytes(t->g, &t->g->images[wanted[i]->index]);
-    qsort(wanted, (size_t)count, sizeof *wanted, by_bytes);
+    const int64_t count = t->wanted_count;
 #pragma omp parallel for schedule(dynamic, 1) if (count > 1)
-    for (int64_t i = 0; i < count; i++) decode(t, wanted[i]);
+    for (int64_t i = 0; i < count; i++) fetch(t, t->wanted[i]);
+    make_room(t);
+    qsort(t->wanted, (size_t)count, sizeof(picture *), by_bytes);
+#pragma omp parallel for schedule(dynamic, 1) if (count > 1)
+    for (int64_t i = 0; i < count; i++) decode(t, t->wanted[i]);
 }
 
 /* By material: does a primitive that stands somewhere have it? */
@@ -230,7 +270,7 @@ ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements,
     EC_FREED int64_t *texture = malloc(((size_t)g->texture_count + 1) * sizeof *texture);
     EC_FREED picture **wanted = malloc((most + 1) * sizeof(picture *));
     EC_FREED bool *drawn = calloc((size_t)s->material_count + 1, sizeof *drawn);
-    table t = {.g = g, .s = s, .log = log, .pictures = pictures, .texture = texture, .err = err};
+    table t = {.g = g, .s = s, .log = log, .pictures = pictures, .wanted = wanted, .texture = texture, .err = err};
     s->images = calloc(most + 1, sizeof *s->images);
     s->textures = calloc((size_t)g->texture_count + 1, sizeof *s->textures);
     if (!pictures || !wanted || !texture || !s->images || !s->textures || !drawn)
@@ -238,7 +278,7 @@ ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements,
     for (uint32_t i = 0; i < g->texture_count; i++) texture[i] = UNSEEN;
     mark_drawn(g, placements, drawn);
     for_each_use(&t, drawn, want);
-    decode_all(&t, wanted, most);
+    decode_all(&t);
     for_each_use(&t, drawn, map_use);
     return t.result;
 }

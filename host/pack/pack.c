@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "pack/coplanar.h"
 #include "scene/material_fields.h"
+#include "scene/texels.h"
 
 static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
@@ -126,7 +127,7 @@ void ec_pack_free(ec_pack *pack)
     if (!pack->prims_lent) free(pack->prims);
     free(pack->materials);
     free(pack->textures);
-    free(pack->texels);
+    ec_texels_leave(pack->texels);
     free(pack->places);
     free(pack->motion);
     free(pack->coplanar);

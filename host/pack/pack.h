@@ -39,7 +39,7 @@ typedef struct ec_pack {
     uint32_t texture_count;
     ec_texture_data *textures;     /* one per texture and encoding in use */
     size_t texel_words;
-    uint32_t *texels;
+    struct ec_texels *texels;
     uint32_t place_words;
     uint32_t *places;              /* of instances: ec_place_header and what it says; NULL: there are none */
     uint64_t motion_words;

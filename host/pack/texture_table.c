@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/freed.h"
-#include "base/memory.h"
 #include "image/image.h"
 #include "pack/pack.h"
+#include "scene/texels.h"
 
 int32_t ec_pack_texture_index(const ec_scene *scene, const ec_texture_use *use, int is_srgb)
 {
@@ -85,25 +85,49 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_pack_texels(ec_pack *pack, ec_error *err)
+/* What all that is used lies in already, just as it would be written; NULL: there is no such thing. */
+static ec_texels *common_texels(const ec_scene *scene, const bool *used, uint64_t words)
 {
-    const ec_scene *scene = &pack->plain.scene;
-    size_t offset = 0;
-    bool has_deep = false;
-    EC_FREED bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used);
-    EC_FREED uint32_t **places = calloc(scene->image_count ? scene->image_count : 1, sizeof *places);
-    pack->texels = ec_shared_alloc((pack->texel_words + 1) * sizeof *pack->texels); /* some are read two at a time */
-    for (uint32_t i = 0; i < scene->image_count; i++) has_deep |= scene->images[i].rgba16 != NULL;
-    EC_FREED float *linear = has_deep ? deep_to_linear() : NULL;
-    if (!used || !places || !pack->texels || (has_deep && !linear)) return ec_fail(err, "out of memory for %zu MB of texels", pack->texel_words * 4 / 1000000);
-    find_used(scene, used);
+    ec_texels *texels = NULL;
+    uint64_t offset = 0;
     for (uint32_t i = 0; i < scene->image_count; i++) {
-        places[i] = pack->texels + offset;
-        if (used[i]) offset += image_words(&scene->images[i]);
+        const ec_image *image = &scene->images[i];
+        if (!used[i]) continue;
+        if (!texels) texels = image->texels;
+        if (!texels || image->texels != texels || image->rgba8 != (const uint8_t *)(texels->words + offset)) return NULL;
+        offset += image_words(image);
     }
-    pack->texels[pack->texel_words] = 0;
+    return texels && texels->count == words ? texels : NULL;
+}
+
+static void write_texels(const ec_scene *scene, const bool *used, const float *linear, uint32_t **places, uint32_t *words)
+{
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        places[i] = words;
+        if (used[i]) words += image_words(&scene->images[i]);
+    }
 #pragma omp parallel for schedule(dynamic, 1)
     for (uint32_t i = 0; i < scene->image_count; i++)
         if (used[i]) write_image(&scene->images[i], linear, places[i]);
+}
+
+ec_result ec_pack_texels(ec_pack *pack, ec_error *err)
+{
+    const ec_scene *scene = &pack->plain.scene;
+    bool has_deep = false;
+    EC_FREED bool *used = calloc(scene->image_count ? scene->image_count : 1, sizeof *used);
+    EC_FREED uint32_t **places = calloc(scene->image_count ? scene->image_count : 1, sizeof *places);
+    if (!used || !places) return ec_fail(err, "out of memory for %u pictures", scene->image_count);
+    find_used(scene, used);
+    ec_texels *common = common_texels(scene, used, pack->texel_words);
+    if (common) {
+        pack->texels = ec_texels_keep(common);
+        return EC_OK;
+    }
+    for (uint32_t i = 0; i < scene->image_count; i++) has_deep |= scene->images[i].rgba16 != NULL;
+    EC_FREED float *linear = has_deep ? deep_to_linear() : NULL;
+    pack->texels = ec_texels_make(pack->texel_words);
+    if (!pack->texels || (has_deep && !linear)) return ec_fail(err, "out of memory for %zu MB of texels", pack->texel_words * 4 / 1000000);
+    write_texels(scene, used, linear, places, pack->texels->words);
     return EC_OK;
 }

@@ -3,25 +3,30 @@
 
 #include <stdlib.h>
 
+#include "scene/texels.h"
+
 #define DROP(memory) (free(memory), (memory) = NULL)
+
+static void drop_pixels(ec_image *image)
+{
+    if (image->lent) return;
+    if (!image->texels) free(image->rgba8);
+    ec_texels_leave(image->texels);
+    image->rgba8 = NULL;
+    image->texels = NULL;
+    DROP(image->rgba16);
+}
 
 void ec_image_free(ec_image *image)
 {
-    if (!image->lent) {
-        free(image->rgba8);
-        free(image->rgba16);
-        free(image->name);
-    }
+    drop_pixels(image);
+    if (!image->lent) free(image->name);
     *image = (ec_image){0};
 }
 
 void ec_scene_drop_data(ec_scene *s)
 {
-    for (uint32_t i = 0; i < s->image_count; i++) {
-        if (s->images[i].lent) continue;
-        DROP(s->images[i].rgba8);
-        DROP(s->images[i].rgba16);
-    }
+    for (uint32_t i = 0; i < s->image_count; i++) drop_pixels(&s->images[i]);
     ec_scene_free_geometry(s);
     if (!s->environment.lent) DROP(s->environment.rgb);
 }

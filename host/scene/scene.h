@@ -14,7 +14,8 @@
 /* Decoded pixels, row 0 at the top (glTF's v = 0), always four channels. Exactly one of the two is set. */
 typedef struct ec_image {
     uint32_t width, height;
-    uint8_t *rgba8;   /* 4 * width * height, owned */
+    uint8_t *rgba8;   /* 4 * width * height, owned, or in `texels` */
+    struct ec_texels *texels; /* what rgba8 lies in, of which this picture is a user; NULL: it stands alone */
     uint16_t *rgba16; /* 4 * width * height, owned; only where the file has more than 8 bits */
     char *name;       /* for messages, owned, may be NULL */
     bool lent;        /* all of it is an animation's, which outlives the scene */

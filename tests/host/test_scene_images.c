@@ -91,6 +91,26 @@ static void test_jpeg(void)
     release(&cut);
 }
 
+/* The caller's memory stays the caller's, whatever becomes of the picture. */
+static void test_room(void)
+{
+    uint8_t room[4 * 8 * 8];
+    uint32_t width = 0, height = 0;
+    ec_decode_error err = {""};
+    CHECK(ec_image_size(jpeg, sizeof jpeg, &width, &height) && width == 8 && height == 8);
+    ec_image image = {.width = 8, .height = 8, .rgba8 = room};
+    CHECK(ec_image_decode(jpeg, sizeof jpeg, &image, &err) && image.rgba8 == room);
+    CHECK_NEAR(room[255 - 1], 50, 1);
+    CHECK(ec_image_size(palette, sizeof palette, &width, &height) && width == 4 && height == 1);
+    image = (ec_image){.width = 4, .height = 1, .rgba8 = room};
+    CHECK(ec_image_decode(palette, sizeof palette, &image, &err) && image.rgba8 == room && room[5] == 255);
+    for (size_t cut = 34; cut < sizeof palette - 12; cut++) CHECK(!ec_image_decode(palette, cut, &image, &err) && image.rgba8 == room);
+    CHECK(!ec_image_decode(jpeg, 100, &image, &err));
+    CHECK(!ec_image_size(grey_alpha_16, sizeof grey_alpha_16, &width, &height)); /* which becomes another kind */
+    for (size_t cut = 0; cut < 25; cut++) CHECK(!ec_image_size(palette, cut, &width, &height));
+    for (size_t cut = 0; cut < 100; cut++) CHECK(!ec_image_size(jpeg, cut, &width, &height));
+}
+
 static void expect_refusal(const unsigned char *bytes, size_t size, const char *needle)
 {
     ec_image image = {0};
@@ -128,6 +148,7 @@ int main(void)
 {
     test_png();
     test_jpeg();
+    test_room();
     test_broken();
     TEST_END();
 }

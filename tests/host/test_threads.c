@@ -88,7 +88,7 @@ static void expect_same(const ec_scene *a, const ec_pack *p, const ec_scene *b, 
         SAME(x->least, y->least, 4);
         SAME(x->most, y->most, 4);
     }
-    SAME(p->texels, q->texels, p->texel_words);
+    SAME(p->texels->words, q->texels->words, p->texel_words);
     SAME(p->textures, q->textures, p->texture_count);
     SAME(p->prims, q->prims, p->prim_count);
     SAME(p->lights, q->lights, p->light_count);
