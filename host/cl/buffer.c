@@ -91,6 +91,7 @@ static bool is_kept(const ec_cl *cl, cl_mem buffer)
 void ec_buffer_release(ec_cl *cl, cl_mem *buffer)
 {
     if (!*buffer) return;
+    cl->releases++;
     size_t size = 0;
     if (is_kept(cl, *buffer)) { /* its memory is counted until that reference goes */
         clReleaseMemObject(*buffer);

@@ -78,6 +78,7 @@ typedef struct ec_cl {
     cl_context context;
     cl_command_queue queue;
     uint64_t allocated_bytes, peak_allocated_bytes; /* by ec_buffer_* */
+    uint64_t releases;        /* of buffers, and one: a handle that was another buffer's before one may now be any one's */
     double build_seconds;     /* spent in clBuildProgram and cache look-ups */
     uint32_t cache_hits, cache_misses;
     const char *cache_dir;    /* NULL: the default (see ec_program_build) */

@@ -11,6 +11,7 @@ ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err)
 {
     memset(cl, 0, sizeof *cl);
     cl->info = *info;
+    cl->releases = 1;
     EC_TRY(ec_pace_begin(cl, err));
     const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)info->platform, 0};
     cl_int code;

@@ -29,7 +29,7 @@ const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, u
 
 static entry stage_entry(ec_kernel_set *set, ec_stage_id id)
 {
-    entry e = {.stage = id, .accel = EC_ACCEL_COUNT, .lanes = set->lanes, .kernel = &set->stages[id]};
+    entry e = {.stage = id, .accel = EC_ACCEL_COUNT, .lanes = set->lanes, .kernel = &set->stages[id].kernel};
     snprintf(e.source, sizeof e.source, "%s", ec_stages[id].source);
     snprintf(e.name, sizeof e.name, "ec_%s", ec_stages[id].source);
     return e;
@@ -38,7 +38,7 @@ static entry stage_entry(ec_kernel_set *set, ec_stage_id id)
 static entry trace_entry(ec_kernel_set *set, int connect, uint32_t accel)
 {
     const uint32_t lanes = ec_accels[accel].lanes ? ec_accels[accel].lanes : set->lanes;
-    entry e = {.stage = connect ? EC_CONNECT : EC_INTERSECT, .accel = accel, .lanes = lanes, .kernel = &set->traverse[accel][connect]};
+    entry e = {.stage = connect ? EC_CONNECT : EC_INTERSECT, .accel = accel, .lanes = lanes, .kernel = &set->traverse[accel][connect].kernel};
     snprintf(e.source, sizeof e.source, "traverse_%s", ec_accels[accel].name);
     snprintf(e.name, sizeof e.name, "ec_%s_%s", ec_stages[e.stage].source, ec_accels[accel].name);
     return e;

@@ -8,6 +8,13 @@
 
 #define EC_LANES_MOST 16
 
+/* A kernel and the arguments that it has: a driver takes longer to be told of one than to see that it is the same. */
+typedef struct ec_bound_kernel {
+    cl_kernel kernel;
+    uint64_t release;                         /* ec_cl.releases when they were given: a buffer's handle may since have become another one's; 0: none were */
+    uint64_t arguments[EC_STAGE_ARGUMENTS];  /* scalars, and handles of buffers */
+} ec_bound_kernel;
+
 typedef struct ec_kernel_set {
     uint32_t lanes;
     uint32_t wave;                            /* paths of the waves that it is launched over */
@@ -15,8 +22,8 @@ typedef struct ec_kernel_set {
     bool calls;                               /* one lane calls functions, which compiles sooner and runs slower, instead of inlining them */
     uint32_t accels;                          /* 1 << accelerator: those that it goes through */
     cl_program programs[EC_LANES_MOST + 1];   /* by lane width */
-    cl_kernel stages[EC_STAGE_ID_COUNT];
-    cl_kernel traverse[EC_ACCEL_COUNT][2];    /* [0] intersect, [1] connect, as everywhere */
+    ec_bound_kernel stages[EC_STAGE_ID_COUNT];
+    ec_bound_kernel traverse[EC_ACCEL_COUNT][2];    /* [0] intersect, [1] connect, as everywhere */
 } ec_kernel_set;
 
 /* Half-built ones are fine; empty afterwards. */

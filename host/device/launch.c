@@ -38,16 +38,30 @@ void ec_pipeline_busy(ec_pipeline *p, ec_stage_id id, const uint32_t *parts)
     ec_cl_busy(p->cl, ec_stages[id].label, work_items(p, &ec_stages[id], ec_pipeline_total(parts)));
 }
 
-static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32_t accel, const uint32_t *scalars, ec_error *err)
+/* Only what has changed since the launch before. */
+static ec_result bind(ec_pipeline *p, const ec_stage_entry *stage, ec_bound_kernel *bound, const uint32_t *scalars, ec_error *err)
+{
+    const bool is_fresh = bound->release != p->cl->releases;
+    for (uint32_t i = 0; i < stage->argument_count; i++) {
+        const ec_arg arg = stage->arguments[i];
+        const bool is_scalar = arg < EC_ARG_SCALAR_COUNT;
+        const uint64_t value = is_scalar ? scalars[arg] : (uint64_t)(uintptr_t)p->buffers[arg];
+        if (!is_fresh && bound->arguments[i] == value) continue;
+        const cl_int code = is_scalar ? clSetKernelArg(bound->kernel, i, sizeof(cl_uint), &scalars[arg])
+                                      : clSetKernelArg(bound->kernel, i, sizeof(cl_mem), p->buffers[arg] ? &p->buffers[arg] : NULL);
+        bound->release = 0;
+        EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
+        bound->arguments[i] = value;
+    }
+    bound->release = p->cl->releases;
+    return EC_OK;
+}
+
+static ec_result launch(ec_pipeline *p, ec_stage_id id, ec_bound_kernel *bound, uint32_t accel, const uint32_t *scalars, ec_error *err)
 {
     const ec_stage_entry *stage = &ec_stages[id];
-    for (uint32_t i = 0; i < stage->argument_count; i++) {
-        ec_arg arg = stage->arguments[i];
-        cl_int code = arg < EC_ARG_SCALAR_COUNT
-                          ? clSetKernelArg(kernel, i, sizeof(cl_uint), &scalars[arg])
-                          : clSetKernelArg(kernel, i, sizeof(cl_mem), p->buffers[arg] ? &p->buffers[arg] : NULL);
-        EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
-    }
+    const cl_kernel kernel = bound->kernel;
+    EC_TRY(bind(p, stage, bound, scalars, err));
     const uint64_t items = ec_pipeline_items(id, accel, p->kernels.lanes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
     if (stage->busy < EC_ARG_SCALAR_COUNT) ec_cl_busy(p->cl, stage->label, work_items(p, stage, scalars[stage->busy]));
     const uint32_t local = ec_local_size(&p->cl->info);
@@ -58,11 +72,11 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, cl_kernel kernel, uint32
 
 ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *scalars, ec_error *err)
 {
-    return launch(p, id, p->kernels.stages[id], EC_ACCEL_COUNT, scalars, err);
+    return launch(p, id, &p->kernels.stages[id], EC_ACCEL_COUNT, scalars, err);
 }
 
 ec_result ec_pipeline_launch_trace(ec_pipeline *p, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err)
 {
     memcpy(&p->buffers[EC_ARG_ACCEL], p->accels[accel].buffers, sizeof p->accels[accel].buffers);
-    return launch(p, connect ? EC_CONNECT : EC_INTERSECT, p->kernels.traverse[accel][connect], accel, scalars, err);
+    return launch(p, connect ? EC_CONNECT : EC_INTERSECT, &p->kernels.traverse[accel][connect], accel, scalars, err);
 }

@@ -82,16 +82,16 @@ static ec_result build(ec_pipeline *p, uint32_t which, bool count, ec_error *err
 {
     char unit[64], options[64], name[64];
     uint32_t lanes = ec_accels[which].lanes ? ec_accels[which].lanes : count ? 1 : p->lanes;
-    cl_kernel *kernel = &p->kernels.traverse[which][0];
+    ec_bound_kernel *kernel = &p->kernels.traverse[which][0];
     p->kernels.lanes = count ? 1 : p->lanes;
     cl_program *program = &p->kernels.programs[count ? 0 : lanes];
-    if (*kernel) clReleaseKernel(*kernel);
-    *kernel = NULL;
+    if (kernel->kernel) clReleaseKernel(kernel->kernel);
+    *kernel = (ec_bound_kernel){0};
     snprintf(unit, sizeof unit, "traverse_%s", ec_accels[which].name);
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[which].name);
     snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u%s", lanes, count ? " -DPROBE" : "");
     EC_TRY(ec_program_build(p->cl, unit, ec_kernel_source(unit), options, program, err));
-    return ec_kernel_create(*program, name, kernel, err);
+    return ec_kernel_create(*program, name, &kernel->kernel, err);
 }
 
 static ec_result count(ec_pipeline *p, uint32_t which, ec_accel_probe *probe, ec_error *err)

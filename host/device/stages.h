@@ -103,6 +103,8 @@ typedef enum ec_stage_id {
 #define EC_LANES_OF_PIPELINE 0
 #define EC_LANES_OF_ACCEL UINT32_MAX
 
+#define EC_STAGE_ARGUMENTS 40 /* at most */
+
 typedef struct ec_stage_entry {
     const char *source;        /* kernels/stages/SOURCE.cl; its kernel is ec_SOURCE. With EC_LANES_OF_ACCEL there is one
                                   for each accelerator: ec_SOURCE_NAME in kernels/lib/traverse_NAME.h */
