@@ -13,7 +13,7 @@
 
 /* An image of the file on its way into the scene. */
 typedef struct picture {
-    bool is_wanted;
+    bool is_wanted, is_fetched;
     uint32_t index;               /* in the file */
     const uint8_t *stored;        /* as it is in the file … */
     uint64_t bytes;               /* … so many … */
@@ -122,13 +122,14 @@ static void fetch(const table *t, picture *p)
         p->image = *kept;
         return;
     }
-    p->failed = !fetch_bytes(t->g, p->index, &p->stored, &p->bytes, &p->owned, &p->err);
-    if (!p->failed && !ec_image_size(p->stored, p->bytes, &p->image.width, &p->image.height)) p->image.width = p->image.height = 0;
+    p->is_fetched = fetch_bytes(t->g, p->index, &p->stored, &p->bytes, &p->owned, &p->err);
+    p->failed = !p->is_fetched;
+    if (p->is_fetched && !ec_image_size(p->stored, p->bytes, &p->image.width, &p->image.height)) p->image.width = p->image.height = 0;
 }
 
 static void decode(const table *t, picture *p)
 {
-    if (!p->stored) return;
+    if (!p->is_fetched) return;
     p->failed = !decode_bytes(t->g, p->index, true, p->stored, p->bytes, &p->image, &p->err);
     free(p->owned);
     p->owned = NULL;
@@ -215,12 +216,12 @@ static void make_room(const table *t)
 {
     uint64_t count = 0;
     for (int64_t i = 0; i < t->wanted_count; i++)
-        if (t->wanted[i]->stored) count += (uint64_t)t->wanted[i]->image.width * t->wanted[i]->image.height;
+        if (t->wanted[i]->is_fetched) count += (uint64_t)t->wanted[i]->image.width * t->wanted[i]->image.height;
     ec_texels *texels = count && count <= UINT32_MAX ? ec_texels_make(count) : NULL;
     uint32_t *words = texels ? texels->words : NULL;
     for (int64_t i = 0; i < t->wanted_count; i++) {
         ec_image *image = &t->wanted[i]->image;
-        if (!t->wanted[i]->stored || !image->width) continue;
+        if (!t->wanted[i]->is_fetched || !image->width) continue;
         if (!words) {
             image->width = image->height = 0;
             continue;

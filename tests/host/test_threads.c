@@ -4,6 +4,7 @@
 
 #include "image/image.h"
 #include "pack/pack.h"
+#include "scene/texels.h"
 #include "test_scene_files.h"
 
 enum { SIDE = 24, TRIANGLES = 2 * SIDE * SIDE, TEXTURES = 5, MAP_WIDTH = 203, MAP_HEIGHT = 101 };
