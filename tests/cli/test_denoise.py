@@ -1,4 +1,4 @@
-# tiers: quick, full
+# tiers: quick, full, long
 """--denoise: what is stated is what the channels hold, R, G and B stay as they are, the PNG shows the best, and nothing happens in silence."""
 import json
 import math
@@ -10,7 +10,7 @@ import denoiser
 from denoise_seeds import Truth
 from support import CORNELL, QUICK, SOURCE, Case, eclat, read_exr
 from test_frames import FramesCase
-from tiers import full
+from tiers import full, long
 
 JOB = [CORNELL, "--size", "48x40", *QUICK]
 # A caustic-free room with texture and gloss, where denoising pays.
@@ -176,7 +176,7 @@ class Denoise(Case):
         self.assertGreater(clean["error"], 0.025)
         self.assertLess(clean["samples_per_pixel"], noisy["samples_per_pixel"])
 
-    @full
+    @long
     def test_stated_error_is_the_real_one(self):
         """Of 20 seeds: the interval holds the distance to a long render in most of them. 95 % of 20 stray by 1.0."""
         _, _, reference = self.render("--spp", "8192", "--seed", "99", name="r.exr", job=SMOOTH, denoise=())

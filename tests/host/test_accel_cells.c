@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tiers: quick, long */
 /* Grid and kd-tree: every triangle in every cell that its box needs, the same bytes for any number of threads, bounded stacks and
  * memory, on easy and hostile meshes; and the table of accelerators. */
 #include "accel/accel.h"
@@ -293,7 +293,7 @@ int main(void)
     static const float densities[] = {0.0f, 0.01f, 10000.0f}; /* the default, and the ends of what --grid-density takes */
     for (size_t k = 0; k < MESH_KIND_COUNT; k++) {
         mesh m = mesh_make(&mesh_kinds[k]);
-        if (!test_tier(m.triangle_count > 5000 ? "full" : "quick")) {
+        if (!test_tier(m.triangle_count > 5000 ? "long" : "quick")) {
             mesh_free(&m);
             continue;
         }

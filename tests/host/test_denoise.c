@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tiers: quick, long */
 /* Is a denoised picture as far from the truth as is stated of it? Films of synthetic pixels whose truth is known, with smooth areas, an edge and a
  * texture, are "denoised" by a box filter, which helps in one part and harms in another. Over many films the estimates have to be without bias, the
  * intervals have to hold the real error in about 95 of 100, and the blend must not be worse than the better of both. See host/denoise/judge.c. */
@@ -275,9 +275,9 @@ static void check_alike(void)
 
 int main(void)
 {
-    const bool is_full = test_tier("full");
-    const int films = is_full ? 300 : 60;
-    const double least = is_full ? 91 : 85, most = is_full ? 98.7 : 100; /* 95 % of 300 stray by 1.3, of 60 by 2.8 */
+    const bool is_long = test_tier("long");
+    const int films = is_long ? 300 : 60;
+    const double least = is_long ? 91 : 85, most = is_long ? 98.7 : 100; /* 95 % of 300 stray by 1.3, of 60 by 2.8 */
     check_idle();
     check_exact();
     check_seams();

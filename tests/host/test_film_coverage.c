@@ -1,4 +1,4 @@
-/* tiers: quick, full */
+/* tiers: quick, long */
 /* Is the 95 % bound a 95 % bound? Films of synthetic pixels whose true mean is known are filled over and over; the real
  * error must lie under the bound about as often as claimed: not less, and not always either. See host/film/image_error.c.
  *
@@ -137,7 +137,7 @@ int main(void)
     for (size_t w = 0; w < sizeof workloads / sizeof *workloads; w++) {
         printf("%s\n", workloads[w].name);
         for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
-            if (!test_tier(s == 3 ? "quick" : "full")) continue; /* 8 replicates, as without --replicates */
+            if (!test_tier(s == 3 ? "quick" : "long")) continue; /* 8 replicates, as without --replicates */
             state = 1000 * w + s;
             measure(&workloads[w], shapes[s].side, shapes[s].replicates);
             if (s % 5 == 4 || s + 1 == sizeof shapes / sizeof *shapes) putchar('\n');
