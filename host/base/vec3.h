@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Neither is NaN. fmin and fmax, which take that too, are calls of a library. */
+/* For numbers that are known not to be NaN. fmin and fmax pass over NaN, and are calls into the C library. */
 static inline double ec_lesser(double a, double b) { return b < a ? b : a; }
 static inline double ec_greater(double a, double b) { return b > a ? b : a; }
 

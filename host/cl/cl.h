@@ -78,7 +78,7 @@ typedef struct ec_cl {
     cl_context context;
     cl_command_queue queue;
     uint64_t allocated_bytes, peak_allocated_bytes; /* by ec_buffer_* */
-    uint64_t releases;        /* of buffers, and one: a handle that was another buffer's before one may now be any one's */
+    uint64_t releases;        /* of buffers, counted from 1: after one, the same handle may name another buffer */
     double build_seconds;     /* spent in clBuildProgram and cache look-ups */
     uint32_t cache_hits, cache_misses;
     const char *cache_dir;    /* NULL: the default (see ec_program_build) */
@@ -131,7 +131,7 @@ ec_result ec_program_build_source(const ec_cl *cl, const char *label, const char
 ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer, ec_error *err);
 void ec_buffer_release(ec_cl *cl, cl_mem *buffer); /* sets it to NULL; NULL is fine */
 /* Where the device is a processor, makes a buffer of the caller's memory, which comes from ec_shared_alloc and is large enough to be worth it: no
- * copy. leave(buffer, user) is called when the buffer has gone; false: it never is, and the memory is the caller's still. */
+ * copy. leave(buffer, user) is called once the buffer has gone. False: no buffer was made, and the memory stays the caller's. */
 bool ec_buffer_adopt(ec_cl *cl, const char *label, uint64_t bytes, void *memory, void(CL_CALLBACK *leave)(cl_mem buffer, void *user), void *user, cl_mem *buffer);
 /* A buffer that no kernel writes: `bytes` of data, and room for `slack` more. With a key, which is that of label and data, it stays on the
  * device after its release, and is found there by whoever puts the same again; keep_only lets go of all others that stay. */

@@ -8,11 +8,11 @@
 
 #define EC_LANES_MOST 16
 
-/* A kernel and the arguments that it has: a driver takes longer to be told of one than to see that it is the same. */
+/* A kernel and the arguments that it has. They are compared before they are set, which takes a driver longer. */
 typedef struct ec_bound_kernel {
     cl_kernel kernel;
-    uint64_t release;                         /* ec_cl.releases when they were given: a buffer's handle may since have become another one's; 0: none were */
-    uint64_t arguments[EC_STAGE_ARGUMENTS];  /* scalars, and handles of buffers */
+    uint64_t release;                         /* ec_cl.releases when they were set; 0: they are not */
+    uint64_t arguments[EC_STAGE_ARGUMENTS];   /* scalars, and handles of buffers */
 } ec_bound_kernel;
 
 typedef struct ec_kernel_set {

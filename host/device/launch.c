@@ -38,7 +38,7 @@ void ec_pipeline_busy(ec_pipeline *p, ec_stage_id id, const uint32_t *parts)
     ec_cl_busy(p->cl, ec_stages[id].label, work_items(p, &ec_stages[id], ec_pipeline_total(parts)));
 }
 
-/* Only what has changed since the launch before. */
+/* Sets the arguments that have changed since this kernel's last launch. */
 static ec_result bind(ec_pipeline *p, const ec_stage_entry *stage, ec_bound_kernel *bound, const uint32_t *scalars, ec_error *err)
 {
     const bool is_fresh = bound->release != p->cl->releases;

@@ -3,6 +3,7 @@
 #include "device/pipeline.h"
 
 #define EC_SMALLEST_WAVE 4096
+#define LEAST_UNITS 4        /* of a queue: in the room of so many, kernels of all effects, whose paths are larger, have one at least */
 #define EC_UNIT_PATHS 32768  /* of a CPU's wave, for each of its cores: 2^16 to 2^18 in all */
 #define EC_NARROW_WAVE 32768 /* of which PoCL compiles every kernel once: see ec_kernel_run */
 
@@ -33,12 +34,11 @@ static uint64_t fit_wave(const ec_pipeline *p)
     return wave;
 }
 
-/* No more than the picture has samples, but for kernels of all effects, whose paths take more room; no fewer than a pixel's; every part of a queue
- * holds whole packets. */
+/* No more than the picture has samples, or than a small one takes; no fewer than a pixel's; every part of a queue holds whole packets. */
 static void set_wave(ec_pipeline *p, uint64_t wave)
 {
     const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, samples = (uint64_t)p->params.width * p->params.height * p->params.batch;
-    const uint64_t most = samples > 4 * unit ? samples : 4 * unit;
+    const uint64_t least = LEAST_UNITS * unit, most = samples > least ? samples : least;
     if (wave > most) wave = most;
     if (wave < p->params.batch) wave = p->params.batch;
     p->wave = (uint32_t)((wave + unit - 1) / unit * unit);

@@ -69,8 +69,9 @@ static const ec_arg store_features[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, 
 
 static const ec_arg slot_layers[] = {EC_ARG_PARAMS, EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST, EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE, EC_ARG_LAYER_FILM};
 
-#define ARGS(list) sizeof(list) / sizeof *(list), list
-_Static_assert(sizeof shade / sizeof *shade <= EC_STAGE_ARGUMENTS && sizeof shade_light / sizeof *shade_light <= EC_STAGE_ARGUMENTS, "EC_STAGE_ARGUMENTS");
+#define COUNT(list) (sizeof(list) / sizeof *(list))
+#define FITS(list) sizeof(struct { char any; _Static_assert(COUNT(list) <= EC_STAGE_ARGUMENTS, "EC_STAGE_ARGUMENTS"); })
+#define ARGS(list) COUNT(list) + 0 * FITS(list), list
 
 #define CAMERA_FEATURES (EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER)
 #define SHADING_FEATURES                                                                           \

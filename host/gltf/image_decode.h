@@ -13,7 +13,7 @@ typedef struct ec_decode_error {
  * ec_image_size tells of, it may have that size, and rgba8 room for its pixels. */
 bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_decode_error *err);
 
-/* Of a JPEG, and of a PNG that becomes rgba8: its size. False: another one, or not known. */
+/* The size of a JPEG, or of a PNG whose pixels become rgba8, by its header. False: the file is neither, or its header is damaged. */
 bool ec_image_size(const uint8_t *bytes, uint64_t length, uint32_t *width, uint32_t *height);
 bool ec_image_size_png(const uint8_t *bytes, size_t length, uint32_t *width, uint32_t *height);
 bool ec_image_size_jpeg(const uint8_t *bytes, size_t length, uint32_t *width, uint32_t *height);

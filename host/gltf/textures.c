@@ -40,20 +40,24 @@ typedef struct table {
 
 enum { UNSEEN = -1, UNUSABLE = -2 };
 
-static ec_result get_bytes(const ec_gltf *g, const ec_gltf_image *in, const char *where, const uint8_t **bytes,
-                           uint64_t *length, uint8_t **owned, ec_error *err)
+/* The file's bytes of an image; the caller frees *owned. False: err says why there are none. */
+static bool fetch_bytes(const ec_gltf *g, uint32_t index, const uint8_t **bytes, uint64_t *length, uint8_t **owned, ec_error *err)
 {
+    const ec_gltf_image *in = &g->images[index];
+    const ec_label label = ec_label_of("images", index, in->name);
+    const char *where = label.text;
+    err->text[0] = 0;
     if (in->uri) {
-        EC_TRY(ec_gltf_uri_load(g, where, in->uri, owned, length, err));
+        if (ec_gltf_uri_load(g, where, in->uri, owned, length, err) != EC_OK) return false;
         *bytes = *owned;
-        return EC_OK;
+        return true;
     }
-    if (in->view < 0) return ec_fail(err, "%s has neither uri nor bufferView", where);
-    const ec_gltf_view *v = &g->views[in->view];
-    if (!g->buffers[v->buffer].data) return ec_fail(err, "%s reads buffers[%d], which has no data", where, v->buffer);
+    const ec_gltf_view *v = in->view >= 0 ? &g->views[in->view] : NULL;
+    if (!v) return ec_fail(err, "%s has neither uri nor bufferView", where) == EC_OK;
+    if (!g->buffers[v->buffer].data) return ec_fail(err, "%s reads buffers[%d], which has no data", where, v->buffer) == EC_OK;
     *bytes = g->buffers[v->buffer].data + v->offset;
     *length = v->length;
-    return EC_OK;
+    return true;
 }
 
 static bool no_memory(const char *where, ec_error *err)
@@ -63,30 +67,21 @@ static bool no_memory(const char *where, ec_error *err)
     return false;
 }
 
-/* Of the image, as it is in the file. ok: the bytes are there; else err says why not. */
-static bool decode_bytes(const ec_gltf *g, uint32_t index, bool ok, const uint8_t *bytes, uint64_t length, ec_image *out, ec_error *err)
+/* A picture of an image's bytes. False: err says why there is none; else err says how it is damaged, or "". */
+static bool decode_bytes(const ec_gltf *g, uint32_t index, const uint8_t *bytes, uint64_t length, ec_image *out, ec_error *err)
 {
     const char *name = g->images[index].name;
     const ec_label label = ec_label_of("images", index, name);
-    const char *where = label.text;
     ec_decode_error reason = {0};
-    if (ok && ec_image_decode(bytes, length, out, &reason)) {
-        if (reason.text[0]) ec_fail(err, "%s is damaged or truncated: %s", where, reason.text);
-    } else if (ok) {
-        ok = false;
-        if (reason.out_of_memory) no_memory(where, err);
-        else ec_fail(err, "%s cannot be decoded: %s", where, reason.text);
+    if (!ec_image_decode(bytes, length, out, &reason)) {
+        ec_image_free(out);
+        if (reason.out_of_memory) return no_memory(label.text, err);
+        return ec_fail(err, "%s cannot be decoded: %s", label.text, reason.text) == EC_OK;
     }
-    if (ok && (!name || (out->name = strdup(name)))) return true;
+    if (reason.text[0]) ec_fail(err, "%s is damaged or truncated: %s", label.text, reason.text);
+    if (!name || (out->name = strdup(name))) return true;
     ec_image_free(out);
-    return ok && no_memory(where, err);
-}
-
-static bool fetch_bytes(const ec_gltf *g, uint32_t index, const uint8_t **bytes, uint64_t *length, uint8_t **owned, ec_error *err)
-{
-    const ec_label label = ec_label_of("images", index, g->images[index].name);
-    err->text[0] = 0;
-    return get_bytes(g, &g->images[index], label.text, bytes, length, owned, err) == EC_OK;
+    return no_memory(label.text, err);
 }
 
 bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_error *err)
@@ -94,10 +89,9 @@ bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_erro
     const uint8_t *bytes = NULL;
     uint8_t *owned = NULL;
     uint64_t length = 0;
-    const bool ok = fetch_bytes(g, index, &bytes, &length, &owned, err);
-    const bool is_loaded = decode_bytes(g, index, ok, bytes, length, out, err);
+    const bool ok = fetch_bytes(g, index, &bytes, &length, &owned, err) && decode_bytes(g, index, bytes, length, out, err);
     free(owned);
-    return is_loaded;
+    return ok;
 }
 
 /* Metallic-roughness of a picture whose alpha is glossiness: green 1 - factor x alpha, no metal. */
@@ -130,7 +124,7 @@ static void fetch(const table *t, picture *p)
 static void decode(const table *t, picture *p)
 {
     if (!p->is_fetched) return;
-    p->failed = !decode_bytes(t->g, p->index, true, p->stored, p->bytes, &p->image, &p->err);
+    p->failed = !decode_bytes(t->g, p->index, p->stored, p->bytes, &p->image, &p->err);
     free(p->owned);
     p->owned = NULL;
     if (p->failed) return;

@@ -103,10 +103,13 @@ static ec_result add_level(ec_brightness *b, uint32_t level, ec_error *err)
 #pragma omp parallel for if (rows > 64)
     for (uint32_t y = 0; y < rows; y++) {
         ec_bright *out = b->levels[level] + (size_t)y * columns;
-        const uint32_t before = level > 1 ? b->columns[level - 1] : 0;
-        const ec_bright *above = before ? b->levels[level - 1] + 2 * (size_t)y * before : NULL;
-        if (before) join(above, 2 * y + 1 < b->rows[level - 1] ? above + before : NULL, before, out);
-        else join_patches(b, y, out);
+        if (level == 1) {
+            join_patches(b, y, out);
+            continue;
+        }
+        const uint32_t before = b->columns[level - 1];
+        const ec_bright *above = b->levels[level - 1] + 2 * (size_t)y * before;
+        join(above, 2 * y + 1 < b->rows[level - 1] ? above + before : NULL, before, out);
     }
     return EC_OK;
 }

@@ -96,13 +96,14 @@ double ec_light_bounds_cost(const ec_light_bounds *b)
     return b->power * spread * ec_light_bounds_size2(b);
 }
 
+/* fmax: where no lamp has power, the share is no number. */
 ec_light_node ec_light_bounds_node(const ec_light_bounds *b, double most_power)
 {
-    ec_light_node node = {.power = (float)ec_greater(b->power / most_power, 1e-30), .flags = b->two_sided ? EC_LIGHT_NODE_TWO_SIDED : 0};
-    double radius2 = 0, co = ec_greater(b->cos_spread - 1e-6, -1);
+    ec_light_node node = {.power = (float)fmax(b->power / most_power, 1e-30), .flags = b->two_sided ? EC_LIGHT_NODE_TWO_SIDED : 0};
+    double radius2 = 0, co = fmax(b->cos_spread - 1e-6, -1);
     for (int k = 0; k < 3; k++) {
         node.centre[k] = (float)(0.5 * (b->low[k] + b->high[k]));
-        double reach = ec_greater(b->high[k] - node.centre[k], node.centre[k] - b->low[k]);
+        double reach = fmax(b->high[k] - node.centre[k], node.centre[k] - b->low[k]);
         radius2 += reach * reach;
         node.axis[k] = (float)b->axis[k];
     }
@@ -110,6 +111,6 @@ ec_light_node ec_light_bounds_node(const ec_light_bounds *b, double most_power)
     if (b->two_sided && co < 0) co = -1;
     node.radius2 = (float)(radius2 * (1 + 1e-6));
     node.cos_spread = (float)co;
-    node.sin_spread = (float)sqrt(ec_greater(1 - co * co, 0));
+    node.sin_spread = (float)sqrt(fmax(1 - co * co, 0));
     return node;
 }

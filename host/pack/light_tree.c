@@ -50,7 +50,7 @@ static double middle(const ec_light_bounds *b, int axis) { return 0.5 * (b->low[
 static uint32_t bin_of(const ec_light_bounds *b, int axis, double low, double high)
 {
     double place = BINS * ((middle(b, axis) - low) / (high - low));
-    return place < BINS - 1 ? (uint32_t)ec_greater(place, 0) : BINS - 1;
+    return place < BINS - 1 ? (uint32_t)fmax(place, 0) : BINS - 1;
 }
 
 typedef struct plane {
@@ -200,7 +200,7 @@ ec_result ec_light_tree_build(const ec_light_set *set, ec_light_node *nodes, uin
     builder lamps = {.set = set, .bounds = set->bounds, .order = order, .nodes = nodes, .trails = trails};
     for (uint32_t i = 0; i < count; i++) {
         order[i] = order[count + i] = i;
-        lamps.most_power = ec_greater(lamps.most_power, set->bounds[i].power);
+        lamps.most_power = fmax(lamps.most_power, set->bounds[i].power);
     }
     builder top = lamps;
     top.bounds = bounds;

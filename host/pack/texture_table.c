@@ -85,7 +85,7 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
     return EC_OK;
 }
 
-/* What all that is used lies in already, just as it would be written; NULL: there is no such thing. */
+/* The texels in which all pictures that are used lie already, in the order and at the places of this pack; NULL: they do not, and are to be copied. */
 static ec_texels *common_texels(const ec_scene *scene, const bool *used, uint64_t words)
 {
     ec_texels *texels = NULL;

@@ -131,8 +131,21 @@ static void check(uint32_t count, int shape, const ec_bulb *bulbs, uint32_t bulb
     drop(&again);
 }
 
+/* The share of a lamp without power is a number above 0 all the same: kernels divide by sums of them. */
+static void check_without_power(void)
+{
+    forest f = make(3, SCATTERED);
+    ec_error err;
+    for (int i = 0; i < 3; i++) f.bounds[i].power = 0;
+    const ec_light_set set = {.count = 3, .bounds = f.bounds, .ids = f.ids};
+    CHECK_OK(ec_light_tree_build(&set, f.nodes, f.trails, &err), err);
+    for (int i = 0; i < 5; i++) CHECK_MSG(f.nodes[i].power > 0 && f.nodes[i].power < 1, "node %d: %g", i, (double)f.nodes[i].power);
+    drop(&f);
+}
+
 int main(void)
 {
+    check_without_power();
     for (int shape = SCATTERED; shape <= GROWING; shape++) {
         check(2, shape, NULL, 0);
         check(3, shape, NULL, 0);

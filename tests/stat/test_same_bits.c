@@ -86,8 +86,8 @@ int main(void)
         all_scenes |= called.bits;
     }
     for (int i = 0; i < SCENES; i++) {
-        if (test_tier(i == 0 ? "quick" : "full")) check_scene(names[i], scenes[i], all_scenes, i ? 1 : 2);
-        if (i == 0 && test_tier("full")) check_scene(names[i], scenes[i], all_scenes, 4);
+        const bool is_full = test_tier("full");
+        if (i == 0 || is_full) check_scene(names[i], scenes[i], all_scenes, i ? 1 : is_full ? 4 : 2);
         ec_scene_free(scenes[i]);
     }
     TEST_END();
