@@ -62,7 +62,7 @@ static uint32_t load(void)
     ec_error err;
     if (ec_gltf_textures_load(&g, &places, &s, &log, &err) != EC_OK) fprintf(stderr, "%s\n", err.text);
     uint32_t loaded = s.image_count;
-    for (uint32_t i = 0; i < loaded; i++) free(s.images[i].rgba8);
+    for (uint32_t i = 0; i < loaded; i++) ec_image_free(&s.images[i]);
     free(s.images);
     free(s.textures);
     return loaded;

@@ -68,7 +68,7 @@ class Races(unittest.TestCase):
 
     def test_loading(self):
         self.check("race_load", "12 of 16 pictures by 4 threads, 4 warnings, densities as by one thread", "gltf/textures.c", "scene/texture_range.c",
-                   "scene/scene.c", "scene/streams.c", "scene/contents.c", "gltf/image_decode.c", "gltf/image_check.c", "gltf/image_png.c",
+                   "scene/scene.c", "scene/texels.c", "scene/streams.c", "scene/contents.c", "gltf/image_decode.c", "gltf/image_check.c", "gltf/image_png.c",
                    "gltf/image_jpeg.c", "gltf/codecs/no_avif.c", "gltf/codecs/no_basisu.c", "gltf/codecs/no_webp.c", "gltf/gltf_uri.c", "gltf/gltf_tree.c",
                    "pack/environment_map.c", "pack/distribution.c", libraries=["-lpng", "-ljpeg"])
 
