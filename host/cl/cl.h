@@ -86,6 +86,7 @@ typedef struct ec_cl {
     bool keeps_programs;      /* set after ec_cl_open: programs stay built until ec_cl_close, and are found again */
     bool keeps_buffers;       /* likewise what of a scene is put on the device, as long as the next one wants it too */
     struct ec_ahead *ahead;   /* cl/ahead.h; NULL: none */
+    struct ec_recall *recall; /* device/ahead.h; NULL: none. The caller's */
     struct ec_kept_program *kept;
     uint32_t kept_count;
     uint32_t programs_found;  /* among those kept */

@@ -103,6 +103,7 @@ static ec_result run(ec_call *call, ec_error *err)
     EC_TRY(take_request(call, request, err));
     if (request->plan_ranks) return plan(job, err);
     job->in_memory = call->wants_picture && !request->outputs.count;
+    job->renders = true;
     ec_result result = job->in_memory ? ec_render_job_load(job, err) : ec_render_job_prepare(job, err);
     if (result == EC_FAILED && request->resume && strcmp(call->folder, job->job.folder))
         ec_fail_more(err, "; the job was begun in '%s'", job->job.folder);

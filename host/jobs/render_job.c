@@ -203,10 +203,20 @@ typedef struct finder {
     ec_error error;
 } finder;
 
+/* What hinders that is told when the render opens it. */
+static void open_early(ec_render_job *job)
+{
+    ec_error none;
+    if (!job->renders || job->ranks || job->device_count != 1 || ec_cl_open(&job->devices[0], &job->early, &none) != EC_OK) return;
+    job->is_early = true;
+    ec_recall_begin(&job->recall, &job->early, job->request->scene, job->request->options.integrator);
+}
+
 static void *find_devices(void *user)
 {
     finder *f = user;
     f->result = ec_render_job_find_devices(f->job, &f->error);
+    if (f->result == EC_OK) open_early(f->job);
     return NULL;
 }
 
@@ -224,7 +234,10 @@ static ec_result load_both(ec_render_job *job, ec_error *err)
     pthread_t thread;
     begin_threads();
     const bool is_beside = !job->ranks && !job->request->device && pthread_create(&thread, NULL, find_devices, &f) == 0;
-    if (!is_beside) EC_TRY(ec_render_job_find_devices(job, err));
+    if (!is_beside) {
+        EC_TRY(ec_render_job_find_devices(job, err));
+        open_early(job);
+    }
     const ec_result result = load_scene(job, err);
     if (is_beside) pthread_join(thread, NULL);
     if (is_beside && f.result != EC_OK && err) *err = f.error;
@@ -334,5 +347,6 @@ void ec_render_job_free(ec_render_job *job)
     ec_given_free(&job->before);
     free(job->behind.rgb);
     ec_ocio_close(job->ocio);
+    if (job->is_early) ec_cl_close(&job->early);
     free(job->whole_command);
 }

@@ -5,6 +5,7 @@
 #include "gltf/reader.h"
 #include "cl/cl.h"
 #include "denoise/denoise.h"
+#include "device/ahead.h"
 #include "jobs/frame_share.h"
 #include "jobs/hash.h"
 #include "jobs/listener.h"
@@ -30,9 +31,13 @@ typedef struct ec_render_job {
     bool takes_several;          /* devices; else a list of them is refused */
     bool is_blank;               /* its camera sees no surface */
     bool in_memory;              /* the whole film is wanted, not files */
+    bool renders;                /* the scene, as soon as it is loaded: its device is opened meanwhile */
     ec_device_info devices[EC_DEVICES_MOST];
     uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
+    ec_cl early;                 /* with is_early: the device, opened while the scene is loaded. Owned */
+    ec_recall recall;            /* of it */
+    bool is_early;
     ec_denoised denoised;        /* of the film, with options.denoise */
     ec_behind behind;            /* with a blurred background. Owned */
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */

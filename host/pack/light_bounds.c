@@ -40,28 +40,33 @@ ec_light_bounds ec_light_bounds_of(const ec_light_data *light, double power)
     return b;
 }
 
-/* Most are single lamps, of no spread. */
-static double spread_of(const ec_light_bounds *b) { return b->cos_spread >= 1 ? 0 : acos(b->cos_spread); }
+static double sine_of(double cosine) { return sqrt(ec_greater(1 - cosine * cosine, 0)); }
 
-/* The narrowest cone around two. */
+/* The narrowest cone around two, of half the sum of their spreads and the angle between them: by cosines and sines, as angles would take most of the
+ * time of a tree. */
 static void join_cones(ec_light_bounds *a, const ec_light_bounds *b)
 {
     if (a->cos_spread <= -1) return; /* all ways already, as large clusters are */
-    if (b->cos_spread >= 1 && ec_dot(a->axis, b->axis) >= a->cos_spread) return; /* one lamp within: no angle is asked for */
-    const double angle = acos(ec_lesser(ec_greater(ec_dot(a->axis, b->axis), -1), 1)), sa = spread_of(a), sb = spread_of(b);
-    if (ec_lesser(angle + sb, PI) <= sa) return;
-    if (ec_lesser(angle + sa, PI) <= sb) {
+    const double between = ec_lesser(ec_greater(ec_dot(a->axis, b->axis), -1), 1), ca = a->cos_spread, cb = b->cos_spread;
+    if (cb >= 1 && between >= ca) return; /* one lamp within */
+    const double sa = sine_of(ca), sb = sine_of(cb), apart = sine_of(between);
+    if (cb <= -1 || between >= ca * cb + sa * sb) { /* one has the other in it */
+        if (cb >= ca) return;
         memcpy(a->axis, b->axis, sizeof a->axis);
-        a->cos_spread = b->cos_spread;
+        a->cos_spread = cb;
         return;
     }
-    double spread = 0.5 * (sa + angle + sb), part = angle > 0 ? (spread - sa) / angle : 0, sine = sin(angle), axis[3];
-    if (spread >= PI || !(sine > 1e-9)) {
-        set_axis(a, a->axis, angle < 1 && spread < PI ? cos(spread) : -1);
+    const double cos_both = ca * cb - sa * sb, sin_both = sa * cb + ca * sb, cosine = cos_both * between - sin_both * apart, sine = sin_both * between + cos_both * apart;
+    const bool is_all = sin_both <= 0 && between <= cos_both;
+    const double half = sqrt(ec_greater(0.5 * (1 + cosine), 0)), c = sine < 0 ? -half : half, s = sqrt(ec_greater(0.5 * (1 - cosine), 0));
+    if (is_all || !(apart > 1e-9)) {
+        set_axis(a, a->axis, between > 0 && !is_all ? c : -1);
         return;
     }
-    for (int k = 0; k < 3; k++) axis[k] = sin((1 - part) * angle) / sine * a->axis[k] + sin(part * angle) / sine * b->axis[k];
-    set_axis(a, axis, cos(spread));
+    double axis[3];
+    const double along = c * ca + s * sa, across = (s * ca - c * sa) / apart; /* turned from a's axis towards b's, until a's edge is the cone's */
+    for (int k = 0; k < 3; k++) axis[k] = along * a->axis[k] + across * (b->axis[k] - between * a->axis[k]);
+    set_axis(a, axis, c);
 }
 
 void ec_light_bounds_add(ec_light_bounds *to, const ec_light_bounds *other)
@@ -91,8 +96,8 @@ double ec_light_bounds_size2(const ec_light_bounds *b)
 double ec_light_bounds_cost(const ec_light_bounds *b)
 {
     if (!(b->power > 0)) return 0;
-    double o = spread_of(b), w = ec_lesser(o + 0.5 * PI, PI), so = sin(o), co = b->cos_spread;
-    double spread = 2 * PI * (1 - co) + 0.5 * PI * (2 * w * so - cos(o - 2 * w) - 2 * o * so + co);
+    const double co = b->cos_spread, so = sine_of(co);
+    const double spread = 2 * PI * (1 - co) + (co >= 0 ? 0.5 * PI * (PI * so + 2 * co) : PI * (PI - acos(co)) * so);
     return b->power * spread * ec_light_bounds_size2(b);
 }
 

@@ -1,0 +1,69 @@
+/* tier: quick */
+/* What a scene's last render built is begun while the scene is loaded. Wrong or damaged notes cost time, and no bit of the picture. */
+#include "cl/ahead.h"
+#include "cl/notes.h"
+#include "cl/workarounds.h"
+#include "device/ahead.h"
+#include "support/render_case.h"
+
+#define NAME "a scene that is not there"
+
+static ec_render_options options(void)
+{
+    ec_render_options o = case_options(32, 24, 1);
+    o.lanes = 1;
+    o.accel = "bvh8";
+    return o;
+}
+
+/* The plan that is noted afterwards. */
+static ec_build_plan render(const char *path, const case_image *expected, bool begins)
+{
+    ec_scene *scene = case_load(path, NULL);
+    ec_render_options o = options();
+    ec_recall recall, after;
+    ec_recall_begin(&recall, case_cl(), NAME, o.integrator);
+    CHECK(recall.is_begun == begins);
+    CHECK(!begins || case_cl()->ahead);
+    case_image image = case_render(scene, &o);
+    CHECK(case_same_bits(&image.film, &expected->film));
+    CHECK(!case_cl()->recall);
+    ec_recall_begin(&after, case_cl(), NAME, o.integrator);
+    CHECK(after.is_begun == ec_compiles_late(case_cl()));
+    ec_ahead_end(case_cl());
+    case_cl()->recall = NULL;
+    case_free(&image);
+    ec_scene_free(scene);
+    return after.plan;
+}
+
+int main(void)
+{
+    const char *const first = OWN_SCENE("cornell-box/cornell-box.gltf"), *const second = OWN_SCENE("furnace/box-albedo-0.5.gltf");
+    ec_render_options o = options();
+    case_image expected = case_render_file(first, NULL, &o), other = case_render_file(second, NULL, &o);
+    const bool is_late = ec_compiles_late(case_cl());
+    ec_recall r;
+    ec_recall_begin(&r, case_cl(), NAME, EC_INTEGRATOR_WHITTED);
+    CHECK(!r.is_begun); /* another integrator's */
+
+    ec_build_plan none;
+    memset(&none, 0, sizeof none);
+    snprintf(r.name, sizeof r.name, "plan 1, integrator %u, %s", o.integrator, NAME);
+    ec_notes_write(case_cl(), r.name, &none, sizeof none);
+    const ec_build_plan plan = render(first, &expected, false); /* of no picture: not believed */
+    const ec_build_plan again = render(first, &expected, is_late);
+    CHECK(!memcmp(&plan, &again, sizeof plan));
+    const ec_build_plan changed = render(second, &other, is_late); /* the file is another by now */
+    CHECK(!is_late || memcmp(&plan, &changed, sizeof plan));
+    ec_notes_write(case_cl(), r.name, "no plan", 8);
+    (void)render(first, &expected, false);
+
+    char word[4] = "", longer[8];
+    ec_notes_write(case_cl(), "test", "abc", sizeof word);
+    CHECK(ec_notes_read(case_cl(), "test", word, sizeof word) && !strcmp(word, "abc"));
+    CHECK(!ec_notes_read(case_cl(), "test", longer, sizeof longer) && !ec_notes_read(case_cl(), "others", word, sizeof word));
+    case_free(&expected);
+    case_free(&other);
+    TEST_END();
+}
