@@ -89,10 +89,27 @@ static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
     }
 }
 
+/* Of one replicate there is no spread to look at. */
+static void sum_luminance(const ec_film *film, uint32_t row, ec_error_sums *sums)
+{
+    double mean[3 * EC_PIXELS];
+    uint32_t replicate = 0;
+    while (!(film->samples[replicate] > 0)) replicate++;
+    for (uint64_t x = 0; x < film->width; x += EC_PIXELS) {
+        const uint64_t count = film->width - x < EC_PIXELS ? film->width - x : EC_PIXELS;
+        ec_film_replicate(film, (uint64_t)row * film->width + x, count, replicate, mean);
+        for (uint64_t i = 0; i < count; i++) sums->luminance += ec_luminance(&mean[3 * i]);
+    }
+}
+
 static void sum_row(const ec_film *film, uint32_t row, ec_error_sums *sums)
 {
     ec_pixel piece[EC_PIXELS];
     if (film->unsampled && !memchr(film->unsampled + (uint64_t)row * film->width, 0, film->width)) return; /* black, in a film of one replicate */
+    if (ec_film_replicates(film) == 1) {
+        sum_luminance(film, row, sums);
+        return;
+    }
     for (uint64_t x = 0; x < film->width; x += EC_PIXELS) {
         const uint64_t count = film->width - x < EC_PIXELS ? film->width - x : EC_PIXELS;
         ec_film_look(film, (uint64_t)row * film->width + x, count, piece);

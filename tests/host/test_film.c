@@ -283,6 +283,9 @@ static void error_never_lies_about_corner_cases(void)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ec_film film = filled(cases[i].batches, cases[i].f);
         ec_film_error error = ec_film_estimate_error(&film);
+        double mean = 0;
+        for (int pixel = 0; pixel < P; pixel++) mean += ec_luminance(films_pixel(&film, (uint64_t)pixel).mean) / P;
+        CHECK_MSG(fabs(error.mean_luminance - mean) <= 1e-12 * mean, "case %zu: %g, not %g", i, error.mean_luminance, mean);
         CHECK_MSG(!isnan(error.error) && !isnan(error.error_bound), "case %zu", i);
         CHECK_MSG(isinf(error.error) == cases[i].infinite && isinf(error.error_bound) == cases[i].infinite,
                   "case %zu: %g %g", i, error.error, error.error_bound);
