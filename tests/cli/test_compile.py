@@ -107,11 +107,11 @@ class Compile(Case):
                     self.assertLess(sizes[f"_pocl_kernel_{name}_workgroup"], sizes[f"{name}_item"])
 
     def test_the_fast_ones_take_over(self):
-        report, _ = self.render(spp=40000)
+        report, _ = self.render(spp=12000)
         self.skip_unless_late(report)
         self.assertEqual(report["first_kernels"], "narrow")
         self.assertGreater(report["fast_kernels_after_seconds"], 0)
-        self.assertEqual(report["image_sha256"], self.render("--compile", "first", spp=40000)[0]["image_sha256"])
+        self.assertEqual(report["image_sha256"], self.render("--compile", "first", spp=12000)[0]["image_sha256"])
 
     def end_idle(self):
         with open(self.path("idle"), encoding="ascii") as file:
@@ -134,11 +134,11 @@ class Compile(Case):
     def test_a_render_takes_part_in_compiling(self):
         """All of it, where the other process does nothing."""
         alone = self.idle_compiler()
-        report, _ = self.render(eclat_is=alone, spp=40000)
+        report, _ = self.render(eclat_is=alone, spp=12000)
         self.skip_unless_late(report)
         self.assertEqual(report["first_kernels"], "narrow")
         self.assertGreater(report["fast_kernels_after_seconds"], 0)
-        later, _ = self.render(eclat_is=alone, spp=40000)
+        later, _ = self.render(eclat_is=alone, spp=12000)
         self.assertEqual((later["first_kernels"], later["image_sha256"]), ("fast", report["image_sha256"]))
 
     def test_packets_are_not_waited_for(self):

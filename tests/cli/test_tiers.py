@@ -28,7 +28,7 @@ class Rules(unittest.TestCase):
         files = glob.glob(os.path.join(TESTS, "*", "test_*.c")) + glob.glob(os.path.join(TESTS, "*", "test_*.py"))
         self.assertGreater(len(files), 100)
         without = [os.path.relpath(path, TESTS) for path in sorted(files) if not tiers.of_file(path)]
-        self.assertEqual(without, [], "the first line names no tier: '# tier: quick' or '/* tier: quick */'; quick, full, long, 'tiers: quick, full' or 'tiers: quick, long'")
+        self.assertEqual(without, [], "the first line names no tier: '# tier: quick' or '/* tier: quick */'; quick, full, long, 'tiers: quick, full', 'tiers: quick, long' or 'tiers: full, long'")
 
     def test_parts_are_named_where_there_are_some(self):
         """What is marked and never run, or run twice, is a file whose first line does not tell of it."""

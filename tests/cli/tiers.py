@@ -8,7 +8,7 @@ import unittest
 
 FIRST_LINE = re.compile(r"(?:# (.*)|/\* (.*) \*/)\n")
 KINDS = {"tier: quick": ["quick"], "tier: full": ["full"], "tier: long": ["long"], "tiers: quick, full": ["quick", "full"],
-         "tiers: quick, long": ["quick", "long"], "tiers: quick, full, long": ["quick", "full", "long"]}
+         "tiers: quick, long": ["quick", "long"], "tiers: full, long": ["full", "long"], "tiers: quick, full, long": ["quick", "full", "long"]}
 
 
 def full(marked):

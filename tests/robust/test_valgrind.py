@@ -38,7 +38,7 @@ class Valgrind(HardCase):
 
     def test_render_and_compare(self):
         job = ["render", CORNELL, "--size", "8x8", "--spp", "4", "--seed"]
-        self.watch(0, *job, "1", "--lanes", "1", "-o", "1.exr", "-o", "1.png")
+        self.watch(0, *job, "1", "--compile", "narrow", "-o", "1.exr", "-o", "1.png")
         self.assert_ok(support.eclat(*job, "2", "-o", self.path("2.exr")))
         self.watch(0, "compare", "1.exr", "2.exr")
 

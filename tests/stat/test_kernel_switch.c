@@ -70,7 +70,7 @@ int main(void)
                                                SHARED("assets/gltf/Suzanne/glTF/Suzanne.gltf")};
     uint64_t random = 23;
     if (test_tier("quick")) check_scene(scenes[0], 0, 4, &random);
-    if (test_tier("full")) check_scenes(scenes, 1, 3, &random);
+    if (test_tier("full")) check_scenes(scenes, 1, 2, &random);
     if (test_tier("long")) check_scenes(scenes, 1, 6, &random);
     if (test_tier("long")) check_scenes(others, 0, 4, &random);
     TEST_END();
