@@ -203,20 +203,20 @@ typedef struct finder {
     ec_error error;
 } finder;
 
-/* What hinders that is told when the render opens it. */
-static void open_early(ec_render_job *job)
+static ec_result open_early(ec_render_job *job, ec_error *err)
 {
-    ec_error none;
-    if (!job->renders || job->ranks || job->device_count != 1 || ec_cl_open(&job->devices[0], &job->early, &none) != EC_OK) return;
+    if (!job->renders || job->ranks || job->device_count != 1) return EC_OK;
+    EC_TRY(ec_cl_open(&job->devices[0], &job->early, err));
     job->is_early = true;
     ec_recall_begin(&job->recall, &job->early, job->request->scene, job->request->options.integrator);
+    return EC_OK;
 }
 
 static void *find_devices(void *user)
 {
     finder *f = user;
     f->result = ec_render_job_find_devices(f->job, &f->error);
-    if (f->result == EC_OK) open_early(f->job);
+    if (f->result == EC_OK) f->result = open_early(f->job, &f->error);
     return NULL;
 }
 
@@ -236,7 +236,7 @@ static ec_result load_both(ec_render_job *job, ec_error *err)
     const bool is_beside = !job->ranks && !job->request->device && pthread_create(&thread, NULL, find_devices, &f) == 0;
     if (!is_beside) {
         EC_TRY(ec_render_job_find_devices(job, err));
-        open_early(job);
+        EC_TRY(open_early(job, err));
     }
     const ec_result result = load_scene(job, err);
     if (is_beside) pthread_join(thread, NULL);
