@@ -16,7 +16,7 @@ struct ec_ahead {
     ec_error errors[EC_COMPILE_PROGRAMS]; /* of programs that are NULL though all were tried */
 };
 
-/* ahead_begin.c: begins with the job's programs, whose sources are taken over. Nothing happens where there is no thread to be had, or where programs are kept
+/* ahead_begin.c: begins with the job's programs, whose sources are taken over; those that were built for a job before stay. Nothing happens where there is no thread to be had, or where programs are kept
  * from before. */
 void ec_ahead_begin(ec_cl *cl, ec_compile_job *job);
 

@@ -37,6 +37,30 @@ static ec_build_plan render(const char *path, const case_image *expected, bool b
     return after.plan;
 }
 
+/* Another size needs the same programs. */
+static void programs_stay(ec_build_plan plan)
+{
+    ec_cl *cl = case_cl();
+    ec_compile_job none = {0};
+    ec_recall small, large;
+    ec_notes_write(cl, "plan 1, integrator 0, small", &plan, sizeof plan);
+    plan.height *= 2;
+    ec_notes_write(cl, "plan 1, integrator 0, large", &plan, sizeof plan);
+    ec_recall_begin(&small, cl, "small", EC_INTEGRATOR_PATH);
+    CHECK(small.is_begun && !ec_ahead_is_done(cl, &none)); /* which waits */
+    const cl_program built = cl->ahead->programs[0];
+    CHECK(built && clRetainProgram(built) == CL_SUCCESS); /* nothing else has its address */
+    ec_recall_begin(&large, cl, "large", EC_INTEGRATOR_PATH);
+    CHECK(large.is_begun && !ec_ahead_is_done(cl, &none) && cl->ahead->programs[0] == built);
+    plan.lanes = 4;
+    ec_notes_write(cl, "plan 1, integrator 0, large", &plan, sizeof plan);
+    ec_recall_begin(&large, cl, "large", EC_INTEGRATOR_PATH);
+    CHECK(large.is_begun && !ec_ahead_is_done(cl, &none) && cl->ahead->programs[0] != built);
+    ec_ahead_end(cl);
+    clReleaseProgram(built);
+    cl->recall = NULL;
+}
+
 int main(void)
 {
     const char *const first = OWN_SCENE("cornell-box/cornell-box.gltf"), *const second = OWN_SCENE("furnace/box-albedo-0.5.gltf");
@@ -56,6 +80,7 @@ int main(void)
     CHECK(!memcmp(&plan, &again, sizeof plan));
     const ec_build_plan changed = render(second, &other, is_late); /* the file is another by now */
     CHECK(!is_late || memcmp(&plan, &changed, sizeof plan));
+    if (is_late) programs_stay(plan);
     ec_notes_write(case_cl(), r.name, "no plan", 8);
     (void)render(first, &expected, false);
 
