@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "cl/drivers.h"
+#include "cl/workarounds.h"
 #include "jobs/backdrop.h"
 #include "jobs/blank.h"
 #include "jobs/denoise_choice.h"
@@ -203,9 +204,11 @@ typedef struct finder {
     ec_error error;
 } finder;
 
+/* Where kernels are built while the scene is loaded. Other drivers have no such use of it, and Oclgrind's contexts are for the thread that makes them. */
 static ec_result open_early(ec_render_job *job, ec_error *err)
 {
-    if (!job->renders || job->ranks || job->device_count != 1) return EC_OK;
+    const ec_workaround *driver = ec_workaround_for(&job->devices[0]);
+    if (!job->renders || job->ranks || job->device_count != 1 || !driver || !driver->compiles_late) return EC_OK;
     EC_TRY(ec_cl_open(&job->devices[0], &job->early, err));
     job->is_early = true;
     ec_recall_begin(&job->recall, &job->early, job->request->scene, job->request->options.integrator);
