@@ -16,8 +16,8 @@ struct ec_ahead {
     ec_error errors[EC_COMPILE_PROGRAMS]; /* of programs that are NULL though all were tried */
 };
 
-/* ahead_begin.c: begins with the job's programs, whose sources are taken over; those that were built for a job before stay. Nothing happens where there is no thread to be had, or where programs are kept
- * from before. */
+/* ahead_begin.c: begins with the job's programs, whose sources are taken over. Programs stay that were built for the job before. Nothing happens where
+ * there is no thread to be had, or where programs are kept (ec_cl.keeps_programs). */
 void ec_ahead_begin(ec_cl *cl, ec_compile_job *job);
 
 /* Waits for the thread, and forgets what nobody has asked for. ec_cl_close does so too. */

@@ -8,13 +8,15 @@ static void *build_all(void *user)
 {
     struct ec_ahead *a = user;
     a->is_done = ec_compile_job_look(a->cl, &a->job, false);
-    for (uint32_t i = 0; a->is_done && i < a->job.program_count; i++)
-        if (!a->programs[i]) (void)ec_program_build_source(a->cl, a->job.programs[i].label, a->job.programs[i].source, a->job.programs[i].options, &a->programs[i], &a->errors[i]);
+    for (uint32_t i = 0; a->is_done && i < a->job.program_count; i++) {
+        const ec_compile_program *one = &a->job.programs[i];
+        if (!a->programs[i]) (void)ec_program_build_source(a->cl, one->label, one->source, one->options, &a->programs[i], &a->errors[i]);
+    }
     return NULL;
 }
 
-/* Those of the job that were built for another: kernels of another wave, of the same programs. */
-static void take_over(ec_cl *cl, struct ec_ahead *a)
+/* Takes what was built for the job before and is the same now, as for a picture of another size. Waits for it. */
+static void take_built(ec_cl *cl, struct ec_ahead *a)
 {
     for (uint32_t i = 0; i < a->job.program_count; i++)
         (void)ec_ahead_take(cl, a->job.programs[i].source, a->job.programs[i].options, &a->programs[i], &a->errors[i]);
@@ -27,7 +29,7 @@ void ec_ahead_begin(ec_cl *cl, ec_compile_job *job)
         a->cl = cl;
         a->job = *job;
         job->program_count = 0;
-        take_over(cl, a);
+        take_built(cl, a);
     }
     ec_ahead_end(cl);
     if (!a) return;

@@ -60,9 +60,9 @@ const ec_workaround *ec_workaround_for(const ec_device_info *device)
     return NULL;
 }
 
-bool ec_compiles_late(const ec_cl *cl)
+bool ec_compiles_late(const ec_device_info *device)
 {
-    const ec_workaround *driver = ec_workaround_for(&cl->info);
+    const ec_workaround *driver = ec_workaround_for(device);
     return driver && driver->compiles_late;
 }
 

@@ -22,7 +22,7 @@ const ec_workaround *ec_workaround_for(const ec_device_info *device);
 /* Does ECLAT_WORKAROUND name what there is? */
 ec_result ec_workaround_check(ec_error *err);
 
-bool ec_compiles_late(const ec_cl *cl);
+bool ec_compiles_late(const ec_device_info *device);
 
 /* For kernels of the pipeline: " -D…" or "". */
 const char *ec_builtin_options(const ec_device_info *device);

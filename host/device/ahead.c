@@ -18,7 +18,7 @@ static bool begin(ec_cl *cl, const ec_build_plan *plan)
     p.effects.called.bits = plan->called, p.effects.built = plan->built, p.effects.without = plan->without, p.effects.never = plan->never;
     p.effects.launched = plan->launched;
     ec_compile_job job;
-    if (!ec_compiles_late(cl) || ec_pipeline_lanes(cl, plan->lanes, &p.lanes, NULL) != EC_OK) return false;
+    if (!ec_compiles_late(&cl->info) || ec_pipeline_lanes(cl, plan->lanes, &p.lanes, NULL) != EC_OK) return false;
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
         p.accels[a].in_use = plan->accels >> a & 1;
         p.accels[a].bytes = (uint64_t)BVH8_BYTES * plan->triangles;

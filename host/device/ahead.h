@@ -4,21 +4,21 @@
 
 #include "device/cargo.h"
 
-/* All that says which kernels there are to build. Compared and kept as bytes: made of zeros first. */
+/* All that decides which kernels are built. It is compared and stored as bytes, so that padding has to be zero. */
 typedef struct ec_build_plan {
     uint64_t built, called, without, never; /* EC_FEATURE_* */
     uint32_t launched, integrator, fast_math, lanes, wave, width, height, batch, triangles, accels;
 } ec_build_plan;
 
-/* Of one scene: what its last render built. */
+/* The plan by which a scene's last render was built, and whether the programs of this one were begun by it. */
 typedef struct ec_recall {
-    char name[4200];
+    char name[4200]; /* under which it is noted */
     ec_build_plan plan;
     bool is_begun;
 } ec_recall;
 
-/* While a scene is loaded: begins with the programs that its last render on this device began with, of which most renders of it need the same. What is
- * noted at the first ec_build_ahead, where they are others, is for the next. scene: its path. Both stay where they are until that. */
+/* Begins, while a scene is loaded, with the programs of its last render on this device: most renders need the same. The first ec_build_ahead notes its own
+ * plan for the next render where it is another; recall has to stay where it is until then. scene: its path. */
 void ec_recall_begin(ec_recall *recall, ec_cl *cl, const char *scene, uint32_t integrator);
 
 /* Before the cargo is whole: its accelerators are there, and it is known what effects it will call for. Builds the programs that the driver has in its

@@ -39,7 +39,7 @@ static bool may_begin_narrow(const ec_pipeline *p, const ec_cargo_head *head)
 {
     const ec_compile when = when_to_compile(head->compile);
     return !head->fast_math && !head->lanes && p->lanes > 1 && ec_pipeline_narrow_wave(p, p->effects.built) &&
-           (when == EC_COMPILE_NARROW || (when != EC_COMPILE_FIRST && ec_compiles_late(p->cl) && ec_device_rounds(&p->cl->info)));
+           (when == EC_COMPILE_NARROW || (when != EC_COMPILE_FIRST && ec_compiles_late(&p->cl->info) && ec_device_rounds(&p->cl->info)));
 }
 
 /* Not ray trees: they would need a stack of branches for glass that the scene may not have. */
@@ -124,7 +124,7 @@ static void tell(void *user, uint32_t done, uint32_t count)
 static ec_result build(ec_pipeline *p, candidate *c, ec_error *err)
 {
     teller t = {.log = p->cl->log, .begun = ec_now()};
-    const bool is_late = ec_compiles_late(p->cl), is_done = !is_late || is_compiled(p, c);
+    const bool is_late = ec_compiles_late(&p->cl->info), is_done = !is_late || is_compiled(p, c);
     if (!is_done && !c->is_helped) ec_say(t.log, "compiling kernels for what this scene calls for; the next render finds them");
     t.said = t.begun;
     p->kernels = c->set;
@@ -153,7 +153,7 @@ static ec_result prepare(ec_pipeline *p, candidate *c, ec_error *err)
 ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *err)
 {
     candidate candidates[CANDIDATES] = {[EC_BEGUN_FAST] = {.set = ec_kernel_set_fast(p)}, [EC_BEGUN_NARROW] = {.set = narrow_set(p)}, [EC_BEGUN_UNIVERSAL] = {.set = universal_set(p)}};
-    ec_result result = ec_prepares_kernels() && ec_compiles_late(p->cl) ? prepare(p, candidates, err) : EC_OK;
+    ec_result result = ec_prepares_kernels() && ec_compiles_late(&p->cl->info) ? prepare(p, candidates, err) : EC_OK;
     candidate *chosen = &candidates[p->begun = choose(p, head, candidates)];
     if (result == EC_OK && p->is_narrow) result = ec_pipeline_use_wave(p, chosen->set.wave, err);
     if (result == EC_OK && p->compiler.report >= 0) ec_help_begin(p, &candidates[EC_BEGUN_FAST].job);
@@ -166,7 +166,7 @@ ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *er
 static ec_result trace_by(ec_pipeline *p, uint32_t accels, ec_error *err)
 {
     p->kernels.accels = accels;
-    return ec_compiles_late(p->cl) ? ec_kernel_set_warm(p, NULL, NULL, err) : EC_OK;
+    return ec_compiles_late(&p->cl->info) ? ec_kernel_set_warm(p, NULL, NULL, err) : EC_OK;
 }
 
 /* Where not all of them are compiled, without packets: these compile for long, and make few renders much faster. */

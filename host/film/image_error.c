@@ -89,7 +89,7 @@ static void add_pixel(const ec_pixel *p, ec_error_sums *sums)
     }
 }
 
-/* Of one replicate there is no spread to look at. */
+/* A film of one replicate has no spread, so that its luminance is all there is to sum. */
 static void sum_luminance(const ec_film *film, uint32_t row, ec_error_sums *sums)
 {
     double mean[3 * EC_PIXELS];

@@ -198,28 +198,27 @@ static ec_result load_scene(ec_render_job *job, ec_error *err)
     return request->ground == EC_GROUND_SHADOW ? ec_shadow_check(job->scene, err) : EC_OK;
 }
 
+/* Opens the device meanwhile, where its driver lets kernels be built while the scene is loaded. Others gain nothing by it, and Oclgrind's contexts work
+ * only in the thread that makes them. */
+static ec_result find_and_open(ec_render_job *job, ec_error *err)
+{
+    EC_TRY(ec_render_job_find_devices(job, err));
+    if (!job->renders || job->ranks || job->device_count != 1 || !ec_compiles_late(&job->devices[0])) return EC_OK;
+    EC_TRY(ec_cl_open(&job->devices[0], &job->early, err));
+    ec_recall_begin(&job->recall, &job->early, job->request->scene, job->request->options.integrator);
+    return EC_OK;
+}
+
 typedef struct finder {
     ec_render_job *job;
     ec_result result;
     ec_error error;
 } finder;
 
-/* Where kernels are built while the scene is loaded. Other drivers have no such use of it, and Oclgrind's contexts are for the thread that makes them. */
-static ec_result open_early(ec_render_job *job, ec_error *err)
-{
-    const ec_workaround *driver = ec_workaround_for(&job->devices[0]);
-    if (!job->renders || job->ranks || job->device_count != 1 || !driver || !driver->compiles_late) return EC_OK;
-    EC_TRY(ec_cl_open(&job->devices[0], &job->early, err));
-    job->is_early = true;
-    ec_recall_begin(&job->recall, &job->early, job->request->scene, job->request->options.integrator);
-    return EC_OK;
-}
-
 static void *find_devices(void *user)
 {
     finder *f = user;
-    f->result = ec_render_job_find_devices(f->job, &f->error);
-    if (f->result == EC_OK) f->result = open_early(f->job, &f->error);
+    f->result = find_and_open(f->job, &f->error);
     return NULL;
 }
 
@@ -237,10 +236,7 @@ static ec_result load_both(ec_render_job *job, ec_error *err)
     pthread_t thread;
     begin_threads();
     const bool is_beside = !job->ranks && !job->request->device && pthread_create(&thread, NULL, find_devices, &f) == 0;
-    if (!is_beside) {
-        EC_TRY(ec_render_job_find_devices(job, err));
-        EC_TRY(open_early(job, err));
-    }
+    if (!is_beside) EC_TRY(find_and_open(job, err));
     const ec_result result = load_scene(job, err);
     if (is_beside) pthread_join(thread, NULL);
     if (is_beside && f.result != EC_OK && err) *err = f.error;
@@ -350,6 +346,6 @@ void ec_render_job_free(ec_render_job *job)
     ec_given_free(&job->before);
     free(job->behind.rgb);
     ec_ocio_close(job->ocio);
-    if (job->is_early) ec_cl_close(&job->early);
+    if (job->early.context) ec_cl_close(&job->early);
     free(job->whole_command);
 }

@@ -35,9 +35,8 @@ typedef struct ec_render_job {
     ec_device_info devices[EC_DEVICES_MOST];
     uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
-    ec_cl early;                 /* with is_early: the device, opened while the scene is loaded. Owned */
-    ec_recall recall;            /* of it */
-    bool is_early;
+    ec_cl early;                 /* the device, opened while the scene is loaded; without context: it was not. Owned */
+    ec_recall recall;            /* what is built on it meanwhile */
     ec_denoised denoised;        /* of the film, with options.denoise */
     ec_behind behind;            /* with a blurred background. Owned */
     ec_film film;                /* empty where the picture was rendered in strips, which are on their way to the files: */

@@ -113,7 +113,6 @@ static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
 static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *log, ec_error *err)
 {
     uint32_t count = 0, wanted = job->device_count;
-    if (job->is_early) return EC_OK;
     for (uint32_t i = 0; i < wanted; i++) {
         ec_error why = {0};
         if (ec_cl_open(&job->devices[i], &devices[count], &why) == EC_OK) {
@@ -164,9 +163,9 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     const ec_listener *listener = job->listener;
     const ec_log *log = &listener->log;
     const ec_course course = ec_render_job_course(job);
-    ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : job->is_early ? &job->early : own;
-    if (!job->share) EC_TRY(open_devices(job, devices, log, err));
-    else EC_TRY(open_shared(job, log, err));
+    ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : job->early.context ? &job->early : own;
+    if (job->share) EC_TRY(open_shared(job, log, err));
+    else if (devices == own) EC_TRY(open_devices(job, devices, log, err));
     listener->begin(listener->user, &job->request->options, true); /* until here there is nothing to save */
     if (job->ranks) ec_ranks_note_binding(job->ranks, job->devices, job->device_count, log);
     else if (!job->share && !job->request->has_slice && ec_ranks_apart() > 1)
@@ -181,7 +180,6 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     cast_shadow(job, devices);
     listener->end(listener->user);
     for (uint32_t i = 0; !job->share && i < job->device_count; i++) ec_cl_close(&devices[i]);
-    job->is_early = false;
     if (job->share && job->share->animation) ec_followed_tell(&job->share->followed, job->stats.trace_seconds);
     const bool has_picture = job->film.batch_count || job->rows;
     if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");

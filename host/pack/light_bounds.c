@@ -49,23 +49,25 @@ static void join_cones(ec_light_bounds *a, const ec_light_bounds *b)
     if (a->cos_spread <= -1) return; /* all ways already, as large clusters are */
     const double between = ec_lesser(ec_greater(ec_dot(a->axis, b->axis), -1), 1), ca = a->cos_spread, cb = b->cos_spread;
     if (cb >= 1 && between >= ca) return; /* one lamp within */
-    const double sa = sine_of(ca), sb = sine_of(cb), apart = sine_of(between);
+    const double sa = sine_of(ca), sb = sine_of(cb);
     if (cb <= -1 || between >= ca * cb + sa * sb) { /* one has the other in it */
         if (cb >= ca) return;
         memcpy(a->axis, b->axis, sizeof a->axis);
         a->cos_spread = cb;
         return;
     }
+    double aside[3], axis[3]; /* from a's axis towards b's, of the angle's sine: of axes that are nearly opposite the cosine does not tell it */
+    for (int k = 0; k < 3; k++) aside[k] = b->axis[k] - between * a->axis[k];
+    const double apart = sqrt(ec_dot(aside, aside));
     const double cos_both = ca * cb - sa * sb, sin_both = sa * cb + ca * sb, cosine = cos_both * between - sin_both * apart, sine = sin_both * between + cos_both * apart;
-    const bool is_all = sin_both <= 0 && between <= cos_both;
+    const bool is_all = sin_both <= 0 && cos_both < 1 && between <= cos_both; /* both spreads and the angle come to two pi */
     const double half = sqrt(ec_greater(0.5 * (1 + cosine), 0)), c = sine < 0 ? -half : half, s = sqrt(ec_greater(0.5 * (1 - cosine), 0));
     if (is_all || !(apart > 1e-9)) {
         set_axis(a, a->axis, between > 0 && !is_all ? c : -1);
         return;
     }
-    double axis[3];
     const double along = c * ca + s * sa, across = (s * ca - c * sa) / apart; /* turned from a's axis towards b's, until a's edge is the cone's */
-    for (int k = 0; k < 3; k++) axis[k] = along * a->axis[k] + across * (b->axis[k] - between * a->axis[k]);
+    for (int k = 0; k < 3; k++) axis[k] = along * a->axis[k] + across * aside[k];
     set_axis(a, axis, c);
 }
 

@@ -44,11 +44,11 @@ static void workarounds_can_be_forced(void)
     uint32_t lanes = 0;
     setenv("ECLAT_WORKAROUND", "PoCL", 1);
     const ec_workaround *row = ec_workaround_for(&cl.info);
-    CHECK(row && row->source_only && ec_compiles_late(&cl) && !ec_device_rounds(&cl.info));
+    CHECK(row && row->source_only && ec_compiles_late(&cl.info) && !ec_device_rounds(&cl.info));
     CHECK(strstr(ec_builtin_options(&cl.info), "-DEC_OWN_BUILTINS"));
     setenv("ECLAT_WORKAROUND", "oclgrind", 1);
     row = ec_workaround_for(&cl.info);
-    CHECK(row && row->source_only && row->no_touch && !ec_compiles_late(&cl));
+    CHECK(row && row->source_only && row->no_touch && !ec_compiles_late(&cl.info));
     setenv("ECLAT_WORKAROUND", "rusticl", 1);
     CHECK(ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 1 && ec_device_rounds(&cl.info));
     setenv("ECLAT_WORKAROUND", "Intel(R) OpenCL", 1);

@@ -29,7 +29,7 @@ static ec_build_plan render(const char *path, const case_image *expected, bool b
     CHECK(case_same_bits(&image.film, &expected->film));
     CHECK(!case_cl()->recall);
     ec_recall_begin(&after, case_cl(), NAME, o.integrator);
-    CHECK(after.is_begun == ec_compiles_late(case_cl()));
+    CHECK(after.is_begun == ec_compiles_late(&case_cl()->info));
     ec_ahead_end(case_cl());
     case_cl()->recall = NULL;
     case_free(&image);
@@ -66,7 +66,7 @@ int main(void)
     const char *const first = OWN_SCENE("cornell-box/cornell-box.gltf"), *const second = OWN_SCENE("furnace/box-albedo-0.5.gltf");
     ec_render_options o = options();
     case_image expected = case_render_file(first, NULL, &o), other = case_render_file(second, NULL, &o);
-    const bool is_late = ec_compiles_late(case_cl());
+    const bool is_late = ec_compiles_late(&case_cl()->info);
     ec_recall r;
     ec_recall_begin(&r, case_cl(), NAME, EC_INTEGRATOR_WHITTED);
     CHECK(!r.is_begun); /* another integrator's */
