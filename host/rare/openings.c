@@ -223,22 +223,29 @@ typedef struct near_vertex {
     const ec_chain *from;
 } near_vertex;
 
-/* Those of the patch's plane and side, the nearest first; seen: by the camera, or only on the way. */
-static uint32_t find_near(double radius, const ec_chains *paths, const patch *at, bool seen, near_vertex near[NEAREST])
+/* The nearest vertices to a patch, nearest first, apart: [1] those that the camera sees, [0] those that are only on the way. */
+typedef struct near_patch {
+    near_vertex vertices[2][NEAREST];
+    uint32_t count[2];
+} near_patch;
+
+/* Those of the patch's plane and side. */
+static void find_near(double radius, const ec_chains *paths, const patch *at, near_patch *found)
 {
-    uint32_t count = 0;
+    found->count[0] = found->count[1] = 0;
     for (uint32_t i = 0; i < paths->vertex_count; i++) {
         const ec_chain *c = &paths->vertices[i];
         const float way[3] = {c->origin[0] - at->point[0], c->origin[1] - at->point[1], c->origin[2] - at->point[2]};
         const double square = dot(way, way), height = dot(way, at->normal);
-        const bool is_there = dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BESIDE * radius;
-        if ((c->segment == 1) != seen || !is_there) continue;
-        if (count == NEAREST && square >= near[NEAREST - 1].square) continue;
-        uint32_t k = count < NEAREST ? count++ : NEAREST - 1;
+        const bool seen = c->segment == 1;
+        near_vertex *near = found->vertices[seen];
+        uint32_t *count = &found->count[seen];
+        if (*count == NEAREST && square >= near[NEAREST - 1].square) continue;
+        if (!(dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BESIDE * radius)) continue;
+        uint32_t k = *count < NEAREST ? (*count)++ : NEAREST - 1;
         for (; k > 0 && near[k - 1].square > square; k--) near[k] = near[k - 1];
         near[k] = (near_vertex){square, c};
     }
-    return count;
 }
 
 /* Root mean square over the mean, from pairs in one tile: as if there were many. */
@@ -249,11 +256,9 @@ static double gathered(const uint32_t *tiles, uint32_t count)
     return sqrt(fmax(1, count > 1 ? (double)EC_RARE_SHARES * pairs / count / (count - 1) : EC_RARE_SHARES));
 }
 
-static void add_kind(double radius, const ec_chains *paths, const patch *at, bool seen, ec_rare *rare)
+static void add_kind(const near_vertex *near, uint32_t count, const ec_chains *paths, const patch *at, bool seen, ec_rare *rare)
 {
-    near_vertex near[NEAREST];
     uint32_t tiles[EC_RARE_SHARES] = {0};
-    const uint32_t count = find_near(radius, paths, at, seen, near);
     double beta = 0;
     if (!count) return;
     const double chance = count * fmin(at->area / (PI * near[count - 1].square), 1) / paths->paths;
@@ -293,8 +298,11 @@ ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_ra
 
 void ec_rare_openings_judge(const ec_rare_openings *openings, const ec_rare_lights *all, const ec_chains *paths, ec_rare *rare)
 {
+    near_patch found[PATCHES];
+#pragma omp parallel for schedule(dynamic)
+    for (uint32_t i = 0; i < openings->count; i++) find_near((double)all->radius, paths, &openings->patches[i], &found[i]);
     for (uint32_t i = 0; i < openings->count; i++)
-        for (int seen = 0; seen < 2; seen++) add_kind((double)all->radius, paths, &openings->patches[i], seen, rare);
+        for (int seen = 0; seen < 2; seen++) add_kind(found[i].vertices[seen], found[i].count[seen], paths, &openings->patches[i], seen, rare);
 }
 
 void ec_rare_openings_free(ec_rare_openings *openings)
