@@ -157,7 +157,7 @@ class Clamp(Case):
         job = ["--spp", "200", "--adaptive", "--clamp", "1"]
         whole = self.render(*job)
         self.assertGreater(len(set(whole[2]["samples"])), 1)
-        self.assert_same(whole, self.render(*job, "--lanes", "1", "--wave", "999"))
+        self.assert_same(whole, self.render(*job, "--effects", "needed", "--lanes", "1", "--wave", "999"))
         uniform = self.render("--spp", "200", "--clamp", "1")[0]["clamp"]
         spread = math.hypot(uniform["missing_stderr"], whole[0]["clamp"]["missing_stderr"])
         self.assertLess(abs(whole[0]["clamp"]["missing"] - uniform["missing"]), 5 * spread)

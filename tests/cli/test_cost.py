@@ -44,11 +44,11 @@ class Denoiser(Case):
         oidn = denoiser.environment()
         scene = os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf")
         for budget in (12, 24, 48, 96):
-            run = self.assert_ok(eclat("cost", scene, *SMALL, "--budget", str(budget), "--json", self.path("c.json"), env=oidn))
+            run = self.assert_ok(eclat("cost", scene, "--size", "24x24", "--budget", str(budget), "--json", self.path("c.json"), env=oidn))
             with open(self.path("c.json"), encoding="utf-8") as file:
                 report = json.load(file)
             rung = rung_of(report, "denoise")
-            if rung["state"] == "measured" and len(rung["curve"]) > 4:
+            if rung["state"] == "measured" and len(rung["curve"]) > 2 and report["denoiser"]:
                 break
         self.assertGreater(rung["denoise_seconds"], 0)
         self.assertFalse(rung["biased"] or rung["light_not_met"])

@@ -4,10 +4,9 @@ import json
 import os
 import unittest
 
-from support import CORNELL, SOURCE, Case, eclat, read_exr
+from support import CORNELL, RING, Case, eclat, read_exr
 from tiers import full, long
 
-LAMPS = os.path.join(SOURCE, "scenes", "lamps", "lamps.gltf")
 SHORT = {"ECLAT_LAUNCH_SECONDS": "1e-6"}
 
 
@@ -68,7 +67,7 @@ class Launches(Case):
         size = "--size", "48x48", "--spp", "16"
         for more in (["--integrator", "whitted"], ["--integrator", "raster"], ["--light-paths", "1"], ["--guiding"], ["--denoise=atrous"]):
             with self.subTest(more=more):
-                self.assert_cut(*size, *more, scene=LAMPS, ECLAT_DEVICE_TYPE="gpu")
+                self.assert_cut(*size, *more, scene=RING, ECLAT_DEVICE_TYPE="gpu")
 
     @long
     def test_lanes_and_structures(self):

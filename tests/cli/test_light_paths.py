@@ -32,7 +32,11 @@ class LightPaths(OtherWay):
 
     @full
     def test_more_bits(self):
-        self.assert_same_bits(WIDER, [["--lanes", "8"], ["--accel", "kdtree"], ["--compile", "beside"], ["--effects", "all"]])
+        self.assert_same_bits(WIDER, [["--lanes", "8"], ["--accel", "kdtree"], ["--compile", "beside"]])
+
+    @long
+    def test_bits_with_all_effects(self):
+        self.assert_same_bits(WIDER, [["--effects", "all"]])
 
     def test_slices_and_resume(self):
         self.assert_slices_and_resume(JOB)

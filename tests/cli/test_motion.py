@@ -1,4 +1,4 @@
-# tiers: quick, full
+# tiers: quick, full, long
 """Motion blur, from end to end: closed forms, means of stills, the same bits everywhere, refusals.
 
 A picture of all moments of the shutter is the mean of stills. The stills stand at the middles of M equal parts; what that leaves out
@@ -11,7 +11,7 @@ import struct
 import unittest
 
 from support import NARROW, SHARED, Case, data_uri, eclat, read_exr, write_gltf
-from tiers import full
+from tiers import full, long
 
 STILLS = 8
 
@@ -203,14 +203,21 @@ class Motion(Case):
             with self.subTest(name):
                 self.assert_mean_of_stills(self.with_camera(path, half), opens, closes, by=4)
 
-    @full
-    def test_the_same_bits_in_every_structure_and_width(self):
+    def assert_same_bits(self, ways):
         scene = room().write(self.path("room.gltf"))
         common = ["--animation", "all", "--shutter", "0:1", "--size", "24x24", "--spp", "16", "--env", "0.3,0.3,0.3"]
         first = self.sha(scene, *common)
-        for accel, lanes in (("bvh2", "4"), ("bvh8", "16"), ("grid", "1"), ("kdtree", "1"), ("none", "8"), ("twolevel", "4")):
+        for accel, lanes in ways:
             more = ["--accel", accel, "--lanes", lanes, "--wave", "4096"]
             self.assertEqual(self.sha(scene, *common, *more), first, more)
+
+    @full
+    def test_the_same_bits_in_other_structures_and_widths(self):
+        self.assert_same_bits([("bvh8", "16"), ("kdtree", "1"), ("twolevel", "4")])
+
+    @long
+    def test_the_same_bits_in_every_structure(self):
+        self.assert_same_bits([("bvh2", "4"), ("grid", "1"), ("none", "8")])
 
     def test_an_instant_is_a_still(self):
         scene = room().write(self.path("room.gltf"))

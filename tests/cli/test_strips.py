@@ -94,8 +94,8 @@ class Strips(Case):
     @full
     def test_lanes_and_waves(self):
         options = ["--size", "128x600", "--spp", "4"]
-        self.render("whole", *options, "--lanes", "4", "--wave", "9999", scene=RING)
-        self.in_strips("strips", *options, "--lanes", "1", "--wave", "70000", scene=RING)
+        self.render("whole", *options, "--lanes", "4", "--wave", "9999")
+        self.in_strips("strips", *options, "--lanes", "1", "--wave", "70000")
         _, planes = read_exr(self.path("strips.exr"))
         _, other = read_exr(self.path("whole.exr"))
         self.assertTrue(planes == other)

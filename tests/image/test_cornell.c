@@ -1,11 +1,11 @@
-/* tier: full */
+/* tiers: full, long */
 /* The Cornell box against the Mitsuba 3.9 reference: 256 x 256, depth 8, 16 384 samples in 64 batches, with its
  * standard errors. Every direct-light strategy and both samplers converge to it. BSDF sampling meets the small lamp in one
  * path of fifty, so that 16 batches of a single dark pixel say little of its variance: its squares are of 8 x 8 pixels. */
 #include "support/render_case.h"
 
 typedef struct cornell_case {
-    const char *name;
+    const char *tier, *name;
     ec_sample sample;
     ec_sampler_type sampler;
     uint32_t spp, block; /* samples a pixel; pixels along a compared square */
@@ -38,18 +38,19 @@ int main(void)
     static const char reference_path[] = SHARED("reference/cornell-box/reference.exr");
     if (!case_present(scene_path) || !case_present(reference_path)) TEST_SKIP("no %s", reference_path);
     static const cornell_case cases[] = {
-        {"mis-sobol", EC_SAMPLE_MIS, EC_SAMPLER_SOBOL, 256, 1},
-        {"mis-independent", EC_SAMPLE_MIS, EC_SAMPLER_INDEPENDENT, 256, 1},
-        {"light-sobol", EC_SAMPLE_LIGHT, EC_SAMPLER_SOBOL, 256, 1},
-        {"light-independent", EC_SAMPLE_LIGHT, EC_SAMPLER_INDEPENDENT, 256, 1},
-        {"bsdf-sobol", EC_SAMPLE_BSDF, EC_SAMPLER_SOBOL, 512, 8},
-        {"bsdf-independent", EC_SAMPLE_BSDF, EC_SAMPLER_INDEPENDENT, 512, 8},
+        {"full", "mis-sobol", EC_SAMPLE_MIS, EC_SAMPLER_SOBOL, 256, 1},
+        {"long", "mis-independent", EC_SAMPLE_MIS, EC_SAMPLER_INDEPENDENT, 256, 1},
+        {"long", "light-sobol", EC_SAMPLE_LIGHT, EC_SAMPLER_SOBOL, 256, 1},
+        {"full", "light-independent", EC_SAMPLE_LIGHT, EC_SAMPLER_INDEPENDENT, 256, 1},
+        {"full", "bsdf-sobol", EC_SAMPLE_BSDF, EC_SAMPLER_SOBOL, 512, 8},
+        {"long", "bsdf-independent", EC_SAMPLE_BSDF, EC_SAMPLER_INDEPENDENT, 512, 8},
     };
     ec_error err = {0};
     ztest_picture reference = {0};
     CHECK_OK(ztest_load(reference_path, 63, &reference, &err), err);
     ec_scene *scene = case_load(scene_path, NULL);
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) compare(&cases[i], scene, &reference);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        if (test_tier(cases[i].tier)) compare(&cases[i], scene, &reference);
     ec_scene_free(scene);
     ztest_free(&reference);
     TEST_END();
