@@ -70,7 +70,7 @@ class Compile(Case):
         return len(glob.glob(os.path.join(self.cache, "pocl", "**", kernel + ".so"), recursive=True))
 
     def render(self, *options, eclat_is=None, scene=CORNELL, spp=8, **more):
-        environment = {"XDG_CACHE_HOME": self.cache, "POCL_CACHE_DIR": os.path.join(self.cache, "pocl"), "ECLAT_COMPILE": "beside", **more}
+        environment = {"XDG_CACHE_HOME": self.cache, "POCL_CACHE_DIR": os.path.join(self.cache, "pocl"), "ECLAT_COMPILE": "beside", "ECLAT_KERNELS": "", **more}
         arguments = ["render", scene, "--size", "48x48", "--spp", str(spp), "--json", "-o", self.path("a.exr"), *options]
         run = self.assert_ok(eclat(*arguments, env=environment, program=eclat_is))
         return json.loads(run.stdout), run.stderr

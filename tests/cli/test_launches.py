@@ -4,7 +4,7 @@ import json
 import os
 import unittest
 
-from support import CORNELL, RING, Case, eclat, read_exr
+from support import CORNELL, QUICK, RING, Case, eclat, read_exr
 from tiers import full, long
 
 SHORT = {"ECLAT_LAUNCH_SECONDS": "1e-6"}
@@ -26,7 +26,7 @@ class Launches(Case):
         self.assertEqual(cut["rays"], whole["rays"])
 
     def test_pieces_give_the_same_bits(self):
-        self.assert_cut("--size", "48x48", "--spp", "16", "--lanes", "1")
+        self.assert_cut("--size", "48x48", "--spp", "16", *QUICK)
 
     def test_a_processor_is_left_alone_and_a_card_is_not(self):
         size = "--size", "24x24", "--spp", "8"
@@ -35,14 +35,19 @@ class Launches(Case):
         self.assertEqual(launches["pieces"], launches["count"])  # there is little to do
         self.assertGreater(launches["longest_seconds"], 0)
 
-    def test_late_bounces_go_over_what_is_left(self):
+    def assert_late_bounces(self, lanes):
         """A card's launches have the parts of the queue as a second dimension, and go over as many entries of each as any still has."""
-        for lanes in ("1", "8"):
-            with self.subTest(lanes=lanes):
-                options = "--size", "64x64", "--spp", "64", "--lanes", lanes, "--rr", "1", "--max-depth", "20"
-                whole, _ = self.render("whole.exr", *options)
-                late, _ = self.render("late.exr", *options, ECLAT_DEVICE_TYPE="gpu")
-                self.assertEqual((late["image_sha256"], late["rays"]), (whole["image_sha256"], whole["rays"]))
+        options = "--size", "64x64", "--spp", "64", "--lanes", lanes, "--rr", "1", "--max-depth", "20"
+        whole, _ = self.render("whole.exr", *options)
+        late, _ = self.render("late.exr", *options, ECLAT_DEVICE_TYPE="gpu")
+        self.assertEqual((late["image_sha256"], late["rays"]), (whole["image_sha256"], whole["rays"]))
+
+    def test_late_bounces_go_over_what_is_left(self):
+        self.assert_late_bounces("1")
+
+    @full
+    def test_late_bounces_of_packets(self):
+        self.assert_late_bounces("8")
 
     def test_the_host_waits_once_in_eight_bounces(self):
         """Queues are counted on the device: three launches a bounce, and some before and after, for each time that the host asks."""

@@ -153,7 +153,7 @@ class Wheel(unittest.TestCase):
         self.assertTrue(os.access(os.path.join(self.package, "eclat-compile"), os.X_OK))
         cache = os.path.join(self.venv.folder, "cache")
         done = self.run_here(self.venv.program("eclat"), "render", CORNELL, "--size", "16x16", "--spp", "8", "--json", "-o", "a.exr", XDG_CACHE_HOME=cache,
-                             POCL_CACHE_DIR=os.path.join(cache, "pocl"), ECLAT_COMPILE="beside")
+                             POCL_CACHE_DIR=os.path.join(cache, "pocl"), ECLAT_COMPILE="beside", ECLAT_KERNELS="")
         self.assertEqual(done.returncode, 0, done.stderr)
         report = json.loads(done.stdout)
         if "Portable Computing Language" not in report["device"]["platform"]:
