@@ -256,8 +256,10 @@ static double gathered(const uint32_t *tiles, uint32_t count)
     return sqrt(fmax(1, count > 1 ? (double)EC_RARE_SHARES * pairs / count / (count - 1) : EC_RARE_SHARES));
 }
 
-static void add_kind(const near_vertex *near, uint32_t count, const ec_chains *paths, const patch *at, bool seen, ec_rare *rare)
+static void add_kind(const near_patch *found, bool seen, const ec_chains *paths, const patch *at, ec_rare *rare)
 {
+    const near_vertex *near = found->vertices[seen];
+    const uint32_t count = found->count[seen];
     uint32_t tiles[EC_RARE_SHARES] = {0};
     double beta = 0;
     if (!count) return;
@@ -299,10 +301,10 @@ ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_ra
 void ec_rare_openings_judge(const ec_rare_openings *openings, const ec_rare_lights *all, const ec_chains *paths, ec_rare *rare)
 {
     near_patch found[PATCHES];
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for if (openings->count > 1)
     for (uint32_t i = 0; i < openings->count; i++) find_near((double)all->radius, paths, &openings->patches[i], &found[i]);
     for (uint32_t i = 0; i < openings->count; i++)
-        for (int seen = 0; seen < 2; seen++) add_kind(found[i].vertices[seen], found[i].count[seen], paths, &openings->patches[i], seen, rare);
+        for (int seen = 0; seen < 2; seen++) add_kind(&found[i], seen, paths, &openings->patches[i], rare);
 }
 
 void ec_rare_openings_free(ec_rare_openings *openings)
