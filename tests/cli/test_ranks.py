@@ -41,6 +41,15 @@ def own_lines(run):
     return [line for line in run.stderr.splitlines() if "eclat: " in line]
 
 
+def has_ended(number):
+    """Gone, or not waited for: a launcher that waits for itself waits for no process."""
+    try:
+        with open(f"/proc/{number}/stat", encoding="utf-8") as file:
+            return file.read().rpartition(") ")[2].startswith("Z")
+    except OSError:
+        return True
+
+
 class Ranks(Case):
     @classmethod
     def setUpClass(cls):
@@ -203,8 +212,8 @@ class Ranks(Case):
 
     def outcome(self, process, ranks, lost):
         """What it printed. Open MPI's launcher may wait for itself in PMIx_server_finalize after MPI_Abort: it is ended once its ranks have."""
-        alive = [number for rank, number in ranks.items() if rank != lost]
-        poll_until(lambda: not any(os.path.exists(f"/proc/{number}") for number in alive), process)
+        others = [number for rank, number in ranks.items() if rank != lost]
+        poll_until(lambda: all(map(has_ended, others)), process)
         if os.path.exists(f"/proc/{ranks[lost]}"):  # it may only have been stopped
             os.kill(ranks[lost], signal.SIGKILL)
         try:
