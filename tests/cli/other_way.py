@@ -3,7 +3,7 @@ shared out."""
 import json
 import os
 
-from support import SOON, SOURCE, Case, eclat
+from support import NARROW, SOURCE, Case, eclat
 
 
 def scene(name):
@@ -14,7 +14,7 @@ class OtherWay(Case):
     WAY = []  # the options
 
     def render(self, *job, name="a.exr"):
-        run = self.assert_ok(eclat("render", *job, "--json", "-q", "-o", self.path(name), env=SOON))
+        run = self.assert_ok(eclat("render", *NARROW, *job, "--json", "-q", "-o", self.path(name)))
         return json.loads(run.stdout)
 
     def assert_same_picture(self, job, samples, fewer=1.0, extra=()):
@@ -38,7 +38,7 @@ class OtherWay(Case):
     def assert_slices_and_resume(self, job):
         whole = self.render(*job, "--spp", "32")["image_sha256"]
         for a, b in [(0, 16), (16, 32)]:
-            self.assert_ok(eclat("render", *job, "--spp", "32", "--samples", f"{a}:{b}", "-q", "-o", self.path(f"{a}.exr"), env=SOON))
+            self.assert_ok(eclat("render", *NARROW, *job, "--spp", "32", "--samples", f"{a}:{b}", "-q", "-o", self.path(f"{a}.exr")))
         merged = self.assert_ok(eclat("merge", self.path("0.exr"), self.path("16.exr"), "--json", "-o", self.path("m.exr")))
         self.assertEqual(json.loads(merged.stdout)["image_sha256"], whole)
         self.render(*job, "--spp", "16", "--checkpoint", self.path("c.exr"))

@@ -37,24 +37,32 @@ def study_that_measures(rung, budget, *arguments):
     return run.stdout, report
 
 
-@full
 class Denoiser(Case):
-    def test_rung_and_words(self):
-        """Where a denoiser is it has a rung of its own, whose bias fades, and the report says where it pays."""
+    def assert_rung_and_words(self, size, points):
+        """A budget that is enough for so many points of its curve."""
         oidn = denoiser.environment()
         scene = os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf")
         for budget in (12, 24, 48, 96):
-            run = self.assert_ok(eclat("cost", scene, "--size", "24x24", "--budget", str(budget), "--json", self.path("c.json"), env=oidn))
+            run = self.assert_ok(eclat("cost", scene, "--size", size, "--budget", str(budget), "--json", self.path("c.json"), env=oidn))
             with open(self.path("c.json"), encoding="utf-8") as file:
                 report = json.load(file)
             rung = rung_of(report, "denoise")
-            if rung["state"] == "measured" and len(rung["curve"]) > 2 and report["denoiser"]:
+            if rung["state"] == "measured" and len(rung["curve"]) >= points and report["denoiser"]:
                 break
         self.assertGreater(rung["denoise_seconds"], 0)
         self.assertFalse(rung["biased"] or rung["light_not_met"])
         self.assertRegex(report["denoiser"], "^(pays down to an error of|pays at every error|does not pay)")
         self.assertIn("denoiser " + report["denoiser"], " ".join(run.stdout.split()))
         self.assertRegex(run.stdout, r"best of both, --denoise .* fades")
+
+    @full
+    def test_rung_and_words(self):
+        """Where a denoiser is it has a rung of its own, whose bias fades, and the report says where it pays."""
+        self.assert_rung_and_words("24x24", 3)
+
+    @long
+    def test_rung_of_more_points(self):
+        self.assert_rung_and_words("32x32", 5)
 
 
 class NoDenoiser(Case):

@@ -7,7 +7,7 @@ import sys
 import unittest
 
 import pypi
-from support import CORNELL, FLOAT, SOON, Case, eclat, read_exr
+from support import CORNELL, FLOAT, NARROW, Case, eclat, read_exr
 from test_motion import GLOW, GREY, Builder
 from tiers import full
 
@@ -72,7 +72,7 @@ def two_quads():
 
 class Mattes(Case):
     def render(self, name, *options, scene, size="24x16", spp="16", env=None):
-        self.assert_ok(eclat("render", scene, "--size", size, "--spp", spp, "-q", *options, "-o", name, cwd=self.folder, env=env or SOON))
+        self.assert_ok(eclat("render", scene, *NARROW, "--size", size, "--spp", spp, "-q", *options, "-o", name, cwd=self.folder, env=env))
         return self.path(name)
 
     def test_names_and_hashes(self):

@@ -4,7 +4,7 @@ import json
 import os
 import unittest
 
-from support import CORNELL, QUICK, RING, Case, eclat, read_exr
+from support import CORNELL, QUICK, RING, SOURCE, Case, eclat, read_exr
 from tiers import full, long
 
 SHORT = {"ECLAT_LAUNCH_SECONDS": "1e-6"}
@@ -68,11 +68,22 @@ class Launches(Case):
         self.assertIn("ECLAT_LAUNCH_SECONDS=soon: must be the most seconds that a launch may take, or 0 for no limit", line)
 
     @full
-    def test_every_integrator(self):
+    def test_pieces_of_single_rays(self):
+        self.assert_cut("--size", "48x48", "--spp", "16", "--lanes", "1")
+
+    def assert_every_integrator(self, scene):
         size = "--size", "48x48", "--spp", "16"
         for more in (["--integrator", "whitted"], ["--integrator", "raster"], ["--light-paths", "1"], ["--guiding"], ["--denoise=atrous"]):
             with self.subTest(more=more):
-                self.assert_cut(*size, *more, scene=RING, ECLAT_DEVICE_TYPE="gpu")
+                self.assert_cut(*size, *more, scene=scene, ECLAT_DEVICE_TYPE="gpu")
+
+    @full
+    def test_every_integrator(self):
+        self.assert_every_integrator(RING)
+
+    @long
+    def test_every_integrator_with_many_effects(self):
+        self.assert_every_integrator(os.path.join(SOURCE, "scenes", "lamps", "lamps.gltf"))
 
     @long
     def test_lanes_and_structures(self):

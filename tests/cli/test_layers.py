@@ -6,7 +6,7 @@ import os
 import struct
 import unittest
 
-from support import CORNELL, FLOAT, HALF, SOON, SOURCE, Case, data_uri, eclat, quad_scene, read_exr, write_gltf
+from support import CORNELL, FLOAT, HALF, NARROW, SOURCE, Case, data_uri, eclat, quad_scene, read_exr, write_gltf
 from tiers import full
 
 LAMPS = os.path.join(SOURCE, "scenes", "six-lamps", "six-lamps.gltf")
@@ -34,7 +34,7 @@ def lit_quad(lamps, environment=False):
 
 class Layers(Case):
     def render(self, name, *options, scene=CORNELL, size="24x16", spp="16", env=None):
-        self.assert_ok(eclat("render", scene, "--size", size, "--spp", spp, "-q", *options, "-o", name, cwd=self.folder, env=env or SOON))
+        self.assert_ok(eclat("render", scene, *NARROW, "--size", size, "--spp", spp, "-q", *options, "-o", name, cwd=self.folder, env=env))
         attributes, planes = read_exr(self.path(name))
         return dict(attributes["channels"]), planes
 

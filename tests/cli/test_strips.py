@@ -1,4 +1,4 @@
-# tiers: quick, full
+# tiers: quick, full, long
 """Pictures larger than memory, in strips of rows: the bits of the whole, and what strips cannot do."""
 import json
 import os
@@ -6,7 +6,7 @@ import re
 import unittest
 
 from support import CORNELL, RING, SOURCE, Case, eclat, read_exr
-from tiers import full
+from tiers import full, long
 
 PINLAMP = os.path.join(SOURCE, "scenes", "pinlamp", "pinlamp.gltf")
 
@@ -91,14 +91,21 @@ class Strips(Case):
         self.in_strips("strips", *options, scene=RING)
         self.assert_same("whole", "strips")
 
-    @full
-    def test_lanes_and_waves(self):
+    def assert_lanes_and_waves(self, scene):
         options = ["--size", "128x600", "--spp", "4"]
-        self.render("whole", *options, "--lanes", "4", "--wave", "9999")
-        self.in_strips("strips", *options, "--lanes", "1", "--wave", "70000")
+        self.render("whole", *options, "--lanes", "4", "--wave", "9999", scene=scene)
+        self.in_strips("strips", *options, "--lanes", "1", "--wave", "70000", scene=scene)
         _, planes = read_exr(self.path("strips.exr"))
         _, other = read_exr(self.path("whole.exr"))
         self.assertTrue(planes == other)
+
+    @full
+    def test_lanes_and_waves(self):
+        self.assert_lanes_and_waves(CORNELL)
+
+    @long
+    def test_lanes_and_waves_with_a_caustic(self):
+        self.assert_lanes_and_waves(RING)
 
     def test_what_fits_is_rendered_whole(self):
         report = self.render("whole", "--size", "64x64", "--spp", "1", "--memory", "2G")

@@ -9,7 +9,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
 from hard_scene import Scene
-from support import SOON, Case, eclat, read_exr
+from support import NARROW, Case, eclat, read_exr
 from test_caustic_forms import ball
 from tiers import full, long
 
@@ -98,7 +98,7 @@ class VolumeScatter(Case):
 
     def render(self, path, *options):
         sky = [] if "--env" in options else ["--env", "1,1,1"]
-        run = self.assert_ok(eclat("render", path, *sky, "--json", "-q", "-o", self.path("a.exr"), *options, env=SOON))
+        run = self.assert_ok(eclat("render", path, *NARROW, *sky, "--json", "-q", "-o", self.path("a.exr"), *options))
         return json.loads(run.stdout)
 
     def assert_seen(self, path, expected, *options, accuracy=0):

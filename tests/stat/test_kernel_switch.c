@@ -56,7 +56,7 @@ static uint64_t effects_of(const char *const names[SCENES])
     return all;
 }
 
-/* Every so many of them. */
+/* Checks every step-th scene, from the first on. */
 static void check_scenes(const char *const names[SCENES], int first, int step, int moments, uint64_t *random)
 {
     const uint64_t all = effects_of(names);
