@@ -23,9 +23,17 @@ void ec_film_set_clean(ec_film *film, ec_film_clean clean)
     film->clean = clean;
 }
 
+static void free_room(ec_film_room *room)
+{
+    ec_sums_destroy(&room->sums);
+    free(room->aov);
+    free(room->aov_even);
+}
+
 void ec_film_destroy(ec_film *film)
 {
     ec_film_set_clean(film, (ec_film_clean){0});
+    free_room(&film->room);
     for (uint32_t i = 0; i < film->part_count; i++) ec_film_part_free(&film->parts[i]);
     free(film->parts);
     free(film->aov);
@@ -122,12 +130,19 @@ static double feature_samples(const ec_film *film, uint32_t r, uint32_t step)
     return (double)samples - (is_cut ? film->cut : 0);
 }
 
-static ec_result average(const ec_film *film, float **mean, const float *features, uint64_t pixels, double before, double own, ec_error *err)
+static bool make_features(const ec_film *film, float **mean)
+{
+    if (!*mean) *mean = calloc(pixels_of(film), EC_FILM_FEATURES * sizeof **mean);
+    return *mean != NULL;
+}
+
+/* Into *mean; zeros until then, which may be there already. */
+static ec_result average(const ec_film *film, float **mean, float **room, const float *features, uint64_t pixels, double before, double own, ec_error *err)
 {
     const uint64_t values = pixels * EC_FILM_FEATURES;
-    if (!*mean) *mean = calloc(pixels_of(film), EC_FILM_FEATURES * sizeof **mean);
+    if (!*mean && !make_features(film, room)) return ec_fail(err, "out of memory for the first-hit features");
+    if (!*mean) *mean = *room, *room = NULL;
     float *to = *mean;
-    if (!to) return ec_fail(err, "out of memory for the first-hit features");
 #pragma omp parallel for if (ec_film_is_many(pixels))
     for (uint64_t i = 0; i < values; i++) to[i] = before == 0 ? features[i] : (float)(to[i] + ((double)features[i] - to[i]) * (own / (own + before)));
     return EC_OK;
@@ -138,9 +153,32 @@ ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pi
     const ec_batch_range batch = ec_schedule_batch(film->replicates, film->aov_batches);
     const double own = batch.samples - cut;
     if (batch.replicate % 2 == 0 && (film->aov_batches ? film->aov_even != NULL : by_halves))
-        EC_TRY(average(film, &film->aov_even, features, pixels, feature_samples(film, 0, 2), own, err));
-    EC_TRY(average(film, &film->aov, features, pixels, feature_samples(film, 0, 1), own, err));
+        EC_TRY(average(film, &film->aov_even, &film->room.aov_even, features, pixels, feature_samples(film, 0, 2), own, err));
+    EC_TRY(average(film, &film->aov, &film->room.aov, features, pixels, feature_samples(film, 0, 1), own, err));
     film->aov_batches++;
+    return EC_OK;
+}
+
+/* Zeros, which are what is there. */
+static void touch(float *values, uint64_t from, uint64_t to)
+{
+    enum { PAGE = 1024 }; /* values; no page is smaller */
+#pragma omp parallel for
+    for (uint64_t page = from / PAGE; page < (to + PAGE - 1) / PAGE; page++) values[page * PAGE < from ? from : page * PAGE] = 0;
+}
+
+ec_result ec_film_make_room(ec_film *film, uint64_t from, uint64_t to, bool with_features, bool by_halves, ec_error *err)
+{
+    if (!ec_film_is_many(pixels_of(film)) || from >= to) return EC_OK;
+    ec_film_room *room = &film->room;
+    const uint64_t values = EC_FILM_FEATURES;
+    bool made = room->sums.mean || ec_sums_create(&room->sums, film->replicates, pixels_of(film));
+    if (made && with_features) made = make_features(film, &room->aov) && (!by_halves || make_features(film, &room->aov_even));
+    if (!made) return ec_fail(err, "out of memory for a film of %u x %u pixels; ask for a smaller one", film->width, film->height);
+    touch(room->sums.mean, 3 * from, 3 * to);
+    touch(room->sums.tail, 3 * from, 3 * to);
+    if (with_features) touch(room->aov, values * from, values * to);
+    if (with_features && by_halves) touch(room->aov_even, values * from, values * to);
     return EC_OK;
 }
 

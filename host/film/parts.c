@@ -177,6 +177,7 @@ static ec_result insert_batch(ec_film *film, ec_film_part *part, const float *ba
     uint64_t pixels = pixels_of(film), invalid = 0;
     bool made = true;
     if (ec_film_part_is_batch(part->first, 1)) made = (part->batch = kept(batch, pixels, &invalid)) != NULL;
+    else if (film->room.sums.mean) part->sums = film->room.sums, film->room.sums = (ec_sums){0};
     else made = ec_sums_create(&part->sums, film->replicates, pixels);
     if (!made)
         return ec_fail(err, "out of memory for a film of %u x %u pixels (%.1f MB); ask for a smaller one", film->width, film->height,

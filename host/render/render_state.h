@@ -44,6 +44,7 @@ typedef struct ec_render_state {
     ec_error look_error;
     double samples_before_it;  /* a pixel */
     uint64_t under_way;        /* samples of the batch that is not there yet */
+    uint32_t room_made;        /* pixels of the first batch that the film has room for */
     double kept_at;
     uint32_t kept_next, kept_under_way;
     float *aov;                /* first-hit features of a batch, until it is in the film */
