@@ -137,7 +137,8 @@ static bool make_features(const ec_film *film, float **mean)
 }
 
 /* Into *mean; zeros until then, which may be there already. */
-static ec_result average(const ec_film *film, float **mean, float **room, const float *features, uint64_t pixels, double before, double own, ec_error *err)
+static ec_result average(const ec_film *film, float **mean, float **room, const float *features, uint64_t pixels, double before, double own,
+                         ec_error *err)
 {
     const uint64_t values = pixels * EC_FILM_FEATURES;
     if (!*mean && !make_features(film, room)) return ec_fail(err, "out of memory for the first-hit features");
@@ -159,27 +160,24 @@ ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pi
     return EC_OK;
 }
 
-/* Zeros, which are what is there. */
+/* Zeros, which are what is there. NULL: there is no memory, as is said when it is needed. */
 static void touch(float *values, uint64_t from, uint64_t to)
 {
     enum { PAGE = 1024 }; /* values; no page is smaller */
+    if (!values) return;
 #pragma omp parallel for
     for (uint64_t page = from / PAGE; page < (to + PAGE - 1) / PAGE; page++) values[page * PAGE < from ? from : page * PAGE] = 0;
 }
 
-ec_result ec_film_make_room(ec_film *film, uint64_t from, uint64_t to, bool with_features, bool by_halves, ec_error *err)
+void ec_film_make_room(ec_film *film, uint64_t from, uint64_t to, bool with_features, bool by_halves)
 {
-    if (!ec_film_is_many(pixels_of(film)) || from >= to) return EC_OK;
-    ec_film_room *room = &film->room;
     const uint64_t values = EC_FILM_FEATURES;
-    bool made = room->sums.mean || ec_sums_create(&room->sums, film->replicates, pixels_of(film));
-    if (made && with_features) made = make_features(film, &room->aov) && (!by_halves || make_features(film, &room->aov_even));
-    if (!made) return ec_fail(err, "out of memory for a film of %u x %u pixels; ask for a smaller one", film->width, film->height);
+    ec_film_room *room = &film->room;
+    if (!room->sums.mean) ec_sums_create(&room->sums, film->replicates, pixels_of(film));
     touch(room->sums.mean, 3 * from, 3 * to);
     touch(room->sums.tail, 3 * from, 3 * to);
-    if (with_features) touch(room->aov, values * from, values * to);
-    if (with_features && by_halves) touch(room->aov_even, values * from, values * to);
-    return EC_OK;
+    if (with_features && make_features(film, &room->aov)) touch(room->aov, values * from, values * to);
+    if (with_features && by_halves && make_features(film, &room->aov_even)) touch(room->aov_even, values * from, values * to);
 }
 
 /* With n samples in all, of them e in even replicates, the sum of the odd ones is n all - e even. */

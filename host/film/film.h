@@ -52,7 +52,7 @@ typedef struct ec_film {
     uint32_t aov_batches;
     /* Set only where the render was stopped within its first batch: 1 for pixels that have no sample. malloc'ed. */
     uint8_t *unsampled;
-    ec_film_room room;            /* owned; NULL where nothing waits for a first batch */
+    ec_film_room room;            /* owned; NULL where none was made, or the batch has it */
     ec_film_part *parts;          /* by `first`, no two with batches in common; a single one where pixels have counts. Owned */
     uint32_t part_count;
     ec_film_clean clean;          /* owned; of the samples that there were when it was made */
@@ -93,8 +93,8 @@ ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pi
 void ec_film_features_of(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, float *out);
 
 /* Takes memory for pixels [from, to) of the first batch, and of its features, before it is added, and writes to each page: memory that is new is most
- * of what that takes, and a stop within the batch would wait for it (2.2 of 2.5 s at 8192x4096). Nothing for small pictures. */
-ec_result ec_film_make_room(ec_film *film, uint64_t from, uint64_t to, bool with_features, bool by_halves, ec_error *err);
+ * of what adding takes, and a stop within the batch would wait for it (2.2 of 2.5 s at 8192x4096). Where there is none, adding says so. */
+void ec_film_make_room(ec_film *film, uint64_t from, uint64_t to, bool with_features, bool by_halves);
 
 /* The first batch of a picture that was stopped within it: the first `pixels` of it may have a sample. */
 ec_result ec_film_add_begun(ec_film *film, const float *batch, uint64_t pixels, ec_error *err);

@@ -38,14 +38,14 @@ static ec_result foretell(ec_render_state *r, ec_error *err)
     return ec_film_set_rare(r->film, &r->rare, err);
 }
 
-/* As the first batch goes, its place in the film is made: in large steps, since the threads that do it spin for a while after each. */
-static ec_result make_room(ec_render_state *r, uint32_t done)
+/* As the first batch of a large picture goes, its place in the film is made: in large steps, since the threads that do it spin for a while after each. */
+static void make_room(ec_render_state *r, uint32_t done)
 {
     enum { STEP = 1 << 20 };
     const uint32_t from = r->room_made;
-    if (r->past.next > 0 || r->source->batches != 1 || done < from + STEP) return EC_OK;
+    if (r->past.next > 0 || r->source->batches != 1 || done < from + STEP) return;
     r->room_made = done;
-    return ec_film_make_room(r->film, from, done, ec_render_wants_features(r), r->options->denoise, &r->look_error);
+    ec_film_make_room(r->film, from, done, ec_render_wants_features(r), r->options->denoise);
 }
 
 /* Between waves: goes on unless a limit or the caller ends the batch early. */
@@ -54,8 +54,9 @@ static bool goes_on(void *user, uint32_t done)
     ec_render_state *r = user;
     r->under_way = done * ec_render_order_samples(r);
     if (done > r->order.done && r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
-    r->look_failed = foretell(r, &r->look_error) != EC_OK || make_room(r, done) != EC_OK;
+    r->look_failed = foretell(r, &r->look_error) != EC_OK;
     if (r->look_failed) return false;
+    make_room(r, done);
     if (done >= r->order.count) return true;
     bool is_due = r->course->keep && r->source->batches == 1 && ec_now() - r->kept_at >= r->course->every;
     r->look_failed = is_due && r->source->look(r->source, &r->order, &r->look_error) != EC_OK;

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Limits of time are kept: `eclat render --time` and `eclat cost --budget`, by the clock. Run it with kernels that are compiled."""
+"""Limits of time are kept: `eclat render --time`, Ctrl-C and `eclat cost --budget`, by the clock. Run it with kernels that are compiled."""
 import argparse
 import json
 import os
+import signal
 import subprocess
 import tempfile
+import time
 
 import bench_common as common
 
@@ -27,6 +29,18 @@ def larger_seconds(eclat, folder):
     return render_seconds(eclat, folder, "8192x4096")
 
 
+def interrupted_seconds(eclat, folder):
+    command = [eclat, "render", common.cornell_box(), "--size", "8192x4096", "-o", os.path.join(folder, "a.png"), "--json", "--quiet"]
+    listen = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # what is started in the background ignores it
+    render = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, preexec_fn=listen)
+    time.sleep(TIME)
+    render.send_signal(signal.SIGINT)
+    report = json.loads(render.communicate()[0])
+    if report["stopped_by"] != "user":
+        common.fail(f"the render was stopped by {report['stopped_by']}, not by Ctrl-C")
+    return report["seconds"]
+
+
 def study_seconds(eclat, folder):
     path = os.path.join(folder, "study.json")
     subprocess.run([eclat, "cost", common.cornell_box(), "--size", "32x32", "--budget", str(BUDGET), "--json", path], check=True, capture_output=True)
@@ -43,7 +57,8 @@ def main():
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for name, measure, limit in (("render --time", render_seconds, TIME), ("render --size 4096x4096 --time", large_seconds, TIME),
-                                     ("render --size 8192x4096 --time", larger_seconds, TIME), ("cost --budget", study_seconds, BUDGET)):
+                                     ("render --size 8192x4096 --time", larger_seconds, TIME),
+                                     ("render --size 8192x4096, Ctrl-C after", interrupted_seconds, TIME), ("cost --budget", study_seconds, BUDGET)):
             if measure in (render_seconds, study_seconds):
                 measure(eclat, folder)  # compiles
             took = measure(eclat, folder)
