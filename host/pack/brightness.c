@@ -19,7 +19,18 @@ static uint32_t wrapped(int64_t i, uint32_t size, ec_wrap wrap)
     return (uint32_t)(i < 0 ? 0 : i > last ? last : i);
 }
 
-static float texel_at(const ec_brightness *b, uint32_t x, uint32_t y) { return b->texels[(size_t)y * b->width + x]; }
+/* Luminance of the material's radiance. */
+static float texel_at(const ec_brightness *b, uint32_t x, uint32_t y)
+{
+    const size_t i = (size_t)y * b->width + x;
+    double rgb[3];
+    if (b->image->rgba8) {
+        const uint8_t *p = b->image->rgba8 + 4 * i;
+        return (float)(b->bytes[p[0]] + b->bytes[256 + p[1]] + b->bytes[512 + p[2]]);
+    }
+    for (int k = 0; k < 3; k++) rgb[k] = b->emission[k] * ec_texel_linear(b->image, NULL, i, k);
+    return (float)ec_luminance(rgb);
+}
 
 /* Right of and below a texel's middle: of a bilinear function by its values at four corners. */
 static ec_bright between(double p, double q, double r, double s)
@@ -36,10 +47,10 @@ static ec_bright patch(const ec_brightness *b, uint32_t x, uint32_t y)
     return between(p, texel_at(b, right, y), texel_at(b, x, below), texel_at(b, right, below));
 }
 
-/* So many from x on; only those at the end of a row look for their neighbours across the seam. */
-static void patches(const ec_brightness *b, uint32_t x, uint32_t y, uint32_t count, ec_bright *out)
+/* So many from x on; only those at the end of a row look for their neighbours across the seam. above, below: texels from x on, one more than patches
+ * where there is one. */
+static void patches(const ec_brightness *b, uint32_t x, uint32_t y, uint32_t count, const float *above, const float *below, ec_bright *out)
 {
-    const float *above = b->texels + (size_t)y * b->width + x, *below = b->texels + (size_t)wrapped((int64_t)y + 1, b->height, b->wrap[1]) * b->width + x;
     const uint32_t inside = b->nearest ? 0 : x + count < b->width ? count : count - 1;
     for (uint32_t i = 0; i < inside; i++) out[i] = between(above[i], above[i + 1], below[i], below[i + 1]);
     for (uint32_t i = inside; i < count; i++) out[i] = patch(b, x + i, y);
@@ -72,27 +83,19 @@ static void join(const ec_bright *above, const ec_bright *below, uint32_t count,
 static void join_patches(const ec_brightness *b, uint32_t y, ec_bright *out)
 {
     enum { SOME = 256 };
+    float texels[3][SOME + 1];
     ec_bright rows[2][SOME];
     const bool has_below = 2 * y + 1 < b->height;
     for (uint32_t x = 0; x < b->width; x += SOME) {
         const uint32_t count = b->width - x < SOME ? b->width - x : SOME;
-        patches(b, x, 2 * y, count, rows[0]);
-        if (has_below) patches(b, x, 2 * y + 1, count, rows[1]);
+        for (uint32_t r = 0; r < 2u + has_below; r++) {
+            const uint32_t row = wrapped(2 * (int64_t)y + r, b->height, b->wrap[1]);
+            for (uint32_t i = 0; i <= count && x + i < b->width; i++) texels[r][i] = texel_at(b, x + i, row);
+        }
+        patches(b, x, 2 * y, count, texels[0], texels[1], rows[0]);
+        if (has_below) patches(b, x, 2 * y + 1, count, texels[1], texels[2], rows[1]);
         join(rows[0], has_below ? rows[1] : NULL, count, out + x / 2);
     }
-}
-
-static void fill_texels(const ec_scene *scene, const ec_material *m, ec_brightness *b)
-{
-    const ec_image *image = &scene->images[scene->textures[m->textures[EC_SLOT_EMISSION].texture].image];
-    const double *bytes = ec_srgb_bytes();
-#pragma omp parallel for
-    for (uint32_t y = 0; y < b->height; y++)
-        for (size_t i = (size_t)y * b->width; i < (y + (size_t)1) * b->width; i++) {
-            double rgb[3];
-            for (int k = 0; k < 3; k++) rgb[k] = m->emission[k] * ec_texel_linear(image, bytes, i, k);
-            b->texels[i] = (float)ec_luminance(rgb);
-        }
 }
 
 static ec_result add_level(ec_brightness *b, uint32_t level, ec_error *err)
@@ -119,9 +122,17 @@ ec_result ec_brightness_make(const ec_scene *scene, const ec_material *m, ec_bri
     const ec_texture *texture = &scene->textures[m->textures[EC_SLOT_EMISSION].texture];
     const ec_image *image = &scene->images[texture->image];
     *b = (ec_brightness){.width = image->width, .height = image->height, .wrap = {texture->wrap_s, texture->wrap_t}, .nearest = texture->nearest};
-    b->texels = malloc((size_t)b->width * b->height * sizeof *b->texels);
-    if (!b->texels) return ec_fail(err, "out of memory for the brightness of a texture of %u x %u", b->width, b->height);
-    fill_texels(scene, m, b);
+    b->image = image;
+    b->bytes = malloc(3 * 256 * sizeof *b->bytes);
+    if (!b->bytes) return ec_fail(err, "out of memory for the brightness of a texture of %u x %u", b->width, b->height);
+    for (int k = 0; k < 3; k++) {
+        double rgb[3] = {0};
+        b->emission[k] = m->emission[k];
+        for (int byte = 0; byte < 256; byte++) {
+            rgb[k] = m->emission[k] * ec_srgb_bytes()[byte];
+            b->bytes[256 * k + byte] = ec_luminance(rgb);
+        }
+    }
     b->columns[0] = b->width, b->rows[0] = b->height;
     for (uint32_t level = 1; b->columns[level - 1] > 1 || b->rows[level - 1] > 1; level++) EC_TRY(add_level(b, level, err));
     return EC_OK;
@@ -129,7 +140,7 @@ ec_result ec_brightness_make(const ec_scene *scene, const ec_material *m, ec_bri
 
 void ec_brightness_free(ec_brightness *b)
 {
-    free(b->texels);
+    free(b->bytes);
     for (int level = 0; level < EC_BRIGHT_LEVELS; level++) free(b->levels[level]);
     *b = (ec_brightness){0};
 }

@@ -16,7 +16,9 @@ typedef struct ec_brightness {
     uint32_t width, height;
     ec_wrap wrap[2];
     bool nearest;
-    float *texels;                             /* luminance of the material's radiance; owned */
+    const ec_image *image;                     /* borrowed */
+    double emission[3];                        /* of the material */
+    double *bytes;                             /* [3][256]: luminance of the material's radiance that a byte of each channel brings; owned */
     ec_bright *levels[EC_BRIGHT_LEVELS];       /* from 1 on: squares of 2^level patches, a patch lies between four texels' middles; owned */
     uint32_t columns[EC_BRIGHT_LEVELS], rows[EC_BRIGHT_LEVELS];
 } ec_brightness;

@@ -21,7 +21,7 @@ typedef struct part {
 typedef struct cutter {
     const ec_scene *scene;
     const ec_light_data *lights;
-    const ec_brightness *of_material; /* without texels: of none */
+    const ec_brightness *of_material; /* without an image: of none */
     part *parts;
     uint32_t count, lamps;            /* lamps come first */
     uint32_t *heap, waiting;          /* the least even one at 0 */
@@ -219,7 +219,7 @@ static ec_result look_at_textures(const ec_scene *scene, const ec_light_data *li
 {
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t m = is_textured(&lights[i]) ? scene->triangle_material[lights[i].prim] : 0;
-        if (is_textured(&lights[i]) && !of_material[m].texels) EC_TRY(ec_brightness_make(scene, &scene->materials[m], &of_material[m], err));
+        if (is_textured(&lights[i]) && !of_material[m].image) EC_TRY(ec_brightness_make(scene, &scene->materials[m], &of_material[m], err));
     }
     return EC_OK;
 }

@@ -30,13 +30,21 @@ static double whole(double u)
     return cut > u ? cut - 1.0 : cut;
 }
 
-static uint32_t wrap(double u, uint32_t size, ec_wrap mode)
+static uint32_t wrap_far(double u, uint32_t size, ec_wrap mode)
 {
     if (!isfinite(u)) return 0;
     double folded = u - whole(u);
     if (mode == EC_WRAP_CLAMP) folded = fmin(fmax(u, 0.0), 1.0);
     if (mode == EC_WRAP_MIRROR) folded = 1.0 - fabs(2.0 * (0.5 * u - whole(0.5 * u)) - 1.0);
     uint32_t i = (uint32_t)(folded * size);
+    return i < size ? i : size - 1;
+}
+
+/* Most points lie within the picture, where neither repeating nor clamping changes anything. */
+static inline uint32_t wrap(double u, uint32_t size, ec_wrap mode)
+{
+    if (!(u >= 0.0 && u < 1.0) || mode == EC_WRAP_MIRROR) return wrap_far(u, size, mode);
+    const uint32_t i = (uint32_t)(int64_t)(u * size);
     return i < size ? i : size - 1;
 }
 

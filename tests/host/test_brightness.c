@@ -51,29 +51,42 @@ static means square(const ec_image *image, const ec_texture *t, const float emis
     return (means){sum.mean / count, sum.square / count};
 }
 
-static void check(uint32_t width, uint32_t height, ec_wrap wrap, bool nearest)
+/* Those of a level that are not what the definition says. */
+static uint32_t wrong_squares(const ec_image *image, const ec_texture *t, const float emission[3], const ec_brightness *b, uint32_t level)
 {
-    ec_image image = {.width = width, .height = height, .rgba8 = malloc(4 * (size_t)width * height)};
+    uint32_t wrong = 0;
+    for (uint32_t y = 0; y < b->rows[level]; y++)
+        for (uint32_t x = 0; x < b->columns[level]; x++) {
+            const means m = square(image, t, emission, b, level, x, y);
+            const ec_bright one = b->levels[level][(size_t)y * b->columns[level] + x];
+            wrong += fabs((double)one.mean - m.mean) > 1e-5 * m.mean || fabs((double)one.square - m.square) > 1e-5 * m.square;
+        }
+    return wrong;
+}
+
+/* has_16_bits: of the same values. */
+static void check(uint32_t width, uint32_t height, ec_wrap wrap, bool nearest, bool has_16_bits)
+{
+    const size_t count = 4 * (size_t)width * height;
+    const ec_image image = {.width = width, .height = height, .rgba8 = malloc(count)};
+    ec_image stored = image;
     ec_texture texture = {.image = 0, .wrap_s = wrap, .wrap_t = wrap, .nearest = nearest};
     ec_material material = {.emission = {2, 1, 0.5f}};
     material.textures[EC_SLOT_EMISSION].texture = 0;
-    const ec_scene scene = {.images = &image, .image_count = 1, .textures = &texture, .texture_count = 1};
+    const ec_scene scene = {.images = &stored, .image_count = 1, .textures = &texture, .texture_count = 1};
     ec_brightness b;
     ec_error err;
-    uint32_t wrong = 0, level = 0, state = 7;
-    for (size_t i = 0; i < 4 * (size_t)width * height; i++) image.rgba8[i] = (uint8_t)((state = state * 1664525 + 1013904223) >> 24);
-    CHECK_OK(ec_brightness_make(&scene, &material, &b, &err), err);
-    while (b.columns[level] > 1 || b.rows[level] > 1) {
-        level++;
-        for (uint32_t y = 0; y < b.rows[level]; y++)
-            for (uint32_t x = 0; x < b.columns[level]; x++) {
-                const means m = square(&image, &texture, material.emission, &b, level, x, y);
-                const ec_bright one = b.levels[level][(size_t)y * b.columns[level] + x];
-                wrong += fabs((double)one.mean - m.mean) > 1e-5 * m.mean || fabs((double)one.square - m.square) > 1e-5 * m.square;
-            }
+    uint32_t wrong = 0, state = 7;
+    for (size_t i = 0; i < count; i++) image.rgba8[i] = (uint8_t)((state = state * 1664525 + 1013904223) >> 24);
+    if (has_16_bits) {
+        stored.rgba16 = malloc(2 * count), stored.rgba8 = NULL;
+        for (size_t i = 0; i < count; i++) stored.rgba16[i] = (uint16_t)(257 * image.rgba8[i]);
     }
-    CHECK_MSG(!wrong, "%u x %u, wrap %d, nearest %d: %u squares are wrong", width, height, (int)wrap, nearest, wrong);
+    CHECK_OK(ec_brightness_make(&scene, &material, &b, &err), err);
+    for (uint32_t level = 0; b.columns[level] > 1 || b.rows[level] > 1;) level++, wrong += wrong_squares(&image, &texture, material.emission, &b, level);
+    CHECK_MSG(!wrong, "%u x %u, wrap %d, nearest %d, of 16 bits %d: %u squares are wrong", width, height, (int)wrap, nearest, has_16_bits, wrong);
     ec_brightness_free(&b);
+    free(stored.rgba16);
     free(image.rgba8);
 }
 
@@ -82,6 +95,6 @@ int main(void)
     static const uint32_t sizes[][2] = {{1, 1}, {1, 7}, {7, 1}, {5, 3}, {256, 2}, {257, 3}, {512, 5}, {515, 33}};
     static const ec_wrap wraps[] = {EC_WRAP_REPEAT, EC_WRAP_CLAMP, EC_WRAP_MIRROR};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        for (int k = 0; k < 6; k++) check(sizes[i][0], sizes[i][1], wraps[k / 2], k % 2);
+        for (int k = 0; k < 12; k++) check(sizes[i][0], sizes[i][1], wraps[k / 4], k / 2 % 2, k % 2);
     TEST_END();
 }
