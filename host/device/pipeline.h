@@ -35,6 +35,7 @@ typedef struct ec_pipeline {
     uint32_t waves_until_fast;    /* 0: until the compiler is done; UINT32_MAX: never */
     uint32_t narrow_waves;        /* those that were not rendered by all of the fast kernels */
     ec_begun begun;
+    bool keeps_kernels;           /* they do not change as elsewhere, since the device does not say that it rounds as others do */
     double fast_since;            /* base/clock.h; 0: from the beginning, or not yet */
     ec_compiler compiler;
     ec_help *help;                /* with what it compiles; NULL: none is wanted */

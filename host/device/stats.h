@@ -24,6 +24,7 @@ typedef struct ec_render_stats {
     double cpu_seconds;           /* processor time of this process meanwhile and in looks at the scene before, all threads; on a CPU device the kernels' too */
     double accel_seconds, pack_seconds, kernel_seconds, guide_seconds; /* set-up: BVH, buffers, kernel build or cache look-up, --guiding */
     ec_begun begun;               /* of the only device: the kernels that it began with */
+    bool keeps_kernels;           /* the only device's never change, since it does not say that it rounds as others do */
     double fast_after_seconds;    /* from ec_render's start until the fast ones took over; 0: never, or from the beginning */
     double first_pixel_seconds;   /* from ec_render's start to the first finished wave */
     uint64_t samples_per_pixel, samples, rays; /* samples: in the film; rays: those of a batch that was given up too */

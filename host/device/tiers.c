@@ -35,11 +35,14 @@ static ec_compile when_to_compile(ec_compile compile)
 }
 
 /* Who asks for a width gets it. To change kernels later pays where the driver compiles late, and takes bits that are known not to depend on it. */
-static bool may_begin_narrow(const ec_pipeline *p, const ec_cargo_head *head)
+static bool may_begin_narrow(ec_pipeline *p, const ec_cargo_head *head)
 {
     const ec_compile when = when_to_compile(head->compile);
-    return !head->fast_math && !head->lanes && p->lanes > 1 && ec_pipeline_narrow_wave(p, p->effects.built) &&
-           (when == EC_COMPILE_NARROW || (when != EC_COMPILE_FIRST && ec_compiles_late(&p->cl->info) && ec_device_rounds(&p->cl->info)));
+    if (head->fast_math || head->lanes || p->lanes <= 1 || !ec_pipeline_narrow_wave(p, p->effects.built)) return false;
+    if (when == EC_COMPILE_NARROW) return true;
+    if (when == EC_COMPILE_FIRST || !ec_compiles_late(&p->cl->info)) return false;
+    p->keeps_kernels = !ec_device_rounds(&p->cl->info);
+    return !p->keeps_kernels;
 }
 
 /* Not ray trees: they would need a stack of branches for glass that the scene may not have. */

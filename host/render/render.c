@@ -215,6 +215,7 @@ static void tell_kernels(ec_render_state *r)
     const ec_pipeline *alone = ec_sources_alone(&r->sources);
     if (!alone) return;
     r->stats->begun = alone->begun;
+    r->stats->keeps_kernels = alone->keeps_kernels;
     if (alone->fast_since > 0) r->stats->fast_after_seconds = alone->fast_since - r->start;
 }
 

@@ -102,6 +102,8 @@ static void print_setup(const ec_render_stats *stats, FILE *to)
     fprintf(to, "set-up   %s%skernels %s%s, acceleration structure %s, buffers %s%s; first pixel after %s%s\n",
             stats->begun == EC_BEGUN_FAST ? "" : ec_begun_names[stats->begun], stats->begun == EC_BEGUN_FAST ? "" : " ", ec_seconds(stats->kernel_seconds).text,
             counted, ec_seconds(stats->accel_seconds).text, ec_seconds(stats->pack_seconds).text, guide, ec_seconds(stats->first_pixel_seconds).text, then);
+    if (stats->keeps_kernels)
+        fprintf(to, "         the device does not say that it rounds division and square root correctly: the render waits for its fast kernels and keeps them\n");
 }
 
 /* Only where launches are bounded. */

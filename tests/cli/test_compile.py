@@ -113,6 +113,22 @@ class Compile(Case):
         self.assertGreater(report["fast_kernels_after_seconds"], 0)
         self.assertEqual(report["image_sha256"], self.render("--compile", "first", spp=12000)[0]["image_sha256"])
 
+    def test_kernels_stay_where_the_device_may_round_otherwise(self):
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        self.skip_unless_late(self.render()[0])
+        line = "the device does not say that it rounds division and square root correctly"
+        for rounds, options, begins in ((0, (), "fast"), (0, ("--compile", "narrow"), "narrow"), (0, ("--lanes", "4"), "fast"), (1, (), "narrow")):
+            with self.subTest(rounds=rounds, options=options):
+                self.end_children()
+                shutil.rmtree(self.cache)
+                os.mkdir(self.cache)
+                environment = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_ROUNDS": str(rounds)}
+                self.assertEqual(self.render(*options, **environment)[0]["first_kernels"], begins)
+                told = self.assert_ok(eclat("render", CORNELL, "--size", "48x48", "--spp", "8", "-v", "-o", self.path("a.exr"), *options,
+                                            env={"XDG_CACHE_HOME": self.cache, "POCL_CACHE_DIR": os.path.join(self.cache, "pocl"), "ECLAT_COMPILE": "beside", **environment}))
+                self.assertEqual(line in told.stdout, not rounds and not options)
+
     def end_idle(self):
         with open(self.path("idle"), encoding="ascii") as file:
             for process in file.read().split():

@@ -10,6 +10,7 @@
  *   FAULT_STATUS=-5             of clGetEventInfo: the call succeeds, and tells that the command did not
  *   FAULT_MEMORY=BYTES          of all buffers; above it FAULT_CALL fails every time (creation, or the first use)
  *   FAULT_GROUP=N               a work-group holds no more work-items of any kernel
+ *   FAULT_ROUNDS=0              the device does not say that it rounds division and square root correctly
  *   FAULT_LOG=TEXT              what the compiler says
  *   FAULT_PLATFORM=TEXT         the platform's version; one without PoCL's name gets eclat's own kernel cache
  *   FAULT_FOLDER=PATH           calls on files count below it only
@@ -139,7 +140,6 @@ static cl_int device_fault(enum call call)
     }
 ANSWERS(clGetPlatformIDs, (cl_uint n, cl_platform_id *p, cl_uint *found), (n, p, found))
 ANSWERS(clGetDeviceIDs, (cl_platform_id p, cl_device_type t, cl_uint n, cl_device_id *d, cl_uint *found), (p, t, n, d, found))
-ANSWERS(clGetDeviceInfo, (cl_device_id d, cl_device_info i, size_t n, void *v, size_t *r), (d, i, n, v, r))
 ANSWERS(clBuildProgram, (cl_program p, cl_uint n, const cl_device_id *d, const char *o, void(CL_CALLBACK *f)(cl_program, void *), void *u), (p, n, d, o, f, u))
 ANSWERS(clGetProgramInfo, (cl_program p, cl_program_info i, size_t n, void *v, size_t *r), (p, i, n, v, r))
 ANSWERS(clSetKernelArg, (cl_kernel k, cl_uint i, size_t n, const void *v), (k, i, n, v))
@@ -232,6 +232,15 @@ cl_int clGetKernelWorkGroupInfo(cl_kernel k, cl_device_id d, cl_kernel_work_grou
     const size_t most = (size_t)number("FAULT_GROUP", 0);
     cl_int code = REAL(clGetKernelWorkGroupInfo)(k, d, what, size, value, length);
     if (!code && most && what == CL_KERNEL_WORK_GROUP_SIZE && value) *(size_t *)value = most;
+    return code;
+}
+
+cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, void *value, size_t *length)
+{
+    cl_int code = device_fault(CALL_clGetDeviceInfo);
+    if (!code) code = REAL(clGetDeviceInfo)(device, what, size, value, length);
+    if (!code && value && what == CL_DEVICE_SINGLE_FP_CONFIG && !number("FAULT_ROUNDS", 1))
+        *(cl_device_fp_config *)value &= ~(cl_device_fp_config)CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
     return code;
 }
 
