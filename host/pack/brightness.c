@@ -2,10 +2,9 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/luminance.h"
-#include "pack/texture_mean.h"
+#include "image/srgb.h"
 
 #define SIDE 4.0 /* squares that a triangle reaches across, about, where it is large */
 #define SMALL 1.0 /* texels: under that it is looked at point by point */
@@ -22,14 +21,12 @@ static uint32_t wrapped(int64_t i, uint32_t size, ec_wrap wrap)
 /* Luminance of the material's radiance. */
 static float texel_at(const ec_brightness *b, uint32_t x, uint32_t y)
 {
-    const size_t i = (size_t)y * b->width + x;
-    double rgb[3];
-    if (b->image->rgba8) {
-        const uint8_t *p = b->image->rgba8 + 4 * i;
-        return (float)(b->bytes[p[0]] + b->bytes[256 + p[1]] + b->bytes[512 + p[2]]);
-    }
-    for (int k = 0; k < 3; k++) rgb[k] = b->emission[k] * ec_texel_linear(b->image, NULL, i, k);
-    return (float)ec_luminance(rgb);
+    const size_t i = 4 * ((size_t)y * b->width + x);
+    const uint8_t *bytes = b->image->rgba8 ? b->image->rgba8 + i : NULL;
+    const uint16_t *words = bytes ? NULL : b->image->rgba16 + i;
+    double luminance = 0;
+    for (int k = 0; k < 3; k++) luminance += b->shares[k * b->stored + (bytes ? bytes[k] : words[k])];
+    return (float)luminance;
 }
 
 /* Right of and below a texel's middle: of a bilinear function by its values at four corners. */
@@ -39,21 +36,15 @@ static ec_bright between(double p, double q, double r, double s)
     return (ec_bright){(float)((p + q + r + s) / 4), (float)((squares + edges + diagonals / 2) / 9)};
 }
 
+static ec_bright patch_of(const ec_brightness *b, float p, float q, float r, float s)
+{
+    return b->nearest ? (ec_bright){p, (float)((double)p * (double)p)} : between((double)p, (double)q, (double)r, (double)s);
+}
+
 static ec_bright patch(const ec_brightness *b, uint32_t x, uint32_t y)
 {
     const uint32_t right = wrapped((int64_t)x + 1, b->width, b->wrap[0]), below = wrapped((int64_t)y + 1, b->height, b->wrap[1]);
-    const double p = texel_at(b, x, y);
-    if (b->nearest) return (ec_bright){(float)p, (float)(p * p)};
-    return between(p, texel_at(b, right, y), texel_at(b, x, below), texel_at(b, right, below));
-}
-
-/* So many from x on; only those at the end of a row look for their neighbours across the seam. above, below: texels from x on, one more than patches
- * where there is one. */
-static void patches(const ec_brightness *b, uint32_t x, uint32_t y, uint32_t count, const float *above, const float *below, ec_bright *out)
-{
-    const uint32_t inside = b->nearest ? 0 : x + count < b->width ? count : count - 1;
-    for (uint32_t i = 0; i < inside; i++) out[i] = between(above[i], above[i + 1], below[i], below[i + 1]);
-    for (uint32_t i = inside; i < count; i++) out[i] = patch(b, x + i, y);
+    return patch_of(b, texel_at(b, x, y), texel_at(b, right, y), texel_at(b, x, below), texel_at(b, right, below));
 }
 
 static ec_bright square_of(const ec_brightness *b, uint32_t level, uint32_t x, uint32_t y)
@@ -79,22 +70,21 @@ static void join(const ec_bright *above, const ec_bright *below, uint32_t count,
     }
 }
 
-/* Row y of the first level. */
+/* Row y of the first level. A row of texels is looked up once for the patches on both sides of it. */
 static void join_patches(const ec_brightness *b, uint32_t y, ec_bright *out)
 {
     enum { SOME = 256 };
     float texels[3][SOME + 1];
     ec_bright rows[2][SOME];
-    const bool has_below = 2 * y + 1 < b->height;
+    const uint32_t row_count = 2 * y + 1 < b->height ? 2 : 1;
     for (uint32_t x = 0; x < b->width; x += SOME) {
         const uint32_t count = b->width - x < SOME ? b->width - x : SOME;
-        for (uint32_t r = 0; r < 2u + has_below; r++) {
-            const uint32_t row = wrapped(2 * (int64_t)y + r, b->height, b->wrap[1]);
-            for (uint32_t i = 0; i <= count && x + i < b->width; i++) texels[r][i] = texel_at(b, x + i, row);
-        }
-        patches(b, x, 2 * y, count, texels[0], texels[1], rows[0]);
-        if (has_below) patches(b, x, 2 * y + 1, count, texels[1], texels[2], rows[1]);
-        join(rows[0], has_below ? rows[1] : NULL, count, out + x / 2);
+        for (uint32_t r = 0; r <= row_count; r++)
+            for (uint32_t i = 0; i <= count; i++)
+                texels[r][i] = texel_at(b, wrapped((int64_t)x + i, b->width, b->wrap[0]), wrapped(2 * (int64_t)y + r, b->height, b->wrap[1]));
+        for (uint32_t r = 0; r < row_count; r++)
+            for (uint32_t i = 0; i < count; i++) rows[r][i] = patch_of(b, texels[r][i], texels[r][i + 1], texels[r + 1][i], texels[r + 1][i + 1]);
+        join(rows[0], row_count == 2 ? rows[1] : NULL, count, out + x / 2);
     }
 }
 
@@ -117,22 +107,28 @@ static ec_result add_level(ec_brightness *b, uint32_t level, ec_error *err)
     return EC_OK;
 }
 
+/* Few values, many texels: a power takes as long as twenty look-ups. */
+static void fill_shares(const ec_material *m, ec_brightness *b)
+{
+    for (uint32_t i = 0; i < b->stored; i++) {
+        const double linear = b->stored == 256 ? ec_srgb_bytes()[i] : ec_srgb_to_linear(i / 65535.0);
+        for (int k = 0; k < 3; k++) {
+            double rgb[3] = {0};
+            rgb[k] = (double)m->emission[k] * linear;
+            b->shares[k * b->stored + i] = ec_luminance(rgb);
+        }
+    }
+}
+
 ec_result ec_brightness_make(const ec_scene *scene, const ec_material *m, ec_brightness *b, ec_error *err)
 {
     const ec_texture *texture = &scene->textures[m->textures[EC_SLOT_EMISSION].texture];
     const ec_image *image = &scene->images[texture->image];
-    *b = (ec_brightness){.width = image->width, .height = image->height, .wrap = {texture->wrap_s, texture->wrap_t}, .nearest = texture->nearest};
-    b->image = image;
-    b->bytes = malloc(3 * 256 * sizeof *b->bytes);
-    if (!b->bytes) return ec_fail(err, "out of memory for the brightness of a texture of %u x %u", b->width, b->height);
-    for (int k = 0; k < 3; k++) {
-        double rgb[3] = {0};
-        b->emission[k] = m->emission[k];
-        for (int byte = 0; byte < 256; byte++) {
-            rgb[k] = m->emission[k] * ec_srgb_bytes()[byte];
-            b->bytes[256 * k + byte] = ec_luminance(rgb);
-        }
-    }
+    *b = (ec_brightness){.width = image->width, .height = image->height, .wrap = {texture->wrap_s, texture->wrap_t}, .nearest = texture->nearest,
+                         .image = image, .stored = image->rgba8 ? 256 : 65536};
+    b->shares = malloc(3 * (size_t)b->stored * sizeof *b->shares);
+    if (!b->shares) return ec_fail(err, "out of memory for the brightness of a texture of %u x %u", b->width, b->height);
+    fill_shares(m, b);
     b->columns[0] = b->width, b->rows[0] = b->height;
     for (uint32_t level = 1; b->columns[level - 1] > 1 || b->rows[level - 1] > 1; level++) EC_TRY(add_level(b, level, err));
     return EC_OK;
@@ -140,7 +136,7 @@ ec_result ec_brightness_make(const ec_scene *scene, const ec_material *m, ec_bri
 
 void ec_brightness_free(ec_brightness *b)
 {
-    free(b->bytes);
+    free(b->shares);
     for (int level = 0; level < EC_BRIGHT_LEVELS; level++) free(b->levels[level]);
     *b = (ec_brightness){0};
 }

@@ -17,8 +17,8 @@ typedef struct ec_brightness {
     ec_wrap wrap[2];
     bool nearest;
     const ec_image *image;                     /* borrowed */
-    double emission[3];                        /* of the material */
-    double *bytes;                             /* [3][256]: luminance of the material's radiance that a byte of each channel brings; owned */
+    uint32_t stored;                           /* values that a channel of it may have */
+    double *shares;                            /* [3][stored]: luminance of the material's radiance that each of them brings; owned */
     ec_bright *levels[EC_BRIGHT_LEVELS];       /* from 1 on: squares of 2^level patches, a patch lies between four texels' middles; owned */
     uint32_t columns[EC_BRIGHT_LEVELS], rows[EC_BRIGHT_LEVELS];
 } ec_brightness;

@@ -30,21 +30,18 @@ static double whole(double u)
     return cut > u ? cut - 1.0 : cut;
 }
 
-static uint32_t wrap_far(double u, uint32_t size, ec_wrap mode)
+/* Into the picture, of which coordinates go from 0 to 1. */
+static double fold(double u, ec_wrap mode)
 {
-    if (!isfinite(u)) return 0;
-    double folded = u - whole(u);
-    if (mode == EC_WRAP_CLAMP) folded = fmin(fmax(u, 0.0), 1.0);
-    if (mode == EC_WRAP_MIRROR) folded = 1.0 - fabs(2.0 * (0.5 * u - whole(0.5 * u)) - 1.0);
-    uint32_t i = (uint32_t)(folded * size);
-    return i < size ? i : size - 1;
+    if (!isfinite(u)) return 0.0;
+    if (mode == EC_WRAP_CLAMP) return fmin(fmax(u, 0.0), 1.0);
+    return mode == EC_WRAP_MIRROR ? 1.0 - fabs(2.0 * (0.5 * u - whole(0.5 * u)) - 1.0) : u - whole(u);
 }
 
-/* Most points lie within the picture, where neither repeating nor clamping changes anything. */
 static inline uint32_t wrap(double u, uint32_t size, ec_wrap mode)
 {
-    if (!(u >= 0.0 && u < 1.0) || mode == EC_WRAP_MIRROR) return wrap_far(u, size, mode);
-    const uint32_t i = (uint32_t)(int64_t)(u * size);
+    const bool is_inside = u >= 0.0 && u < 1.0 && mode != EC_WRAP_MIRROR; /* as most are: neither repeating nor clamping changes them */
+    const uint32_t i = (uint32_t)(int64_t)((is_inside ? u : fold(u, mode)) * size);
     return i < size ? i : size - 1;
 }
 
