@@ -9,7 +9,9 @@ enum { EC_BLEND_TILE = 16 };
 /* Sums over pixels of a tile. */
 typedef struct ec_tile_sums {
     double pixels, clean, noisy, apart, noise, gain, gain_apart, variance, plains; /* the last two: of `gain` */
+    double apart_variance;
     double noisy_squares;         /* of single pixels' `noisy` */
+    double excess;                /* by which `apart` is over twice `noisy`, no pixel for more than its share */
 } ec_tile_sums;
 
 typedef struct ec_blend_tile {
@@ -27,11 +29,13 @@ typedef struct ec_blend_cell {
 
 typedef struct ec_blend {
     uint32_t columns, rows;
+    double pixel_noise;
     ec_blend_tile *tiles;         /* row by row; owned, as the cells are */
     ec_blend_cell *cells;         /* columns + 1 times rows + 1 of them */
 } ec_blend;
 
-ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, ec_error *err);
+/* pixel_noise: the squared error of the noisy picture in one of those pixels that hold most of it. */
+ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, double pixel_noise, ec_error *err);
 void ec_blend_free(ec_blend *blend);
 
 /* Rows [*first, *end) of pixels of a row of cells, of which there are rows + 1: no two of them add to the same sums. */
@@ -46,7 +50,8 @@ static inline ec_tile_sums ec_blend_sums(const ec_blend_tile *t)
     const ec_tile_sums *a = &t->half[0], *b = &t->half[1];
     return (ec_tile_sums){a->pixels + b->pixels, a->clean + b->clean, a->noisy + b->noisy, a->apart + b->apart,
                           a->noise + b->noise, a->gain + b->gain, a->gain_apart + b->gain_apart,
-                          a->variance + b->variance, a->plains + b->plains, a->noisy_squares + b->noisy_squares};
+                          a->variance + b->variance, a->plains + b->plains, a->apart_variance + b->apart_variance,
+                          a->noisy_squares + b->noisy_squares, a->excess + b->excess};
 }
 
 /* At a pixel, between the tiles: the weight; the mean squared error of the denoised picture, at least that of its noise; and of the pixel's variance the

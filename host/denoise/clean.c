@@ -44,10 +44,10 @@ static void finish_row(work *w, uint32_t y, ec_judged *judged, ec_pixel *pixels,
         const double a = at.weight, b = 1 - a;
         write_pixel(w, first + x, &at, pixels[x].mean);
         sums->noise += j->noise;
-        const double plain = a * a * j->clean_plain + b * b * j->noisy_plain;
-        const ec_judged_sum clean = {j->clean, j->clean_variance, j->clean_plain, j->clean_plain * j->clean_plain, 0, j->noise};
+        const ec_judged_sum clean = {j->clean, j->clean_variance, j->clean_plain, 0, j->noise};
         const ec_judged_sum best = {a * j->clean + b * j->noisy - a * b * j->apart + at.optimism * 4 * (j->gain_variance + a * j->gain_apart),
-                                    a * a * j->clean_variance + b * b * j->noisy_variance, plain, plain * plain, b * b * j->noisy, a * a * j->noise};
+                                    a * a * j->clean_variance + b * b * j->noisy_variance, a * a * j->clean_plain + 2 * b * b * j->noisy * j->noisy,
+                                    b * b * j->noisy, a * a * j->noise};
         ec_judged_join(&sums->clean, &clean);
         ec_judged_join(&sums->best, &best);
     }
@@ -122,12 +122,19 @@ static void tell(const work *w, const row_sums *sums, const ec_film_error *noisy
     count_tiles(w, out);
 }
 
+/* The squared error of as many pixels alike as tell of it. */
+static double noise_of_one(const ec_film *film, const ec_film_error *noisy)
+{
+    const double error = noisy->error * noisy->mean_luminance;
+    return error > 0 ? error * error * film->width * film->height / noisy->noisy_pixels : 0;
+}
+
 ec_result ec_clean_make(const ec_film *film, const float *const half[2], const ec_film_error *noisy, const ec_film_clean *into, ec_denoised *out,
                         ec_error *err)
 {
     work w = {.film = film, .half = half, .clean = *into};
     row_sums sums = {0};
-    EC_TRY(ec_blend_create(&w.blend, film->width, film->height, err));
+    EC_TRY(ec_blend_create(&w.blend, film->width, film->height, noise_of_one(film, noisy), err));
     const ec_result result = judge(&w, &sums, err);
     if (result == EC_OK) tell(&w, &sums, noisy, out);
     ec_blend_free(&w.blend);

@@ -19,10 +19,13 @@
  * the pixels' own part.
  *
  * Where one sample in hundreds brings the light of its pixel, as of a lamp within it, most renders have it in one replicate only: then no pair tells of
- * it, and v is near 0 just when U is too low. The plain variance 4 (D(a) - m)^2 Var b / n + 2 Var(b)^2 / (n (n - 1)), by estimates of its terms and the
- * variance of all replicates, sees it at once. Its squares' sum is the variance of that of v, roughly: to v the interval adds one standard error of it
- * where few pixels decide, and less where many do (margin). By v alone intervals held in 79 of 100 renders of scenes/lamps, with it in 99
- * (16 samples, --clamp 10), and with one standard error everywhere and Student's t besides they were a quarter wider.
+ * it, and v is near 0, or under it, just when U is too low. The plain variance 4 (D(a) - m)^2 Var b / n + 2 Var(b)^2 / (n (n - 1)), by estimates of its
+ * terms and the variance of all replicates, sees it at once, but is too large wherever one sample makes both its terms. Over a picture v is mostly near
+ * it; it is taken for PLAIN_LEAST of it at least, which decides where few pixels do.
+ *
+ * Estimates of squares are skewed to the right, so that the interval is as wide to both sides in the error itself: e +- z sd / (2 e), whose squares are
+ * e^2 +- z sd + (z sd)^2 / (4 e^2). For a chi-square that is the term of second order of Cornish and Fisher (1938). Where the lower end is 0 the
+ * quotient says no more of the upper one, which is then at e^2 + 3/2 z sd.
  *
  * What a blend gains (blend.c). The noisy picture is p = (a + b) / 2, and the product of both pictures' errors is (c - m)(p - m). D(a) follows a and knows
  * nothing of b, so that (D(a) - D(b)) (a - b) / 4 has its expectation, and no error of the denoiser's own in it: `gain` is Var p less that. Where D is as
@@ -40,6 +43,9 @@
 #include "film/pixel.h"
 #include "film/statistics.h"
 #include "film/threads.h"
+
+#define PLAIN_LEAST 0.2 /* of the plain variance there is at least */
+#define SKEW_MOST 0.5   /* part of its width by which an interval of squares is shifted upwards at most */
 
 /* Numbers of the replicates that have samples; how many. */
 static uint32_t list_replicates(const ec_film *film, uint32_t list[EC_REPLICATES_MOST])
@@ -98,7 +104,8 @@ static against judge_by(double value, const double *replicates, uint32_t n, doub
     const double pairs = n * (n - 1.0), square = (p1 * p1 - p2) / pairs;
     if (n >= 4) /* by Newton's identities */
         fourth = (p1 * p1 * p1 * p1 - 6 * p1 * p1 * p2 + 3 * p2 * p2 + 8 * p1 * p3 - 6 * p4) / (pairs * (n - 2.0) * (n - 3.0));
-    return (against){square, square * square - fourth, 4 * fmax(square, 0) * spread / n + 2 * spread * spread / pairs, value - p1 / n, (p2 - p1 * p1 / n) / pairs};
+    const double plain = 4 * fmax(square, 0) * spread / n + 2 * spread * spread / pairs;
+    return (against){square, square * square - fourth, plain, value - p1 / n, (p2 - p1 * p1 / n) / pairs};
 }
 
 /* The square of a replicate's variance, without bias whatever the distribution: the mean of products of the squared differences of two pairs that have
@@ -128,7 +135,6 @@ static ec_judged judge(const double *y, uint32_t n, const float *a, const float 
                    .apart = (clean - mean) * (clean - mean), .noise = half * half};
     j.clean_variance = 0.25 * (by_b.variance + by_a.variance) + together;
     j.clean_plain = 0.25 * (by_b.plain + by_a.plain) + together;
-    j.noisy_plain = 2 * j.noisy * j.noisy;
     const double shared = 0.5 * half * (by_a.mean - by_b.mean), of_shared = half * half * j.noisy;
     j.gain = j.noisy - shared;
     j.gain_plain = j.noisy * j.noisy + of_shared;
@@ -136,7 +142,7 @@ static ec_judged judge(const double *y, uint32_t n, const float *a, const float 
     j.gain_variance = j.noisy * j.noisy - fourth + of_shared;
     j.gain_apart = 2 * ((j.apart - j.noisy) * j.noisy + fourth * (n + 1) / (n - 1));
     j.apart_variance = 2 * j.gain_apart - 2 * fourth;
-    j.noisy_variance = j.noisy_plain * n / (n + 1); /* of pixels that are normal; E[s^4] exceeds v^2 by that much */
+    j.noisy_variance = 2 * j.noisy * j.noisy * n / (n + 1); /* of pixels that are normal; E[s^4] exceeds v^2 by that much */
     return j;
 }
 
@@ -158,25 +164,18 @@ void ec_judge_row(const ec_film *film, uint32_t row, const float *const denoised
         judge_piece(film, (uint64_t)row * film->width + x, film->width - x < EC_PIXELS ? film->width - x : EC_PIXELS, denoised, out + x);
 }
 
-/* What Student's t adds to the variance v of a sum of which few pixels hold most, for those of a normal distribution: by its expansion t^2 = z^2
- * (1 + (z^2 + 1) / (2 nu)), nu = v^2 / sum of squares (Satterthwaite 1946). v is taken plain, as it is near 0 where it is least known. With few
- * degrees of freedom that expansion runs away, and one standard error of v is what may be missing. */
-static double margin(const ec_judged_sum *sum, double z)
-{
-    return sum->plain > 0 ? fmin(0.5 * (z * z + 1) * sum->plains / sum->plain, sqrt(sum->plains)) : 0;
-}
-
-/* What the noisy picture makes of it reaches up as far as that picture's own bound, which knows of few pixels and bright samples.
+/* What the noisy picture makes of it reaches up at least as far as that picture's own bound, which knows of few pixels and bright samples.
  * The mean luminance that all is divided by has an error of its own, as in film/image_error.c. An estimate that heavy noise has made
  * smaller than the noise that is known, or negative, is not believed: bias adds to that, and takes nothing off it. */
 ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy)
 {
     const double mean = noisy->mean_luminance, unit = 1 / (mean * mean * pixels), square = fmax(sum->square, sum->least) * unit;
-    const double z = ec_normal_upper_quantile(0.025), variance = fmax(sum->variance, 0) + margin(sum, z);
+    const double z = ec_normal_upper_quantile(0.025);
     const double of_mean = 2 * noisy->error / sqrt(pixels) * square, times = noisy->error > 0 ? noisy->bound_if_met / noisy->error : 1;
-    const double reach = z * hypot(sqrt(variance) * unit, of_mean);
-    const double up = hypot(reach, sum->noisy * unit * (times * times - 1)), missing = EC_RARE_DOUBT * noisy->unmet;
-    ec_stated_error e = {sqrt(fmax(square, 0)), sqrt(fmax(square - reach, 0)), sqrt(fmax(square + up, 0))};
+    const double reach = z * hypot(sqrt(fmax(sum->variance, PLAIN_LEAST * sum->plain)) * unit, of_mean);
+    const double shift = reach > 0 ? reach * fmin(reach / (4 * square), SKEW_MOST) : 0;
+    const double up = fmax(shift + reach, sum->noisy * unit * (times * times - 1)), missing = EC_RARE_DOUBT * noisy->unmet;
+    ec_stated_error e = {sqrt(fmax(square, 0)), sqrt(fmax(square + shift - reach, 0)), sqrt(fmax(square + up, 0))};
     e.high95 = noisy->is_open || missing > e.error ? INFINITY : hypot(e.high95, missing);
     return e;
 }

@@ -21,9 +21,9 @@ typedef struct ec_judged {
     double gain;                   /* `noisy` less the covariance of both errors: half of how fast a blend's error falls as it leaves the noisy one */
     double clean_variance, noisy_variance; /* of the two estimates: without bias … */
     double gain_variance;          /* of that, as an estimate of what is expected … */
-    double gain_apart;             /* … and the covariance of `apart` with what it misses of this very picture's */
+    double clean_plain, gain_plain; /* … and by the replicates' variance as it is: too large where samples are rare and bright, never too small by one that came once */
+    double gain_apart;             /* the covariance of `apart` with what `gain` misses of this very picture's */
     double apart_variance;         /* of `apart`, as far as the noisy picture makes it */
-    double clean_plain, noisy_plain, gain_plain; /* … and by the replicates' variance as it is: too large where samples are rare and bright, never too small by one that came once */
 } ec_judged;
 
 /* Row `row`; denoised: both halves as a denoiser made them, 3 floats a pixel. */
@@ -34,17 +34,16 @@ typedef struct ec_stated_error {
     double error, low95, high95;   /* high95 infinite: light may be missing that no sample has met (film/rare.h) */
 } ec_stated_error;
 
-/* Sums over pixels: square errors; their variance, without bias and plain, and the squares of the plain ones; noisy: the part of the square errors that
- * the noisy picture makes; least: what is known of the denoised one's noise, which the error is not under. Begin with zeros. */
+/* Sums over pixels: square errors; their variance, without bias and plain; noisy: the part of the square errors that the noisy picture makes; least: what is known of the denoised
+ * one's noise, which the error is not under. Begin with zeros. */
 typedef struct ec_judged_sum {
-    double square, variance, plain, plains, noisy, least;
+    double square, variance, plain, noisy, least;
 } ec_judged_sum;
 static inline void ec_judged_join(ec_judged_sum *into, const ec_judged_sum *next)
 {
     into->square += next->square;
     into->variance += next->variance;
     into->plain += next->plain;
-    into->plains += next->plains;
     into->noisy += next->noisy;
     into->least += next->least;
 }

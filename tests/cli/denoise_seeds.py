@@ -159,6 +159,8 @@ def main():
     parser.add_argument("--clamp")
     parser.add_argument("scenes", nargs="*", default=SCENES)
     args = parser.parse_args()
+    if args.seeds < 3:
+        parser.error("--seeds takes 3 or more: of each picture the others are the truth")
     options = ["--clamp", args.clamp] if args.clamp else []
     with tempfile.TemporaryDirectory() as passing:
         folder = args.keep or passing
