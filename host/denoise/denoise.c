@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "denoise/atrous.h"
@@ -10,6 +11,7 @@
 #include "denoise/oidn.h"
 #include "denoise/oidn_find.h"
 #include "film/pixel.h"
+#include "film/threads.h"
 
 enum { SCALE_MOST = 120 }; /* as a power of two, in floats */
 enum { CLEAN_GUIDES = 64 }; /* samples a pixel of the features from which on they are better than smoothed ones */
@@ -80,8 +82,9 @@ static void free_all(work *w)
 
 static void take_guides(work *w, uint32_t half)
 {
-    float features[EC_FILM_FEATURES * EC_PIXELS];
+#pragma omp parallel for if (ec_film_is_many(pixels_of(w)))
     for (uint64_t first = 0; first < pixels_of(w); first += EC_PIXELS) {
+        float features[EC_FILM_FEATURES * EC_PIXELS];
         const uint64_t count = pixels_of(w) - first < EC_PIXELS ? pixels_of(w) - first : EC_PIXELS;
         ec_film_features_of(w->film, half, first, count, features);
         for (uint64_t i = 0; i < 3 * count; i++) {
@@ -92,33 +95,48 @@ static void take_guides(work *w, uint32_t half)
     }
 }
 
-/* Each by itself. */
-static ec_result smooth_guides(work *w, ec_oidn *oidn, ec_oidn_image image, ec_error *err)
-{
-    image.color = image.normal = NULL, image.albedo = w->albedo;
-    EC_TRY(ec_oidn_filter(oidn, &image, err));
-    image.albedo = NULL, image.normal = w->normal;
-    return ec_oidn_filter(oidn, &image, err);
-}
+/* Of the colours in half[0], and of guides each by itself; those are NULL where they need none. */
+typedef struct filters {
+    ec_oidn_filter *color, *albedo, *normal;
+} filters;
 
-/* Each half by its own guides: they have to be as independent of the other half, by which it is judged, as its colours are. */
-static ec_result filter_by_oidn(work *w, ec_oidn *oidn, ec_error *err)
+static ec_result make_filters(work *w, ec_oidn *oidn, filters *f, ec_error *err)
 {
     const ec_film *film = w->film;
     const struct effort *effort = efforts;
     while (pixels_of(w) > effort->pixels) effort++;
     const bool is_smoothed = effort->smooths && ec_schedule_samples(film->replicates, film->aov_batches) < CLEAN_GUIDES;
-    ec_oidn_image image = {.width = film->width, .height = film->height, .has_clean_guides = true, .quality = effort->quality};
-    for (uint32_t h = 0; h < 2; h++) {
-        if (h == 0 || film->aov_even) {
-            take_guides(w, h);
-            if (is_smoothed) EC_TRY(smooth_guides(w, oidn, image, err));
-        }
-        ec_half(film, h, w->scale, 3, w->half[h]);
-        image.color = w->half[h], image.albedo = w->albedo, image.normal = w->normal;
-        EC_TRY(ec_oidn_filter(oidn, &image, err));
+    const ec_oidn_image none = {.width = film->width, .height = film->height, .has_clean_guides = true, .quality = effort->quality};
+    ec_oidn_image color = none, albedo = none, normal = none;
+    color.color = w->half[0], color.albedo = albedo.albedo = w->albedo, color.normal = normal.normal = w->normal;
+    if (is_smoothed) EC_TRY(ec_oidn_filter_create(oidn, &albedo, &f->albedo, err));
+    if (is_smoothed) EC_TRY(ec_oidn_filter_create(oidn, &normal, &f->normal, err));
+    return ec_oidn_filter_create(oidn, &color, &f->color, err);
+}
+
+/* Into half[0], by its own guides: they have to be as independent of the other half, by which it is judged, as its colours are. */
+static ec_result filter_half(work *w, ec_oidn *oidn, const filters *f, uint32_t half, bool has_guides, ec_error *err)
+{
+    if (!has_guides) {
+        take_guides(w, half);
+        if (f->albedo) EC_TRY(ec_oidn_filter_run(oidn, f->albedo, err));
+        if (f->normal) EC_TRY(ec_oidn_filter_run(oidn, f->normal, err));
     }
-    return EC_OK;
+    ec_half(w->film, half, w->scale, 3, w->half[0]);
+    return ec_oidn_filter_run(oidn, f->color, err);
+}
+
+static ec_result filter_by_oidn(work *w, ec_oidn *oidn, ec_error *err)
+{
+    filters f = {0};
+    ec_result result = make_filters(w, oidn, &f, err);
+    if (result == EC_OK) result = filter_half(w, oidn, &f, 1, false, err);
+    if (result == EC_OK) memcpy(w->half[1], w->half[0], 3 * pixels_of(w) * sizeof(float));
+    if (result == EC_OK) result = filter_half(w, oidn, &f, 0, !w->film->aov_even, err);
+    ec_oidn_filter_free(oidn, f.color);
+    ec_oidn_filter_free(oidn, f.albedo);
+    ec_oidn_filter_free(oidn, f.normal);
+    return result;
 }
 
 static ec_result filter(work *w, ec_denoiser denoiser, const ec_device_info *device, ec_denoised *out, ec_error *err)
@@ -138,8 +156,8 @@ static ec_result filter(work *w, ec_denoiser denoiser, const ec_device_info *dev
 /* The scale is a power of two: it changes no bits. */
 static void unscale(work *w)
 {
-    for (uint32_t h = 0; h < 2; h++)
-        for (uint64_t i = 0; i < 3 * pixels_of(w); i++) w->half[h][i] /= w->scale;
+#pragma omp parallel for if (ec_film_is_many(pixels_of(w)))
+    for (uint64_t i = 0; i < 3 * pixels_of(w); i++) w->half[0][i] /= w->scale, w->half[1][i] /= w->scale;
 }
 
 ec_result ec_denoise(ec_film *film, ec_denoiser denoiser, const ec_device_info *device, ec_denoised *out, ec_error *err)

@@ -164,7 +164,7 @@ void ec_judge_row(const ec_film *film, uint32_t row, const float *const denoised
         judge_piece(film, (uint64_t)row * film->width + x, film->width - x < EC_PIXELS ? film->width - x : EC_PIXELS, denoised, out + x);
 }
 
-/* What the noisy picture makes of it reaches up at least as far as that picture's own bound, which knows of few pixels and bright samples.
+/* What the noisy picture makes of it reaches up as far as that picture's own bound, which knows of few pixels and bright samples.
  * The mean luminance that all is divided by has an error of its own, as in film/image_error.c. An estimate that heavy noise has made
  * smaller than the noise that is known, or negative, is not believed: bias adds to that, and takes nothing off it. */
 ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy)
@@ -174,7 +174,7 @@ ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const e
     const double of_mean = 2 * noisy->error / sqrt(pixels) * square, times = noisy->error > 0 ? noisy->bound_if_met / noisy->error : 1;
     const double reach = z * hypot(sqrt(fmax(sum->variance, PLAIN_LEAST * sum->plain)) * unit, of_mean);
     const double shift = reach > 0 ? reach * fmin(reach / (4 * square), SKEW_MOST) : 0;
-    const double up = fmax(shift + reach, sum->noisy * unit * (times * times - 1)), missing = EC_RARE_DOUBT * noisy->unmet;
+    const double up = hypot(shift + reach, sum->noisy * unit * (times * times - 1)), missing = EC_RARE_DOUBT * noisy->unmet;
     ec_stated_error e = {sqrt(fmax(square, 0)), sqrt(fmax(square + shift - reach, 0)), sqrt(fmax(square + up, 0))};
     e.high95 = noisy->is_open || missing > e.error ? INFINITY : hypot(e.high95, missing);
     return e;

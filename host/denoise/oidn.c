@@ -91,9 +91,10 @@ static void set_image(ec_oidn *oidn, void *filter, const ec_oidn_image *image, c
     if (data) oidn->SetSharedFilterImage(filter, name, data, FLOAT3, image->width, image->height, 0, 0, 0);
 }
 
-ec_result ec_oidn_filter(ec_oidn *oidn, const ec_oidn_image *image, ec_error *err)
+ec_result ec_oidn_filter_create(ec_oidn *oidn, const ec_oidn_image *image, ec_oidn_filter **made, ec_error *err)
 {
     void *filter = oidn->NewFilter(oidn->device, "RT");
+    *made = filter;
     if (!filter) return check(oidn, "has no filter", err);
     float *output = image->color ? image->color : image->albedo ? image->albedo : image->normal;
     set_image(oidn, filter, image, "color", image->color);
@@ -105,7 +106,18 @@ ec_result ec_oidn_filter(ec_oidn *oidn, const ec_oidn_image *image, ec_error *er
     oidn->SetFilterInt(filter, "quality", (int)image->quality);
     oidn->SetFilterInt(filter, "maxMemoryMB", MEMORY_MB);
     oidn->CommitFilter(filter);
+    const ec_result result = check(oidn, "failed", err);
+    if (result != EC_OK) ec_oidn_filter_free(oidn, filter), *made = NULL;
+    return result;
+}
+
+ec_result ec_oidn_filter_run(ec_oidn *oidn, ec_oidn_filter *filter, ec_error *err)
+{
     oidn->ExecuteFilter(filter);
-    oidn->ReleaseFilter(filter);
     return check(oidn, "failed", err);
+}
+
+void ec_oidn_filter_free(ec_oidn *oidn, ec_oidn_filter *filter)
+{
+    if (filter) oidn->ReleaseFilter(filter);
 }

@@ -27,6 +27,12 @@ typedef struct ec_oidn_image {
     bool has_clean_guides; /* these are free of noise */
     ec_oidn_quality quality;
 } ec_oidn_image;
-ec_result ec_oidn_filter(ec_oidn *oidn, const ec_oidn_image *image, ec_error *err);
+
+/* A filter of these images, to be run as often as they have new contents: what it sets up once, memory above all, takes as long as a run. Owned by the
+ * caller, NULL on failure; freed before the library is closed. */
+typedef struct ec_oidn_filter ec_oidn_filter;
+ec_result ec_oidn_filter_create(ec_oidn *oidn, const ec_oidn_image *image, ec_oidn_filter **filter, ec_error *err);
+ec_result ec_oidn_filter_run(ec_oidn *oidn, ec_oidn_filter *filter, ec_error *err);
+void ec_oidn_filter_free(ec_oidn *oidn, ec_oidn_filter *filter); /* NULL is fine */
 
 #endif
