@@ -11,7 +11,7 @@
  * But q is of this very picture: its noise makes q and g larger together, so that g over q promises too much where it is large. b_i is worth
  * b_i - C_i / A_ii, C_i = sum of Cov(q, g) B_i^3 the covariance of both: of p pixels alike (p - 2) / p of it (James and Stein 1961), and nothing where one
  * pixel decides. At the lamps of Veach's plates the denoiser makes one pixel's error three times what it was, at 64 samples nine times: `best` was 5.5 %
- * worse than the noisy picture with t (64 samples, 15 seeds), with g alone 2.1 % and at 16 samples 6.7 % (20 seeds), and as it is -0.3 % and 1.2 % (38 seeds).
+ * worse than the noisy picture with t (64 samples, 15 seeds), with g alone 2.1 % and at 16 samples 6.7 % (20 seeds), and as it is -0.1 % and 0.0 % (100 seeds).
  *
  * Whether a denoiser pays at all is not always told: where single samples make the noise, s strays by more than itself, and q with the noise. The weight of
  * the whole picture is drawn in the same way, by WHOLE, to that of either picture, by as much as the variances of g and of q for that weight make. A
@@ -19,8 +19,8 @@
  * two alike, a pixel's q would be s times a chi-square of one degree of freedom whose centre is off by 1, of variance 6 s^2, and the estimate of s adds
  * 4 * 2 s^2 / (n - 1): q - 2 s strays by the square root of 7 sum s^2, with eight replicates. The weight is drawn to 1, as denoising mostly pays, but to 0
  * where q - 2 s is well over 0, and in between where it is less. No pixel alone says so unless it holds all the noise: where a few lamps hold it, one is
- * ten times s every few renders, as s is low where many replicates happen to agree. With every pixel counted in full and no variance of q `best` was 10 %
- * worse than the denoised picture in scenes/lamps (16 samples, 45 seeds), as it is 0.0 %, and 0.6 % worse than the noisy one at Veach's plates.
+ * ten times s every few renders, as s is low where many replicates happen to agree. With every pixel counted in full and no variance of q `best` was 12 %
+ * worse than the denoised picture in scenes/lamps (16 samples, 34 seeds), as it is 0.9 % better (100 seeds).
  *
  * The variances of b_i and A_ii make that of a weight, V / A^2, V = Var b + w^2 Var A, w that of the whole picture: even where both are alike and 1 is
  * right, s over q strays about it. A weight that goes by its own surroundings alone would follow the noise, so that it is drawn to the weight of the whole

@@ -19,13 +19,15 @@ class Coverage(unittest.TestCase):
         for cell in cells:
             with self.subTest(scene=cell.scene, spp=cell.spp):
                 self.assertGreaterEqual(min(cell.held(1), cell.held(2)), LEAST)
-                self.assertLess(cell.worse(), 1.02 if cell.real[0] < SEEDS else 1.04)  # where noise is over 100 %, single seeds decide what 100 come to
+                self.assertLess(cell.worse(), 1.02)
         return cells
 
     def test_ten_scenes(self):
         cells = [cell for scene in SCENES for cell in self.measure(scene, SEEDS)]
         for layer in (1, 2):
-            self.assertGreater(sum(cell.held(layer) for cell in cells), 0.94 * SEEDS * len(cells))
+            held = sum(cell.held(layer) for cell in cells) / (SEEDS * len(cells))
+            self.assertGreater(held, 0.94)
+            self.assertLess(held, 0.97)  # wider intervals than need be say too little; 96 % of 3000 stray by 0.4
 
     def test_with_a_clamp(self):
         """Of the clamped picture: the truth has the same limit."""
