@@ -45,8 +45,9 @@
 #define WORSE 0.5           /* standard errors of the sum of q - 2 s over 0 from which on the denoised picture is taken to be the worse */
 #define FOLLOWED 0.5        /* of the variance of q, which is known of this very picture */
 
-ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, double pixel_noise, ec_error *err)
+ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, const ec_film_error *noisy, ec_error *err)
 {
+    const double error = noisy->error * noisy->mean_luminance, pixel_noise = error > 0 ? error * error * width * height / noisy->noisy_pixels : 0;
     *blend = (ec_blend){.pixel_noise = pixel_noise, .columns = (width - 1) / EC_BLEND_TILE + 1, .rows = (height - 1) / EC_BLEND_TILE + 1};
     blend->tiles = calloc((size_t)blend->columns * blend->rows, sizeof *blend->tiles);
     blend->cells = calloc(((size_t)blend->columns + 1) * (blend->rows + 1), sizeof *blend->cells);

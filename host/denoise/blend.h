@@ -29,13 +29,13 @@ typedef struct ec_blend_cell {
 
 typedef struct ec_blend {
     uint32_t columns, rows;
-    double pixel_noise;
+    double pixel_noise;           /* squared error of the noisy picture in a pixel of those that hold most of it: were they alike */
     ec_blend_tile *tiles;         /* row by row; owned, as the cells are */
     ec_blend_cell *cells;         /* columns + 1 times rows + 1 of them */
 } ec_blend;
 
-/* pixel_noise: the squared error of the noisy picture in one of those pixels that hold most of it. */
-ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, double pixel_noise, ec_error *err);
+/* noisy: the error of the noisy picture. */
+ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, const ec_film_error *noisy, ec_error *err);
 void ec_blend_free(ec_blend *blend);
 
 /* Rows [*first, *end) of pixels of a row of cells, of which there are rows + 1: no two of them add to the same sums. */

@@ -122,19 +122,12 @@ static void tell(const work *w, const row_sums *sums, const ec_film_error *noisy
     count_tiles(w, out);
 }
 
-/* The squared error of as many pixels alike as tell of it. */
-static double noise_of_one(const ec_film *film, const ec_film_error *noisy)
-{
-    const double error = noisy->error * noisy->mean_luminance;
-    return error > 0 ? error * error * film->width * film->height / noisy->noisy_pixels : 0;
-}
-
 ec_result ec_clean_make(const ec_film *film, const float *const half[2], const ec_film_error *noisy, const ec_film_clean *into, ec_denoised *out,
                         ec_error *err)
 {
     work w = {.film = film, .half = half, .clean = *into};
     row_sums sums = {0};
-    EC_TRY(ec_blend_create(&w.blend, film->width, film->height, noise_of_one(film, noisy), err));
+    EC_TRY(ec_blend_create(&w.blend, film->width, film->height, noisy, err));
     const ec_result result = judge(&w, &sums, err);
     if (result == EC_OK) tell(&w, &sums, noisy, out);
     ec_blend_free(&w.blend);

@@ -205,12 +205,34 @@ static void check_single(void)
     ec_film_destroy(&film);
 }
 
+/* Of a noisy picture whose pixels are alike, of noise 1. */
+static void create_blend(ec_blend *blend, uint32_t width, uint32_t height)
+{
+    const ec_film_error noisy = {.mean_luminance = 1, .error = 1, .noisy_pixels = width * height};
+    ec_error err;
+    CHECK_OK(ec_blend_create(blend, width, height, &noisy, &err), err);
+    CHECK_NEAR(blend->pixel_noise, 1, 1e-9);
+}
+
+/* An error of half the mean, 2, in 4 of 32 pixels, and one of a picture without noise. */
+static void check_pixel_noise(void)
+{
+    const ec_film_error noisy = {.mean_luminance = 2, .error = 0.5, .noisy_pixels = 4}, steady = {.mean_luminance = 2};
+    ec_blend blend;
+    ec_error err;
+    CHECK_OK(ec_blend_create(&blend, 8, 4, &noisy, &err), err);
+    CHECK_NEAR(blend.pixel_noise, 8, 1e-9);
+    ec_blend_free(&blend);
+    CHECK_OK(ec_blend_create(&blend, 8, 4, &steady, &err), err);
+    CHECK(blend.pixel_noise == 0);
+    ec_blend_free(&blend);
+}
+
 /* Weights go from tile to tile without a step, and each tile's own is in its middle. */
 static void check_seams(void)
 {
     ec_blend blend;
-    ec_error err;
-    CHECK_OK(ec_blend_create(&blend, 40, 33, 1, &err), err);
+    create_blend(&blend, 40, 33);
     CHECK(blend.columns == 3 && blend.rows == 3);
     for (uint32_t i = 0; i < 9; i++) blend.tiles[i] = (ec_blend_tile){.half[0].pixels = 256, .weight = i % 2 ? 1 : 0};
     for (uint32_t y = 0; y < 33; y++)
@@ -229,8 +251,7 @@ static void check_weights(void)
     enum { TILES = 9, ACROSS = TILES * EC_BLEND_TILE };
     static ec_judged row[ACROSS];
     ec_blend blend;
-    ec_error err;
-    CHECK_OK(ec_blend_create(&blend, ACROSS, 16, 1, &err), err);
+    create_blend(&blend, ACROSS, 16);
     for (uint32_t x = 0; x < ACROSS; x++) {
         const bool is_known = x < 6 * EC_BLEND_TILE, is_left = x < 3 * EC_BLEND_TILE;
         row[x] = (ec_judged){.noisy = is_known ? (is_left ? 9 : 1) : 4, .gain = is_known ? (is_left ? 8 : 0) : 4, .apart = 8, .gain_variance = is_known ? 0 : 1e9};
@@ -249,8 +270,7 @@ static double weigh_two(uint32_t ones, ec_judged one, uint32_t others, ec_judged
 {
     static ec_judged row[EC_BLEND_TILE];
     ec_blend blend;
-    ec_error err;
-    CHECK_OK(ec_blend_create(&blend, EC_BLEND_TILE, 1, 1, &err), err);
+    create_blend(&blend, EC_BLEND_TILE, 1);
     for (uint32_t x = 0; x < EC_BLEND_TILE; x++) row[x] = x < ones ? one : x < ones + others ? other : (ec_judged){0};
     ec_blend_add_row(&blend, 0, row, EC_BLEND_TILE);
     ec_blend_choose(&blend);
@@ -306,10 +326,9 @@ static void check_alike(void)
     enum { TILES = 64, ACROSS = TILES * EC_BLEND_TILE };
     static ec_judged row[ACROSS];
     ec_blend blend;
-    ec_error err;
     const double spread = 0.2 * 8 * EC_BLEND_TILE; /* of a pixel's estimate */
     double square = 0;
-    CHECK_OK(ec_blend_create(&blend, ACROSS, 16, 1, &err), err);
+    create_blend(&blend, ACROSS, 16);
     for (uint32_t y = 0; y < 16; y++) {
         for (uint32_t x = 0; x < ACROSS; x++)
             row[x] = (ec_judged){.noisy = 4, .gain = 4 + spread * test_normal(&dice), .apart = 8, .gain_variance = spread * spread};
@@ -336,6 +355,7 @@ int main(void)
     check_weights();
     check_whole();
     check_outliers();
+    check_pixel_noise();
     check_chance();
     check_few();
     check_alike();
