@@ -198,6 +198,33 @@ class Denoise(Case):
             self.assertEqual(read_exr(self.path("b.exr"))[1], whole, spp)
 
 
+class Halves(Case):
+    """With a denoiser that makes all colours 0.9 as bright."""
+
+    def render(self, *options):
+        if "ECLAT_DIM_DENOISER" not in os.environ:
+            self.skipTest("no ECLAT_DIM_DENOISER")
+        name = self.path("a.exr")
+        run = self.assert_ok(eclat("render", *JOB, "--denoise", *options, "--json", "-q", "-o", name, env={"ECLAT_OIDN": os.environ["ECLAT_DIM_DENOISER"]}))
+        return json.loads(run.stdout), read_exr(name)[1]
+
+    def test_denoised_is_the_mean_of_both(self):
+        _, planes = self.render("--spp", "16")
+        for c in "RGB":
+            for denoised, noisy in zip(planes["denoised." + c], planes[c]):
+                self.assertAlmostEqual(denoised, 0.9 * noisy, delta=1e-6 * abs(noisy))
+
+    def test_each_half_is_judged_by_the_other(self):
+        """A half that judged itself would take its noise for accuracy: 0.41 of the squared error would be stated."""
+        truth = luminance(self.render("--spp", "1024", "--seed", "99")[1])
+        stated = real = 0
+        for seed in range(8):
+            report, planes = self.render("--spp", "16", "--seed", str(seed))
+            stated += report["denoised"]["error"] ** 2 / 8
+            real += distance(luminance(planes, "denoised."), truth) ** 2 / 8
+        self.assertAlmostEqual(stated / real, 1, delta=0.1)
+
+
 class Truths(unittest.TestCase):
     def test_without_bias(self):
         """Sets of six pictures of ten pixels around 1, with a noise of 0.5, and one with a pixel off by 0.3: squares of 0.25 and of 0.009, though the mean

@@ -1,0 +1,47 @@
+/* An Open Image Denoise whose denoised colours are 0.9 of those given to it, for test_denoise.py: what is stated of them can be foretold. A guide that
+ * comes alone is left as it is. Its declarations are those that host/denoise/oidn.c calls. */
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+enum { FILTERS = 4 };
+
+typedef struct filter {
+    float *color;
+    size_t values;
+} filter;
+
+static filter filters[FILTERS];
+
+void *oidnNewDevice(int type) { return type == 1 ? filters : NULL; }
+void oidnSetDeviceBool(void *device, const char *name, bool value) { (void)device, (void)name, (void)value; }
+int oidnGetDeviceInt(void *device, const char *name) { return (void)device, strcmp(name, "version") == 0 ? 20000 : 0; }
+int oidnGetDeviceError(void *device, const char **text) { return (void)device, (void)text, 0; }
+void oidnCommitDevice(void *device) { (void)device; }
+void oidnReleaseDevice(void *device) { (void)device; }
+
+void *oidnNewFilter(void *device, const char *type)
+{
+    (void)device, (void)type;
+    for (int i = 0; i < FILTERS; i++)
+        if (!filters[i].values) return filters[i].values = 1, &filters[i];
+    return NULL;
+}
+
+void oidnSetSharedFilterImage(filter *f, const char *name, void *data, int format, size_t width, size_t height, size_t offset, size_t pixel_stride,
+                              size_t row_stride)
+{
+    (void)format, (void)offset, (void)pixel_stride, (void)row_stride;
+    if (strcmp(name, "color") == 0) f->color = data, f->values = 3 * width * height;
+}
+
+void oidnSetFilterBool(filter *f, const char *name, bool value) { (void)f, (void)name, (void)value; }
+void oidnSetFilterInt(filter *f, const char *name, int value) { (void)f, (void)name, (void)value; }
+void oidnCommitFilter(filter *f) { (void)f; }
+
+void oidnExecuteFilter(filter *f)
+{
+    for (size_t i = 0; f->color && i < f->values; i++) f->color[i] *= 0.9f;
+}
+
+void oidnReleaseFilter(filter *f) { *f = (filter){0}; }
