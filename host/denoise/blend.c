@@ -41,9 +41,9 @@
 
 #define WHOLE 0.09          /* variance of whole pictures' weights about 0 or 1 */
 #define ALIKE 7             /* variance of a pixel's q - 2 s over s^2, were both pictures alike */
-#define PIXEL_MOST 1.5      /* times a noisy pixel's noise: what q - 2 s of one pixel counts for at most */
-#define WORSE 0.5           /* standard errors of the sum of q - 2 s over 0 from which on the denoised picture is taken to be the worse */
-#define FOLLOWED 0.5        /* of the variance of q, which is known of this very picture */
+#define PIXEL_MOST 1.5      /* q - 2 s of a pixel counts for at most so many times the noise of a noisy pixel */
+#define WORSE 0.5           /* the denoised picture is taken for the worse one where the sum of q - 2 s is so many standard errors over 0 */
+#define FOLLOWED 0.5        /* share of the variance of q in what draws the weight: q itself is known, and only what is expected of it is not */
 
 ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, const ec_film_error *noisy, ec_error *err)
 {

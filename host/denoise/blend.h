@@ -11,7 +11,7 @@ typedef struct ec_tile_sums {
     double pixels, clean, noisy, apart, noise, gain, gain_apart, variance, plains; /* the last two: of `gain` */
     double apart_variance;
     double noisy_squares;         /* of single pixels' `noisy` */
-    double excess;                /* by which `apart` is over twice `noisy`, no pixel for more than its share */
+    double excess;                /* `apart` less twice `noisy`; what a single pixel adds is limited */
 } ec_tile_sums;
 
 typedef struct ec_blend_tile {
@@ -29,12 +29,12 @@ typedef struct ec_blend_cell {
 
 typedef struct ec_blend {
     uint32_t columns, rows;
-    double pixel_noise;           /* squared error of the noisy picture in a pixel of those that hold most of it: were they alike */
+    double pixel_noise;           /* squared error of a noisy pixel, if ec_film_error.noisy_pixels of them made all the noise alike */
     ec_blend_tile *tiles;         /* row by row; owned, as the cells are */
     ec_blend_cell *cells;         /* columns + 1 times rows + 1 of them */
 } ec_blend;
 
-/* noisy: the error of the noisy picture. */
+/* noisy: the error of the noisy picture, read here and not kept. */
 ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, const ec_film_error *noisy, ec_error *err);
 void ec_blend_free(ec_blend *blend);
 

@@ -95,7 +95,7 @@ static void take_guides(work *w, uint32_t half)
     }
 }
 
-/* Of the colours in half[0], and of guides each by itself; those are NULL where they need none. */
+/* `color` filters half[0] in place. `albedo` and `normal` smooth the guides, each alone; they are NULL where guides are used as they are. */
 typedef struct filters {
     ec_oidn_filter *color, *albedo, *normal;
 } filters;
@@ -114,7 +114,7 @@ static ec_result make_filters(work *w, ec_oidn *oidn, filters *f, ec_error *err)
     return ec_oidn_filter_create(oidn, &color, &f->color, err);
 }
 
-/* Into half[0], by its own guides: they have to be as independent of the other half, by which it is judged, as its colours are. */
+/* Leaves the result in half[0]. A half has guides of its own: they have to be as independent of the other half, by which it is judged, as its colours. */
 static ec_result filter_half(work *w, ec_oidn *oidn, const filters *f, uint32_t half, bool has_guides, ec_error *err)
 {
     if (!has_guides) {

@@ -28,8 +28,7 @@ typedef struct ec_oidn_image {
     ec_oidn_quality quality;
 } ec_oidn_image;
 
-/* A filter of these images, to be run as often as they have new contents: what it sets up once, memory above all, takes as long as a run. Owned by the
- * caller, NULL on failure; freed before the library is closed. */
+/* A filter of these images, which may be run again when the images have new contents. The caller owns it, and frees it before ec_oidn_close. NULL on failure. */
 typedef struct ec_oidn_filter ec_oidn_filter;
 ec_result ec_oidn_filter_create(ec_oidn *oidn, const ec_oidn_image *image, ec_oidn_filter **filter, ec_error *err);
 ec_result ec_oidn_filter_run(ec_oidn *oidn, ec_oidn_filter *filter, ec_error *err);

@@ -176,7 +176,7 @@ static void check_reach(void)
     CHECK_NEAR(pow(of_few.high95, 2) - 1, 1.5 * far, 1e-6);
 }
 
-/* Of a picture half of whose error is the noisy picture's the interval reaches up to that one's bound. */
+/* The noisy picture makes half of this error. Its bound is three times its error, and the upper end goes up by half of what that adds. */
 static void check_noisy_bound(void)
 {
     const ec_film_error noisy = {.mean_luminance = 1, .error = 1, .bound_if_met = 3};
@@ -205,7 +205,7 @@ static void check_single(void)
     ec_film_destroy(&film);
 }
 
-/* Of a noisy picture whose pixels are alike, of noise 1. */
+/* Makes a blend for a noisy picture each of whose pixels has noise 1. */
 static void create_blend(ec_blend *blend, uint32_t width, uint32_t height)
 {
     const ec_film_error noisy = {.mean_luminance = 1, .error = 1, .noisy_pixels = width * height};
@@ -214,7 +214,7 @@ static void create_blend(ec_blend *blend, uint32_t width, uint32_t height)
     CHECK_NEAR(blend->pixel_noise, 1, 1e-9);
 }
 
-/* An error of half the mean, 2, in 4 of 32 pixels, and one of a picture without noise. */
+/* Pictures of 32 pixels and mean 2: in one, 4 pixels make an error of half the mean; the other has no noise. */
 static void check_pixel_noise(void)
 {
     const ec_film_error noisy = {.mean_luminance = 2, .error = 0.5, .noisy_pixels = 4}, steady = {.mean_luminance = 2};
@@ -303,7 +303,8 @@ static void check_whole(void)
     CHECK_NEAR(weigh(1, 8), 0, 1e-3);
 }
 
-/* Of five noisy pixels one that is far off does not make the denoised picture the worse one; fifteen of little noise do, a texture that was smoothed. */
+/* One outlier among five noisy pixels is no proof that the denoised picture is worse. Five are, and so are fifteen pixels of a texture that was smoothed,
+ * which have little noise of their own. */
 static void check_outliers(void)
 {
     const ec_judged far = {.noisy = 1, .apart = 50, .gain_variance = 1e9}, near = {.noisy = 1, .apart = 1, .gain_variance = 1e9};
@@ -313,7 +314,7 @@ static void check_outliers(void)
     CHECK_NEAR(weigh_two(5, far, 0, near), 0, 1e-3);
 }
 
-/* One noisy pixel whose difference is twice the noise, by chance: it may be as good as denoised, by a draw of half the difference's variance. */
+/* The two pictures differ in one pixel, by no more than chance makes: half of the difference's variance draws the weight to the denoised one. */
 static void check_chance(void)
 {
     const double draw = 0.5 * 8 / (2 * 0.09);
