@@ -1,13 +1,14 @@
-/* An Open Image Denoise whose denoised colours are 0.9 of those given to it, for test_denoise.py: what is stated of them can be foretold. A guide that
- * comes alone is left as it is. Its declarations are those that host/denoise/oidn.c calls. */
+/* An Open Image Denoise for test_denoise.py. It makes colours 0.9 as bright, so that what is stated of them can be foretold, or with DIM_SHOWS_ALBEDO in the
+ * environment puts the albedo in their place. It leaves a guide that comes alone as it is. Its declarations are those that host/denoise/oidn.c calls. */
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { FILTERS = 4 };
 
 typedef struct filter {
-    float *color;
+    float *color, *albedo;
     size_t values;
 } filter;
 
@@ -33,6 +34,7 @@ void oidnSetSharedFilterImage(filter *f, const char *name, void *data, int forma
 {
     (void)format, (void)offset, (void)pixel_stride, (void)row_stride;
     if (strcmp(name, "color") == 0) f->color = data, f->values = 3 * width * height;
+    if (strcmp(name, "albedo") == 0) f->albedo = data;
 }
 
 void oidnSetFilterBool(filter *f, const char *name, bool value) { (void)f, (void)name, (void)value; }
@@ -41,7 +43,8 @@ void oidnCommitFilter(filter *f) { (void)f; }
 
 void oidnExecuteFilter(filter *f)
 {
-    for (size_t i = 0; f->color && i < f->values; i++) f->color[i] *= 0.9f;
+    const bool shows_albedo = getenv("DIM_SHOWS_ALBEDO") != NULL;
+    for (size_t i = 0; f->color && i < f->values; i++) f->color[i] = shows_albedo ? f->albedo[i] : 0.9f * f->color[i];
 }
 
 void oidnReleaseFilter(filter *f) { *f = (filter){0}; }

@@ -201,11 +201,11 @@ class Denoise(Case):
 class Halves(Case):
     """With a denoiser that makes all colours 0.9 as bright."""
 
-    def render(self, *options):
+    def render(self, *options, env=None):
         if "ECLAT_DIM_DENOISER" not in os.environ:
             self.skipTest("no ECLAT_DIM_DENOISER")
         name = self.path("a.exr")
-        run = self.assert_ok(eclat("render", *JOB, "--denoise", *options, "--json", "-q", "-o", name, env={"ECLAT_OIDN": os.environ["ECLAT_DIM_DENOISER"]}))
+        run = self.assert_ok(eclat("render", *JOB, "--denoise", *options, "--json", "-q", "-o", name, env={"ECLAT_OIDN": os.environ["ECLAT_DIM_DENOISER"], **(env or {})}))
         return json.loads(run.stdout), read_exr(name)[1]
 
     def test_denoised_is_the_mean_of_both(self):
@@ -213,6 +213,14 @@ class Halves(Case):
         for c in "RGB":
             for denoised, noisy in zip(planes["denoised." + c], planes[c]):
                 self.assertAlmostEqual(denoised, 0.9 * noisy, delta=1e-6 * abs(noisy))
+
+    def test_each_half_has_its_own_guides(self):
+        """The albedo in place of colours: the mean of both halves' is that of the whole picture, but for the scale that colours are filtered in."""
+        _, planes = self.render("--spp", "16", "--channels", "denoised,albedo", env={"DIM_SHOWS_ALBEDO": "1"})
+        scale = 2 ** round(math.log2(sum(planes["denoised.R"]) / sum(planes["albedo.R"])))
+        for c in "RGB":
+            for denoised, albedo in zip(planes["denoised." + c], planes["albedo." + c]):
+                self.assertAlmostEqual(denoised, scale * albedo, delta=1e-3 * scale)  # half floats
 
     def test_each_half_is_judged_by_the_other(self):
         """A half that judged itself would take its noise for accuracy: 0.41 of the squared error would be stated."""
