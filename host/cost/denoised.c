@@ -14,8 +14,7 @@ static ec_result take_replicate(ec_cost_runner *runner, ec_film *film, ec_sessio
     runner->stopped = !batch->complete;
     if (runner->stopped) return EC_OK;
     runner->invalid += batch->invalid;
-    EC_TRY(ec_film_add_features(film, batch->features, runner->pixels, 0, true, err));
-    return ec_film_add(film, batch->replicate, batch->batch, err);
+    return ec_film_take(film, &(ec_film_batch){.index = batch->replicate, .values = batch->batch, .features = batch->features}, err);
 }
 
 static ec_result denoise(ec_cost_runner *runner, ec_film *film, ec_error *err)
@@ -52,6 +51,7 @@ ec_result ec_cost_denoised_take(ec_cost_runner *runner, uint32_t seed, uint32_t 
     *seconds = 0;
     ec_result result = room.batch && room.features ? EC_OK : ec_fail(err, "out of memory for a picture to denoise");
     if (result == EC_OK) result = ec_film_create(&film, o->width, o->height, runner->replicates, err);
+    ec_film_want_features(&film, 2, UINT32_MAX);
     if (result == EC_OK) result = take_all(runner, &film, &room, samples, seconds, err);
     ec_film_destroy(&film);
     free(room.batch);

@@ -54,7 +54,7 @@ ec_result ec_denoiser_find(ec_denoiser asked, ec_denoiser *found, ec_error *err)
 static const char *why_not(const ec_film *film, const ec_film_error *noisy)
 {
     if (ec_film_replicates(film) < EC_JUDGE_REPLICATES) return "it takes 4 samples a pixel, and --replicates 4 or more, of which one half judges the other";
-    if (!film->aov) return "first hits, by which a denoiser goes, are of the slice that begins with sample 0, which is not here";
+    if (!(ec_film_feature_samples(film) > 0)) return "first hits, by which a denoiser goes, are of the slice that begins with sample 0, which is not here";
     if (!(noisy->mean_luminance > 0)) return "the picture is black";
     return NULL;
 }
@@ -105,7 +105,7 @@ static ec_result make_filters(work *w, ec_oidn *oidn, filters *f, ec_error *err)
     const ec_film *film = w->film;
     const struct effort *effort = efforts;
     while (pixels_of(w) > effort->pixels) effort++;
-    const bool is_smoothed = effort->smooths && ec_schedule_samples(film->replicates, film->aov_batches) < CLEAN_GUIDES;
+    const bool is_smoothed = effort->smooths && ec_film_feature_samples(film) < CLEAN_GUIDES;
     const ec_oidn_image none = {.width = film->width, .height = film->height, .has_clean_guides = true, .quality = effort->quality};
     ec_oidn_image color = none, albedo = none, normal = none;
     color.color = w->half[0], color.albedo = albedo.albedo = w->albedo, color.normal = normal.normal = w->normal;
@@ -115,9 +115,9 @@ static ec_result make_filters(work *w, ec_oidn *oidn, filters *f, ec_error *err)
 }
 
 /* Leaves the result in half[0]. A half has guides of its own: they have to be as independent of the other half, by which it is judged, as its colours. */
-static ec_result filter_half(work *w, ec_oidn *oidn, const filters *f, uint32_t half, bool has_guides, ec_error *err)
+static ec_result filter_half(work *w, ec_oidn *oidn, const filters *f, uint32_t half, bool wants_guides, ec_error *err)
 {
-    if (!has_guides) {
+    if (wants_guides) {
         take_guides(w, half);
         if (f->albedo) EC_TRY(ec_oidn_filter_run(oidn, f->albedo, err));
         if (f->normal) EC_TRY(ec_oidn_filter_run(oidn, f->normal, err));
@@ -130,9 +130,9 @@ static ec_result filter_by_oidn(work *w, ec_oidn *oidn, ec_error *err)
 {
     filters f = {0};
     ec_result result = make_filters(w, oidn, &f, err);
-    if (result == EC_OK) result = filter_half(w, oidn, &f, 1, false, err);
+    if (result == EC_OK) result = filter_half(w, oidn, &f, 1, true, err);
     if (result == EC_OK) memcpy(w->half[1], w->half[0], 3 * pixels_of(w) * sizeof(float));
-    if (result == EC_OK) result = filter_half(w, oidn, &f, 0, !w->film->aov_even, err);
+    if (result == EC_OK) result = filter_half(w, oidn, &f, 0, w->film->feature_sets == 2, err);
     ec_oidn_filter_free(oidn, f.color);
     ec_oidn_filter_free(oidn, f.albedo);
     ec_oidn_filter_free(oidn, f.normal);

@@ -49,11 +49,11 @@ typedef struct ec_batch_order {
     uint32_t samples;                 /* of each of its entries */
     float limit;                      /* ec_params.limit: the same for all samples of a picture */
     uint32_t count, done;
-    const float *before;              /* what the done ones came to, EC_BATCH_FIELDS a position; NULL: somebody else has that */
+    const float *before, *features_before; /* what the done ones came to, EC_BATCH_FIELDS and EC_AOV_FIELDS a position; NULL: somebody else has that, or there is none */
     float *into;                      /* room for EC_BATCH_FIELDS of each position from `done` on; NULL: where `mean` is, the source's own */
     const ec_sums *sums;              /* the same for a block; NULL: the source's own */
-    bool with_features;               /* first-hit features too, ec_film's, of the same positions … */
-    float *aov;                       /* … and room for all of them; NULL: where `features` is. Of a device alone */
+    uint32_t feature_sets;            /* of first-hit features (film/sums.h), which come with the batches; 0: none are wanted */
+    float *features_into;             /* room for EC_AOV_FIELDS of each position from `done` on, where there is `into`; NULL: where `features` is */
     float *layers;                    /* room for three floats a layer of all positions; NULL: no layers are wanted */
     ec_matte_log *matte;              /* takes what samples meet; NULL: nobody asks */
     /* Asked between waves, with the positions that are done, the first time when the device has done them; false gives the batch up. */
@@ -79,7 +79,7 @@ struct ec_batch_source {
     uint32_t batches;                 /* that the order under way, or the last one, is for: as go_on is called it is known */
     float *mean;                      /* EC_BATCH_FIELDS a position: of the batch taken last, until the next one is. Of one given up it may be written */
     uint32_t reached;                 /* places from here on hold nothing of a batch with features that was given up */
-    float *features;                  /* of that batch likewise, EC_AOV_FIELDS a pixel, where they were wanted and had no room */
+    float *features;                  /* of that batch likewise, EC_AOV_FIELDS a position, where they were wanted and had no room */
     ec_sums sums;                     /* of the block taken last, from order->done on; owned, until somebody else takes it (and sets zeros) */
     uint64_t rays;                    /* traced so far */
     double clocked_seconds, clocked_rays; /* those of launches that were clocked, if any were */

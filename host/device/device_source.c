@@ -72,7 +72,9 @@ static ec_result prepare(ec_device_source *s, const ec_batch_order *order, ec_er
 {
     ec_pipeline *p = &s->pipeline;
     EC_TRY(take_back(s, err));
-    return order->before ? ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, BATCH_BYTES * order->done, order->before, err) : EC_OK;
+    if (order->before) EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_BATCH_FILM], 0, BATCH_BYTES * order->done, order->before, err));
+    if (!order->features_before || !order->feature_sets) return EC_OK;
+    return ec_buffer_write(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, FEATURE_BYTES * order->done, order->features_before, err);
 }
 
 /* Where the order has no room for it the batch stays where it is: a processor's films are the host's memory. */
@@ -88,8 +90,8 @@ static ec_result show(ec_device_source *s, const ec_batch_order *order, bool wri
         const uint64_t bytes = EC_LAYER_BYTES * p->params.layer_count;
         EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_LAYER_FILM], bytes * first, bytes * count, order->layers + bytes / 4 * first, err));
     }
-    if (!order->with_features) return EC_OK;
-    if (order->aov) return ec_buffer_read(p->cl, features, FEATURE_BYTES * first, FEATURE_BYTES * count, order->aov + EC_AOV_FIELDS * first, err);
+    if (!order->feature_sets) return EC_OK;
+    if (order->features_into) return ec_buffer_read(p->cl, features, FEATURE_BYTES * first, FEATURE_BYTES * count, order->features_into, err);
     return ec_buffer_map(p->cl, features, FEATURE_BYTES * order->count, writes, &s->base.features, err);
 }
 
@@ -160,7 +162,7 @@ static ec_result run_wave(ec_device_source *s, const ec_batch_order *order, uint
     ec_pipeline *p = &s->pipeline;
     const double start = ec_now();
     if (order->light == EC_LIGHT_ALONE) EC_TRY(ec_pipeline_show_light(p, first, count, err));
-    else EC_TRY(ec_pipeline_run_wave(p, seed, first, count, order->with_features, err));
+    else EC_TRY(ec_pipeline_run_wave(p, seed, first, count, order->feature_sets > 0, err));
     if (s->has_begun) return EC_OK;
     EC_TRY(ec_cl_finish(p->cl, err));
     s->has_begun = true;
@@ -197,7 +199,7 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     }
     EC_TRY(tell(s, order, !*complete, err));
     if (order->matte) EC_TRY(ec_mattes_tell(&s->mattes, order->matte, err));
-    if (!*complete && order->with_features && !order->into) mark_unreached(s, order, reached);
+    if (!*complete && order->feature_sets && !order->into) mark_unreached(s, order, reached);
     return EC_OK;
 }
 

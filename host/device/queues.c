@@ -156,7 +156,7 @@ static ec_result create_films(ec_pipeline *p, uint64_t pixels, uint64_t position
     if (p->params.layer_count) EC_TRY(create(p, "layer film", positions * EC_LAYER_BYTES * p->params.layer_count, &p->buffers[EC_ARG_LAYER_FILM], err));
     if (p->params.light_paths > 0) EC_TRY(create(p, "splats", pixels * 4 * EC_SPLAT_WORDS, &p->buffers[EC_ARG_SPLATS], err));
     EC_TRY(create(p, "batch film", positions * 4 * EC_BATCH_FIELDS, &p->buffers[EC_ARG_BATCH_FILM], err));
-    return create(p, "feature film", pixels * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err);
+    return create(p, "feature film", positions * 4 * EC_AOV_FIELDS, &p->buffers[EC_ARG_FEATURE_FILM], err);
 }
 
 static ec_result halve_wave(ec_pipeline *p, ec_error *err)

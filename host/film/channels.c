@@ -1,4 +1,5 @@
 #include "film/channels.h"
+#include "film/sums.h"
 
 #include <stddef.h>
 
@@ -45,7 +46,7 @@ const ec_channel_row ec_channel_rows[EC_CHANNEL_ROWS] = {
     {"normal.Y", EC_PLANE_FEATURES, 4, EC_CHANNEL_HALF, EC_CHANNEL_OF_ALL},
     {"normal.Z", EC_PLANE_FEATURES, 5, EC_CHANNEL_HALF, EC_CHANNEL_OF_ALL},
     {"depth.Z", EC_PLANE_FEATURES, 6, EC_CHANNEL_FLOAT, EC_CHANNEL_OF_ALL},
-    {"A", EC_PLANE_FEATURES, EC_PLACE_ALPHA, EC_CHANNEL_HALF, EC_CHANNEL_DEFAULT},
+    {"A", EC_PLANE_FEATURES, EC_FILM_ALPHA, EC_CHANNEL_HALF, EC_CHANNEL_DEFAULT},
     LIGHT("direct.", EC_PLANE_LAYER + EC_LAYER_DIRECT),
     LIGHT("indirect.", EC_PLANE_LAYER + EC_LAYER_INDIRECT),
     {"position.X", EC_PLANE_LAYER + EC_LAYER_POSITION, 0, EC_CHANNEL_FLOAT, EC_CHANNEL_BY_NAME},

@@ -16,7 +16,6 @@ typedef enum ec_plane {
     EC_PLANE_MATTE_END = EC_PLANE_MATTE + EC_MATTE_KINDS - 1,
     EC_PLANE_LAYER /* EC_LAYER_PLANES (film/layer_films.h) of the layer of each ec_layer_kind: this one, and those that follow */
 } ec_plane;
-enum { EC_PLACE_ALPHA = 7, EC_FEATURE_CHANNELS }; /* in that plane: the last one, and how many */
 
 /* How a file keeps the values of an array. */
 typedef enum ec_channel_type {

@@ -17,8 +17,6 @@
 #include "film/rare.h"
 #include "film/tail.h"
 
-enum { EC_FILM_FEATURES = 8 };
-
 /* What a denoiser has made of a film (host/denoise): 3, 3 and 1 floats a pixel, rows from the top. All NULL: nobody has asked for it. */
 typedef struct ec_film_clean {
     float *denoised, *best; /* radiance: denoised throughout, and where that is nearer to the truth */
@@ -31,12 +29,6 @@ static inline ec_film_clean ec_film_clean_from(const ec_film_clean *c, uint64_t 
     return c->best ? (ec_film_clean){c->denoised + 3 * pixel, c->best + 3 * pixel, c->error + pixel} : (ec_film_clean){0};
 }
 
-/* Zeros that the first batch's sums and features will take the place of (ec_film_make_room). */
-typedef struct ec_film_room {
-    ec_sums sums;
-    float *aov, *aov_even;
-} ec_film_room;
-
 typedef struct ec_film {
     uint32_t width, height, replicates;
     uint32_t batch_count;         /* batches that all pixels have */
@@ -45,14 +37,12 @@ typedef struct ec_film {
     double samples[EC_REPLICATES_MOST]; /* of each replicate, in pixels without counts */
     float limit;                  /* of the luminance of a sample's indirect light (film/clamp.h); 0: none */
     uint64_t invalid_count;       /* values that were NaN or infinite and counted as 0 */
-    /* First-hit features: the average over batches [0, aov_batches), each by its samples. albedo 3, normal 3, depth 1, alpha 1 per pixel; NULL: none.
-     * Owned. */
-    float *aov;
-    float *aov_even;              /* the same of even replicates' batches, so that each half has its own for a denoiser; NULL: they share aov. Owned */
-    uint32_t aov_batches;
+    uint32_t feature_sets;        /* of first-hit features (film/sums.h): 2, so that each half has its own for a denoiser; 0: none are wanted … */
+    uint32_t feature_end;         /* … else batches before this one have them, and samples that pixels get by themselves if it is UINT32_MAX */
+    float *shadow;                /* alpha that a pixel has at least, of a shadow on what cannot be seen; NULL: none. Owned */
     /* Set only where the render was stopped within its first batch: 1 for pixels that have no sample. malloc'ed. */
     uint8_t *unsampled;
-    ec_film_room room;            /* owned; NULL where none was made, or the batch has it */
+    ec_sums room;                 /* zeros for the first batch (ec_film_make_room), owned; of NULLs where none was made, or the batch has it */
     ec_film_part *parts;          /* by `first`, no two with batches in common; a single one where pixels have counts. Owned */
     uint32_t part_count;
     ec_film_clean clean;          /* owned; of the samples that there were when it was made */
@@ -75,29 +65,44 @@ void ec_film_set_clean(ec_film *film, ec_film_clean clean);
 /* A copy of it, in place of what there was; NULL: none. */
 ec_result ec_film_set_rare(ec_film *film, const ec_rare *rare, ec_error *err);
 
-/* Adds a batch that is not there yet, EC_BATCH_FIELDS floats a pixel; the order in which they come makes no difference. What is not finite
- * counts as 0. Not where pixels have counts. */
-ec_result ec_film_add(ec_film *film, uint32_t index, const float *batch, ec_error *err);
+/* From now on samples bring first-hit features in so many sets, of batches before `end`. */
+void ec_film_want_features(ec_film *film, uint32_t sets, uint32_t end);
 
-/* The last batch, `cut` samples short. */
-ec_result ec_film_add_cut(ec_film *film, uint32_t index, uint32_t cut, const float *batch, ec_error *err);
+typedef struct ec_film_batch {
+    uint32_t index;
+    uint32_t cut;          /* samples that it lacks: it is the last one */
+    const float *values;   /* EC_BATCH_FIELDS a pixel */
+    const float *features; /* EC_FILM_FEATURES a pixel; NULL: it brings none */
+    uint64_t missing;      /* pixels at the end of a first batch in which the picture was stopped: nothing is known of them */
+} ec_film_batch;
+
+/* Adds a batch that is not there yet; the order in which they come makes no difference. What is not finite counts as 0, and features as nothing where
+ * the film wants none of this batch. Not where pixels have counts. */
+ec_result ec_film_take(ec_film *film, const ec_film_batch *batch, ec_error *err);
+
+/* One without features. */
+ec_result ec_film_add(ec_film *film, uint32_t index, const float *batch, ec_error *err);
 
 /* Says of a film whose parts are all there that its last batch is so many samples short. */
 void ec_film_set_cut(ec_film *film, uint32_t cut);
 
-/* First-hit features of batch `aov_batches`, which is `cut` samples short, EC_FILM_FEATURES floats a pixel, of the first `pixels` of them; 0
- * elsewhere. by_halves: of even replicates apart, too; the first batch decides. */
-ec_result ec_film_add_features(ec_film *film, const float *features, uint64_t pixels, uint32_t cut, bool by_halves, ec_error *err);
+/* Sets of features that a part which begins with batch `first` has. */
+uint32_t ec_film_sets(const ec_film *film, uint64_t first);
 
-/* Those of the replicates of one half, 0 the even ones and 1 the odd ones, where they are apart, else of all: EC_FILM_FEATURES floats a pixel. */
+/* Samples of a pixel that features are of; of those that all pixels have. 0: there are no features. */
+double ec_film_feature_samples(const ec_film *film);
+
+/* Features of the replicates of one half, 0 the even ones and 1 the odd ones, where they are apart, else of all; EC_BOTH_HALVES: of all. EC_FILM_FEATURES
+ * floats a pixel; zeros where there are none. */
+enum { EC_BOTH_HALVES = 2 };
 void ec_film_features_of(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, float *out);
 
-/* Takes memory for pixels [from, to) of the first batch, and of its features, before it is added, and writes to each page: memory that is new is most
- * of what adding takes, and a stop within the batch would wait for it (2.2 of 2.5 s at 8192x4096). Where there is none, adding says so. */
-void ec_film_make_room(ec_film *film, uint64_t from, uint64_t to, bool with_features, bool by_halves);
+/* Those of all where they lie in the film as they are asked for; NULL: ec_film_features_of brings them together. */
+const float *ec_film_features_at(const ec_film *film, uint64_t first);
 
-/* The first batch of a picture that was stopped within it: the first `pixels` of it may have a sample. */
-ec_result ec_film_add_begun(ec_film *film, const float *batch, uint64_t pixels, ec_error *err);
+/* Takes memory for pixels [from, to) of the first batch before it is added, and writes to each page: memory that is new is most of what adding takes,
+ * and a stop within the batch would wait for it (2.2 of 2.5 s at 8192x4096). Where there is none, adding says so. */
+void ec_film_make_room(ec_film *film, uint64_t from, uint64_t to);
 
 /* Adds a part, whose memory the film takes on success. */
 ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err);
@@ -105,7 +110,7 @@ ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err);
 /* The sums of a film that is a single part, to be owned; the film is then fit to be destroyed only. */
 ec_sums ec_film_give_sums(ec_film *film);
 
-/* Adds all parts of another film of the same size and with the same layers, and its first-hit features where there are none; `from` is then fit to be destroyed
+/* Adds all parts of another film of the same size and with the same layers and sets of features; `from` is then fit to be destroyed
  * only. Fails where both have a batch, and then has changed nothing but for lack of memory. */
 ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err);
 
@@ -125,8 +130,10 @@ static inline uint32_t ec_film_end(const ec_film *film)
 }
 
 /* Some pixels go on: entry i is `samples` more samples of pixel places[i], replicate i % R. Each pixel comes with all its replicates, 0
- * first, once or several times, and all its entries one after the other. From now on pixels have counts of their own. */
-ec_result ec_film_add_some(ec_film *film, const float *batch, const uint32_t *places, uint32_t count, uint32_t samples, ec_error *err);
+ * first, once or several times, and all its entries one after the other. batch, features: of each entry, as ec_film_batch has them of a pixel. From now
+ * on pixels have counts of their own. */
+ec_result ec_film_add_some(ec_film *film, const float *batch, const float *features, const uint32_t *places, uint32_t count, uint32_t samples,
+                           ec_error *err);
 
 /* Replicates that have samples. */
 static inline uint32_t ec_film_replicates(const ec_film *film)

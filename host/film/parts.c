@@ -31,9 +31,9 @@ bool ec_film_parts_fit(const ec_film_part *left, const ec_film_part *right)
     return left->count % unit == 0 && left->count < above(unit) && left->first % above(unit) == 0;
 }
 
-uint64_t ec_film_bytes(uint32_t replicates, uint64_t first, uint64_t end)
+uint64_t ec_film_bytes(uint32_t replicates, uint32_t sets, uint64_t first, uint64_t end)
 {
-    const uint64_t sum = ec_sums_bytes(replicates), batch = 4 * EC_BATCH_FIELDS;
+    const uint64_t sum = ec_sums_bytes(replicates, sets), batch = 4 * EC_BATCH_FIELDS + (sets ? 4 * EC_FILM_FEATURES : 0);
     if (end <= first) return 0;
     uint64_t bytes = sum; /* the last level's, or the first part's */
     if (first == 0) {
@@ -48,21 +48,28 @@ uint64_t ec_film_bytes(uint32_t replicates, uint64_t first, uint64_t end)
 
 static uint64_t pixels_of(const ec_film *film) { return (uint64_t)film->width * film->height; }
 
+/* The set of features that a replicate's go into. */
+static uint32_t set_of(const ec_film *film, uint32_t replicate) { return replicate % film->feature_sets; }
+
+static double share_of(double left, double right) { return right > 0 ? right / (left + right) : 0; }
+
 static void join(const ec_film *film, ec_film_part *left, ec_film_part *right)
 {
-    double share[EC_REPLICATES_MOST] = {0};
+    double share[EC_REPLICATES_MOST] = {0}, set_share[2];
+    for (uint32_t k = 0; k < 2; k++) set_share[k] = share_of(left->set_samples[k], right->set_samples[k]);
     for (uint32_t r = 0; r < film->replicates; r++)
-        if (right->samples[r] > 0) share[r] = right->samples[r] / (left->samples[r] + right->samples[r]);
+        share[r] = share_of(left->samples[r], right->samples[r]);
     if (right->batch) {
         const uint32_t r = right->first % film->replicates;
         (void)ec_sums_add(&left->sums, right->batch, r, share[r], pixels_of(film));
+        if (right->features) ec_sums_add_features(&left->sums, right->features, set_of(film, r), set_share[set_of(film, r)], pixels_of(film));
     } else {
-        ec_sums_join(&left->sums, &right->sums, share, pixels_of(film));
+        ec_sums_join(&left->sums, &right->sums, share, set_share, pixels_of(film));
     }
+    for (uint32_t k = 0; k < 2; k++) left->set_samples[k] += right->set_samples[k];
     for (uint32_t r = 0; r < film->replicates; r++) left->samples[r] += right->samples[r];
     left->count += right->count;
-    ec_sums_destroy(&right->sums);
-    free(right->batch);
+    ec_film_part_free(right);
 }
 
 static void join_neighbours(ec_film *film)
@@ -92,12 +99,25 @@ static void settle(ec_film *film)
     }
 }
 
-/* Samples of each replicate, as the schedule has them. */
+uint32_t ec_film_sets(const ec_film *film, uint64_t first) { return first < film->feature_end ? film->feature_sets : 0; }
+
+/* Samples of each replicate, as the schedule has them; of features where there are some, up to the last batch that has them. */
 static void count_samples(const ec_film *film, ec_film_part *part)
 {
-    const uint64_t end = (uint64_t)part->first + part->count;
-    for (uint32_t r = 0; r < film->replicates; r++)
+    const uint64_t end = (uint64_t)part->first + part->count, feature_end = end < film->feature_end ? end : film->feature_end;
+    const bool has_features = part->sums.features || part->features;
+    for (uint32_t r = 0; r < film->replicates; r++) {
         part->samples[r] = (double)ec_schedule_share(film->replicates, r, part->first, end);
+        if (has_features) part->set_samples[set_of(film, r)] += (double)ec_schedule_share(film->replicates, r, part->first, feature_end);
+    }
+}
+
+/* `cut` of them, of the last batch, are not there. */
+static void cut_samples(const ec_film *film, ec_film_part *part, uint32_t cut)
+{
+    const uint32_t last = part->first + part->count - 1, replicate = last % film->replicates;
+    part->samples[replicate] -= cut;
+    if ((part->sums.features || part->features) && last < film->feature_end) part->set_samples[set_of(film, replicate)] -= cut;
 }
 
 /* The parts before those from batch `first` on. */
@@ -161,72 +181,87 @@ ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err)
 }
 
 /* A copy for a part; values that are not finite are 0 in it, and counted. */
-static float *kept(const float *batch, uint64_t pixels, uint64_t *invalid)
+static float *kept(const float *values, uint64_t count, uint64_t *invalid)
 {
-    float *own = malloc(pixels * EC_BATCH_FIELDS * sizeof *own);
-    for (uint64_t i = 0; own && i < pixels * EC_BATCH_FIELDS; i++) {
-        own[i] = isfinite(batch[i]) ? batch[i] : 0.0f;
-        *invalid += i % EC_BATCH_FIELDS < EC_BATCH_LARGEST && !isfinite(batch[i]);
+    float *own = malloc(count * sizeof *own);
+    for (uint64_t i = 0; own && i < count; i++) {
+        own[i] = isfinite(values[i]) ? values[i] : 0.0f;
+        *invalid += i % EC_BATCH_FIELDS < EC_BATCH_LARGEST && !isfinite(values[i]);
     }
     return own;
 }
 
-/* The first `there` pixels of the batch are looked at; where that is not all, it is the first one. */
-static ec_result insert_batch(ec_film *film, ec_film_part *part, const float *batch, uint64_t there, ec_error *err)
+static bool keep_batch(const ec_film *film, const ec_film_batch *batch, ec_film_part *part, uint64_t *invalid)
 {
-    uint64_t pixels = pixels_of(film), invalid = 0;
-    bool made = true;
-    if (ec_film_part_is_batch(part->first, 1)) made = (part->batch = kept(batch, pixels, &invalid)) != NULL;
-    else if (film->room.sums.mean) part->sums = film->room.sums, film->room.sums = (ec_sums){0};
-    else made = ec_sums_create(&part->sums, film->replicates, pixels);
-    if (!made)
-        return ec_fail(err, "out of memory for a film of %u x %u pixels (%.1f MB); ask for a smaller one", film->width, film->height,
-                       (double)pixels * (double)ec_sums_bytes(film->replicates) / 1e6);
-    if (!part->batch) invalid = ec_sums_add(&part->sums, batch, part->first % film->replicates, 1, there);
-    ec_result result = insert(film, part, err);
+    uint64_t of_features;
+    part->batch = kept(batch->values, pixels_of(film) * EC_BATCH_FIELDS, invalid);
+    if (batch->features) part->features = kept(batch->features, pixels_of(film) * EC_FILM_FEATURES, &of_features);
+    return part->batch && (part->features || !batch->features);
+}
+
+/* Into sums that have no samples of its replicate, and none of features. */
+static bool begin_sums(ec_film *film, const ec_film_batch *batch, ec_film_part *part, uint64_t *invalid)
+{
+    const uint64_t pixels = pixels_of(film) - batch->missing;
+    const uint32_t replicate = batch->index % film->replicates;
+    if (film->room.mean) part->sums = film->room, film->room = (ec_sums){0};
+    else if (!ec_sums_create(&part->sums, film->replicates, ec_film_sets(film, batch->index), pixels_of(film))) return false;
+    *invalid = ec_sums_add(&part->sums, batch->values, replicate, 1, pixels);
+    if (batch->features) ec_sums_add_features(&part->sums, batch->features, set_of(film, replicate), 1, pixels);
+    return true;
+}
+
+static ec_result insert_batch(ec_film *film, const ec_film_batch *batch, ec_film_part *part, ec_error *err)
+{
+    uint64_t invalid = 0;
+    const bool made = ec_film_part_is_batch(part->first, 1) ? keep_batch(film, batch, part, &invalid) : begin_sums(film, batch, part, &invalid);
+    ec_result result = made ? insert(film, part, err)
+                            : ec_fail(err, "out of memory for a film of %u x %u pixels (%.1f MB); ask for a smaller one", film->width, film->height,
+                                      (double)pixels_of(film) * (double)ec_sums_bytes(film->replicates, film->feature_sets) / 1e6);
     if (result == EC_OK) film->invalid_count += invalid;
     else ec_film_part_free(part);
     return result;
 }
 
-static ec_result add(ec_film *film, uint32_t index, uint32_t cut, const float *batch, ec_error *err)
+/* What is joined to its left neighbour as it comes. */
+static void add_batch(ec_film *film, const ec_film_batch *batch, const ec_film_part *part, ec_film_part *left)
 {
-    const uint32_t replicate = index % film->replicates;
-    ec_film_part part = {.first = index, .count = 1};
-    EC_TRY(check_free(film, index, 1, cut, err));
-    count_samples(film, &part);
-    part.samples[replicate] -= cut;
-    ec_film_part *left = neighbour_of(film, &part);
-    if (!left) return insert_batch(film, &part, batch, pixels_of(film), err);
-    const double share = part.samples[replicate] / (left->samples[replicate] + part.samples[replicate]);
-    film->invalid_count += ec_sums_add(&left->sums, batch, replicate, share, pixels_of(film));
-    left->samples[replicate] += part.samples[replicate];
+    const uint32_t replicate = batch->index % film->replicates, set = batch->features ? set_of(film, replicate) : 0;
+    const double own = part->samples[replicate];
+    film->invalid_count += ec_sums_add(&left->sums, batch->values, replicate, share_of(left->samples[replicate], own), pixels_of(film));
+    left->samples[replicate] += own;
     left->count++;
-    settle(film);
-    return EC_OK;
+    if (!batch->features) return;
+    ec_sums_add_features(&left->sums, batch->features, set, share_of(left->set_samples[set], own), pixels_of(film));
+    left->set_samples[set] += own;
 }
 
-ec_result ec_film_add(ec_film *film, uint32_t index, const float *batch, ec_error *err) { return add(film, index, 0, batch, err); }
-
-ec_result ec_film_add_begun(ec_film *film, const float *batch, uint64_t pixels, ec_error *err)
+ec_result ec_film_take(ec_film *film, const ec_film_batch *batch, ec_error *err)
 {
-    ec_film_part part = {.count = 1};
-    EC_TRY(check_free(film, 0, 1, 0, err));
+    const uint32_t replicate = batch->index % film->replicates;
+    ec_film_batch own = *batch;
+    ec_film_part part = {.first = batch->index, .count = 1};
+    if (!ec_film_sets(film, batch->index)) own.features = NULL;
+    EC_TRY(check_free(film, batch->index, 1, batch->cut, err));
     count_samples(film, &part);
-    return insert_batch(film, &part, batch, pixels, err);
+    part.samples[replicate] -= batch->cut;
+    if (own.features) part.set_samples[set_of(film, replicate)] = part.samples[replicate];
+    ec_film_part *left = neighbour_of(film, &part);
+    if (left) add_batch(film, &own, &part, left);
+    else EC_TRY(insert_batch(film, &own, &part, err));
+    settle(film);
+    film->cut += batch->cut;
+    return EC_OK;
 }
 
-ec_result ec_film_add_cut(ec_film *film, uint32_t index, uint32_t cut, const float *batch, ec_error *err)
+ec_result ec_film_add(ec_film *film, uint32_t index, const float *batch, ec_error *err)
 {
-    EC_TRY(add(film, index, cut, batch, err));
-    film->cut = cut;
-    return EC_OK;
+    return ec_film_take(film, &(ec_film_batch){.index = index, .values = batch}, err);
 }
 
 void ec_film_set_cut(ec_film *film, uint32_t cut)
 {
-    const uint32_t last = ec_film_end(film) - 1;
-    film->parts[film->part_count - 1].samples[last % film->replicates] -= cut;
+    cut_samples(film, &film->parts[film->part_count - 1], cut);
     film->cut = cut;
     settle(film);
 }
@@ -242,11 +277,6 @@ ec_result ec_film_take_parts(ec_film *film, ec_film *from, ec_error *err)
     film->cut += from->cut;
     film->invalid_count += from->invalid_count;
     if (!film->rare) film->rare = from->rare, from->rare = NULL;
-    if (film->aov) return EC_OK;
-    film->aov = from->aov;
-    film->aov_even = from->aov_even;
-    film->aov_batches = from->aov_batches;
-    from->aov = from->aov_even = NULL;
     return EC_OK;
 }
 
@@ -261,5 +291,6 @@ void ec_film_part_free(ec_film_part *part)
 {
     ec_sums_destroy(&part->sums);
     free(part->batch);
+    free(part->features);
     *part = (ec_film_part){0};
 }

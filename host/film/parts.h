@@ -2,7 +2,7 @@
  *
  * Batches are numbered from 0 (film/schedule.h). EC_FILM_FIRST of them, from a multiple of that on, are taken in one after the other; 16 such
  * sums, from a multiple of as many batches on, are joined one after the other; and so on. What has no left neighbour to be joined to yet
- * waits as a part of its own: a single batch as it is, 24 bytes a pixel, else a sum (film/sums.h). A pixel of the film is the parts' average
+ * waits as a part of its own: a single batch as it is, 24 bytes a pixel and 32 of features, else a sum (film/sums.h). A pixel of the film is the parts' average
  * from left to right (film/pixel.h).
  *
  * Batches 0 to B therefore take 1 sum up to EC_FILM_FIRST batches, else at most one more for each factor of 16. Batches from elsewhere on
@@ -18,8 +18,10 @@
 typedef struct ec_film_part {
     uint32_t first, count; /* batches; these two say what has been joined in which order */
     double samples[EC_REPLICATES_MOST]; /* of each replicate; the film's to set */
+    double set_samples[2]; /* that each set of features is the mean of; likewise */
     ec_sums sums;          /* of parts that are no single batch */
     float *batch;          /* of a single one with batches to its left, owned: EC_BATCH_FIELDS a pixel, finite; else NULL */
+    float *features;       /* of such a one, owned: EC_FILM_FEATURES a pixel; NULL: it has none */
 } ec_film_part;
 
 /* Is a part of one batch kept as it is? One that begins a sum is one at once. */
@@ -34,7 +36,7 @@ bool ec_film_parts_fit(const ec_film_part *left, const ec_film_part *right);
 /* May a part of these batches be at all? For those that come from a file. */
 bool ec_film_part_is_sound(uint64_t first, uint64_t count);
 
-/* Bytes a pixel that batches [first, end) take at most. */
-uint64_t ec_film_bytes(uint32_t replicates, uint64_t first, uint64_t end);
+/* Bytes a pixel that batches [first, end) take at most, with so many sets of features. */
+uint64_t ec_film_bytes(uint32_t replicates, uint32_t sets, uint64_t first, uint64_t end);
 
 #endif

@@ -20,7 +20,6 @@
 #define EC_REPLICATES_MOST 16
 #define EC_BATCH_MOST 64u        /* samples of a batch */
 #define EC_FEATURE_SAMPLES 8u    /* of a pixel, that first-hit features are of: so many or more, whole strides */
-#define EC_FEATURE_STRIDES 4u    /* of each replicate, that a denoised picture has them of: 8 samples of each */
 #define EC_PILOT_SAMPLES 32u     /* of a pixel: before these no error is judged, … */
 #define EC_PILOT_LEAST 4u        /* … nor before so many of each replicate */
 
@@ -50,10 +49,10 @@ bool ec_schedule_is_round(uint32_t replicates, uint64_t index);
 /* Samples that a replicate of `has` samples gets in its next stride. */
 uint32_t ec_schedule_step(uint64_t has);
 
-/* Batches that first-hit features are of. */
-static inline uint32_t ec_schedule_features(uint32_t replicates, bool is_denoised)
+/* Batches that first-hit features are of, where they are only to be shown. */
+static inline uint32_t ec_schedule_features(uint32_t replicates)
 {
-    uint32_t batches = replicates * (is_denoised ? EC_FEATURE_STRIDES : 1);
+    uint32_t batches = replicates;
     while (ec_schedule_samples(replicates, batches) < EC_FEATURE_SAMPLES) batches += replicates;
     return batches;
 }

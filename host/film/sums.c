@@ -7,10 +7,11 @@
 
 #include "film/threads.h"
 
-bool ec_sums_create(ec_sums *s, uint32_t replicates, uint64_t pixels)
+bool ec_sums_create(ec_sums *s, uint32_t replicates, uint32_t sets, uint64_t pixels)
 {
-    *s = (ec_sums){replicates, pixels, calloc(pixels, 3 * replicates * sizeof(float)), calloc(pixels, 3 * sizeof(float))};
-    if (s->mean && s->tail) return true;
+    *s = (ec_sums){replicates, sets, pixels, calloc(pixels, 3 * replicates * sizeof(float)), calloc(pixels, 3 * sizeof(float)), NULL};
+    if (sets) s->features = calloc(pixels, EC_FILM_FEATURES * sets * sizeof(float));
+    if (s->mean && s->tail && (s->features || !sets)) return true;
     ec_sums_destroy(s);
     return false;
 }
@@ -19,13 +20,14 @@ void ec_sums_destroy(ec_sums *s)
 {
     free(s->mean);
     free(s->tail);
+    free(s->features);
     *s = (ec_sums){0};
 }
 
-ec_sums ec_sums_in(void *memory, uint32_t replicates, uint64_t pixels)
+ec_sums ec_sums_in(void *memory, uint32_t replicates, uint32_t sets, uint64_t pixels)
 {
-    float *mean = memory;
-    return (ec_sums){replicates, pixels, mean, mean + 3ull * replicates * pixels};
+    float *mean = memory, *tail = mean + 3ull * replicates * pixels;
+    return (ec_sums){replicates, sets, pixels, mean, tail, sets ? tail + 3 * pixels : NULL};
 }
 
 void ec_sums_join_tails(float into[3], const float next[3])
@@ -64,8 +66,22 @@ uint64_t ec_sums_add(const ec_sums *s, const float *batch, uint32_t replicate, d
     return invalid;
 }
 
-void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, uint64_t pixels)
+void ec_sums_add_feature(const ec_sums *s, const float *features, uint32_t set, double share, uint64_t pixel)
 {
+    float *mean = ec_sums_features(s, set, pixel);
+    for (int c = 0; c < EC_FILM_FEATURES; c++) move(mean + c, isfinite(features[c]) ? features[c] : 0, share);
+}
+
+void ec_sums_add_features(const ec_sums *s, const float *features, uint32_t set, double share, uint64_t pixels)
+{
+#pragma omp parallel for if (ec_film_is_many(pixels))
+    for (uint64_t p = 0; p < pixels; p++) ec_sums_add_feature(s, features + EC_FILM_FEATURES * p, set, share, p);
+}
+
+void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, const double set_share[2], uint64_t pixels)
+{
+    for (uint32_t k = 0; k < next->sets; k++)
+        if (set_share[k] > 0) ec_sums_add_features(into, ec_sums_features(next, k, 0), k, set_share[k], pixels);
 #pragma omp parallel for if (ec_film_is_many(pixels))
     for (uint64_t p = 0; p < pixels; p++) {
         for (uint32_t r = 0; r < into->replicates; r++)
@@ -78,4 +94,6 @@ void ec_sums_copy(const ec_sums *to, const ec_sums *from, uint64_t pixels)
 {
     for (uint32_t r = 0; r < to->replicates; r++) memcpy(ec_sums_mean(to, r, 0), ec_sums_mean(from, r, 0), 3 * pixels * sizeof *to->mean);
     memcpy(to->tail, from->tail, 3 * pixels * sizeof *to->tail);
+    for (uint32_t k = 0; k < from->sets; k++)
+        memcpy(ec_sums_features(to, k, 0), ec_sums_features(from, k, 0), EC_FILM_FEATURES * pixels * sizeof *to->features);
 }

@@ -175,7 +175,8 @@ static ec_result mix_file(const ec_exr *exr, const char *path, char **gains, int
     EC_TRY(choose_layers(exr, path, gains, count, &layers, err));
     EC_TRY(read_gains(&layers, gains, count, mix, err));
     const bool with_error = ec_exr_plane(exr, "stderr.Y") != NULL && ec_exr_number(path, "eclat.replicates", &mix->replicates) && mix->replicates >= 2;
-    EC_TRY(ec_picture_create(p, exr->width, exr->height, with_error, false, false, &layers, err));
+    const ec_film like = {.width = exr->width, .height = exr->height, .layers = layers};
+    EC_TRY(ec_picture_create(p, &like, exr->height, with_error, false, false, err));
     const uint64_t pixels = (uint64_t)exr->width * exr->height;
     for (uint64_t i = 0; i < pixels; i++) p->constants[2 * i] = 0, p->constants[2 * i + 1] = 1;
     if (with_error) memset(p->heavy, 0, pixels * sizeof *p->heavy);

@@ -31,12 +31,12 @@ static bool watch(void *user, const ec_progress *progress)
 enum { TIMES = 3 }; /* and once before, which touches the memory */
 
 /* As the render does with each batch. */
-static ec_result time_batches(ec_film *film, const float *batch, double *seconds, ec_error *err)
+static ec_result time_batches(ec_film *film, const float *batch, const float *features, double *seconds, ec_error *err)
 {
     double start = 0;
     for (uint32_t i = 0; i <= TIMES; i++) {
         if (i == 1) start = ec_now();
-        EC_TRY(ec_film_add(film, i, batch, err));
+        EC_TRY(ec_film_take(film, &(ec_film_batch){.index = i, .values = batch, .features = features}, err));
         (void)ec_film_estimate_error(film);
     }
     *seconds = (ec_now() - start) / TIMES;
@@ -50,7 +50,7 @@ static ec_result time_blocks(ec_film *film, double *seconds, ec_error *err)
     *seconds = 0;
     for (uint32_t i = 0; i <= TIMES; i++) {
         ec_film_part part = {.first = EC_FILM_FIRST * i, .count = EC_FILM_FIRST};
-        if (!ec_sums_create(&part.sums, film->replicates, pixels)) return ec_fail(err, "out of memory for a block of batches");
+        if (!ec_sums_create(&part.sums, film->replicates, ec_film_sets(film, part.first), pixels)) return ec_fail(err, "out of memory for a block of batches");
         const double start = ec_now();
         EC_TRY(ec_film_insert(film, &part, err));
         (void)ec_film_estimate_error(film);
@@ -62,15 +62,20 @@ static ec_result time_blocks(ec_film *film, double *seconds, ec_error *err)
 static ec_result time_sums(const ec_film *like, ec_plan *plan, ec_error *err)
 {
     ec_film batches = {0}, blocks = {0};
-    float *batch = calloc((uint64_t)like->width * like->height, EC_BATCH_FIELDS * sizeof *batch);
-    if (!batch) return ec_fail(err, "out of memory for a batch");
-    ec_result result = ec_film_create(&batches, like->width, like->height, like->replicates, err);
-    if (result == EC_OK) result = time_batches(&batches, batch, &plan->add, err);
+    const uint64_t pixels = (uint64_t)like->width * like->height;
+    const uint32_t sets = like->feature_end == UINT32_MAX ? like->feature_sets : 0;
+    float *batch = calloc(pixels, EC_BATCH_FIELDS * sizeof *batch), *features = sets ? calloc(pixels, EC_FILM_FEATURES * sizeof *features) : NULL;
+    ec_result result = batch && (features || !sets) ? ec_film_create(&batches, like->width, like->height, like->replicates, err)
+                                                    : ec_fail(err, "out of memory for a batch");
+    ec_film_want_features(&batches, sets, UINT32_MAX);
+    if (result == EC_OK) result = time_batches(&batches, batch, features, &plan->add, err);
     ec_film_destroy(&batches);
     if (result == EC_OK) result = ec_film_create(&blocks, like->width, like->height, like->replicates, err);
+    ec_film_want_features(&blocks, sets, UINT32_MAX);
     if (result == EC_OK) result = time_blocks(&blocks, &plan->add_block, err);
     ec_film_destroy(&blocks);
     free(batch);
+    free(features);
     return result;
 }
 
@@ -112,6 +117,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
     *plan = (ec_plan){.load = job->load_seconds + s->accel_seconds + s->pack_seconds, .start = s->kernel_seconds,
                     .batch = a_batch * a_sample, .scene_bytes = s->scene_bytes, .pixels = p.pixels,
                     .batches = batches, .batches_foretold = !options.spp, .samples = a_batch, .replicates = replicates,
+                    .feature_sets = ec_render_feature_end(&options) == UINT32_MAX ? ec_render_feature_sets(&options) : 0,
                     .gbit = job->request->plan_gbit, .microseconds = job->request->plan_microseconds, .ranks = job->request->plan_ranks};
     const uint64_t rows = 8ull * options.width, wave = (uint64_t)(s->wave / a_batch); /* as render/team.c cuts them */
     plan->least = (uint64_t)fmin(fmax((double)rows, (double)wave), (double)plan->pixels);

@@ -112,7 +112,7 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
         return ec_usage(err, "--samples and --error: a slice does not know the error of the whole; leave one out");
     if (o->spp == 0) request->slice_of_any = true, o->spp = request->slice_end;
     const uint32_t a = request->slice_first, b = request->slice_end, replicates = ec_render_replicates(o);
-    const uint64_t features = ec_schedule_samples(replicates, ec_schedule_features(replicates, false));
+    const uint64_t features = ec_schedule_samples(replicates, ec_schedule_features(replicates));
     if (b > o->spp)
         return ec_usage(err, "--samples %u:%u reaches beyond the job's %u samples a pixel; give the whole job's --spp", a, b, o->spp);
     uint32_t cut;

@@ -106,8 +106,7 @@ static void lay(const ec_film films[2], ec_film *film, double *error)
             }
         const double ratio = ratio_of(light[0], light[1], n, &se2);
         if (!(ratio >= 0)) continue; /* no ground there */
-        float *alpha = film->aov + EC_FILM_FEATURES * p + EC_PLACE_ALPHA;
-        *alpha = fmaxf(*alpha, (float)fmin(fmax(1 - ratio, 0), 1));
+        film->shadow[p] = (float)fmin(fmax(1 - ratio, 0), 1);
         sum += se2;
         seen++;
     }
@@ -121,7 +120,7 @@ ec_result ec_shadow_cast(ec_cl *cl, const ec_scene *scene, const ec_render_optio
     ec_render_options o = *options;
     shadow_scenes scenes = {.with = {0}};
     *error = NAN;
-    if (!film->aov) return ec_fail(err, "--ground=shadow: the picture ended before its first hits were known");
+    if (!(ec_film_feature_samples(film) > 0)) return ec_fail(err, "--ground=shadow: the picture ended before its first hits were known");
     o.spp = spp;
     o.time_limit = o.error_target = o.clamp = o.light_paths = o.survival = 0;
     o.max_depth = 2; /* direct light alone: a ground by itself has no other */
@@ -136,6 +135,8 @@ ec_result ec_shadow_cast(ec_cl *cl, const ec_scene *scene, const ec_render_optio
         result = ec_render(cl, i ? &scenes.without : &scenes.with, &o, go_on, user, &films[i], &stats, log, err);
         if (result == EC_OK && stats.samples_per_pixel < spp) result = ec_fail(err, "--ground=shadow: stopped before the shadows were there");
     }
+    if (result == EC_OK && !film->shadow) film->shadow = calloc((uint64_t)film->width * film->height, sizeof *film->shadow);
+    if (result == EC_OK && !film->shadow) result = ec_fail(err, "out of memory for a shadow");
     if (result == EC_OK) lay(films, film, error);
     ec_film_destroy(&films[0]);
     ec_film_destroy(&films[1]);

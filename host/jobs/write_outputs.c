@@ -6,9 +6,10 @@
 
 #include "base/freed.h"
 
-ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, const ec_layers *layers,
-                            ec_error *err)
+ec_result ec_picture_create(ec_picture *picture, const ec_film *film, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, ec_error *err)
 {
+    const uint32_t width = film->width;
+    const ec_layers *layers = &film->layers;
     const size_t pixel_count = (size_t)width * rows;
     *picture = (ec_picture){.width = width, .height = rows, .layers = *layers};
     float **const planes[] = {&picture->rgb,   &picture->constants, &picture->stderr_rgb, &picture->stderr_y,
@@ -18,6 +19,8 @@ ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, 
     const int count = with_error && with_intervals ? 7 : with_error ? 5 : 2;
     for (int i = 0; made && i < count; i++) made = (*planes[i] = malloc(pixel_count * values[i] * sizeof(float))) != NULL;
     if (made && with_cut) made = (picture->clamped = malloc(pixel_count * 2 * sizeof(float))) != NULL;
+    if (made && ec_film_feature_samples(film) > 0 && !ec_film_features_at(film, 0))
+        made = (picture->features = malloc(pixel_count * EC_FILM_FEATURES * sizeof(float))) != NULL;
     if (made && layers->count) made = (picture->layer_values = malloc(pixel_count * EC_LAYER_PLANES * layers->count * sizeof(float))) != NULL;
     for (uint32_t k = 0; k < EC_MATTE_KINDS; k++)
         if (made && layers->mattes >> k & 1) made = (picture->mattes[k] = malloc(pixel_count * EC_MATTE_FLOATS * sizeof(float))) != NULL;
@@ -41,7 +44,8 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
                               .samples = picture->constants, .samples_stride = 2, .clamped = picture->clamped,
                               .intervals = {picture->low, picture->high, picture->heavy}};
     picture->height = rows;
-    picture->aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
+    if (picture->features) ec_film_features_of(film, EC_BOTH_HALVES, (uint64_t)first * film->width, pixel_count, picture->features);
+    picture->aov = picture->features ? picture->features : ec_film_features_at(film, (uint64_t)first * film->width);
     picture->clean = ec_film_clean_from(&film->clean, (uint64_t)first * film->width);
     picture->heavy_count = ec_film_resolve_rows(film, first, rows, &planes, picture->room);
     if (picture->layer_values) ec_film_resolve_layers(film, first, rows, picture->rgb, picture->layer_values);
@@ -53,7 +57,7 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
 {
     const size_t before = (size_t)first * picture->width;
     ec_picture here = {.width = picture->width, .height = rows, .rgb = picture->rgb + 3 * before, .constants = picture->constants + 2 * before,
-                       .aov = picture->aov ? picture->aov + EC_FILM_FEATURES * before : NULL};
+                       .features = picture->features ? picture->features + EC_FILM_FEATURES * before : NULL};
     here.clean = ec_film_clean_from(&picture->clean, before);
     here.layers = picture->layers;
     if (picture->layer_values) here.layer_values = picture->layer_values + EC_LAYER_PLANES * picture->layers.count * before;
@@ -71,8 +75,7 @@ ec_picture ec_picture_rows(const ec_picture *picture, uint32_t first, uint32_t r
 
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err)
 {
-    EC_TRY(ec_picture_create(picture, film->width, film->height, with_error && ec_film_replicates(film) >= 2, true,
-                             with_error && film->limit > 0, &film->layers, err));
+    EC_TRY(ec_picture_create(picture, film, film->height, with_error && ec_film_replicates(film) >= 2, true, with_error && film->limit > 0, err));
     ec_picture_fill(picture, film, 0, film->height);
     return EC_OK;
 }
@@ -87,6 +90,7 @@ void ec_picture_free(ec_picture *picture)
     free(picture->heavy);
     free(picture->constants);
     free(picture->clamped);
+    free(picture->features);
     free(picture->layer_values);
     for (uint32_t k = 0; k < EC_MATTE_KINDS; k++) free(picture->mattes[k]);
     free(picture->room);
@@ -108,7 +112,7 @@ static const float *plane_of(const ec_picture *p, ec_plane plane, uint32_t *stri
     const struct { const float *data; uint32_t stride; } planes[] = {
         [EC_PLANE_RGB] = {p->rgb, 3},       [EC_PLANE_SAMPLES] = {p->constants, 2}, [EC_PLANE_STDERR] = {p->stderr_rgb, 3},
         [EC_PLANE_STDERR_Y] = {p->stderr_y, 1}, [EC_PLANE_LOW] = {p->low, 3},       [EC_PLANE_HIGH] = {p->high, 3},
-        [EC_PLANE_HEAVY] = {p->heavy, 1},   [EC_PLANE_CLAMPED] = {p->clamped, 2},   [EC_PLANE_FEATURES] = {p->aov, EC_FEATURE_CHANNELS},
+        [EC_PLANE_HEAVY] = {p->heavy, 1},   [EC_PLANE_CLAMPED] = {p->clamped, 2},   [EC_PLANE_FEATURES] = {p->aov, EC_FILM_FEATURES},
         [EC_PLANE_DENOISED] = {p->clean.denoised, 3}, [EC_PLANE_BEST] = {p->clean.best, 3}, [EC_PLANE_DENOISED_STDERR] = {p->clean.error, 1},
     };
     *stride = planes[plane].stride;
@@ -148,7 +152,7 @@ void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
     channels->count = 0;
     for (uint32_t i = 0; i < EC_CHANNEL_ROWS; i++) {
         const ec_channel_row *row = &ec_channel_rows[i];
-        const bool is_constant = row->plane == EC_PLANE_FEATURES && row->place == EC_PLACE_ALPHA && !picture->aov;
+        const bool is_constant = row->plane == EC_PLANE_FEATURES && row->place == EC_FILM_ALPHA && !picture->aov;
         uint32_t stride;
         const float *data = plane_of(picture, is_constant ? EC_PLANE_SAMPLES : row->plane, &stride);
         if (data && ec_channel_is_matte(row)) add_matte(row, channels, data);
@@ -198,9 +202,9 @@ void ec_picture_pixels(const ec_picture *p, const ec_picture_style *style, const
 {
     const uint64_t count = (uint64_t)p->width * p->height;
     const float *rgb = p->clean.best ? p->clean.best : p->rgb;
-    const float *alpha = p->aov ? p->aov + EC_PLACE_ALPHA : p->constants + 1; /* 1 without first hits */
+    const float *alpha = p->aov ? p->aov + EC_FILM_ALPHA : p->constants + 1; /* 1 without first hits */
     if (to->bits == 32) memcpy(out, rgb, 3 * sizeof *rgb * count);
-    else ec_screen_pixels(&style->screen, rgb, alpha, p->aov ? EC_FEATURE_CHANNELS : 2, (uint64_t)p->first * p->width, count, to, out);
+    else ec_screen_pixels(&style->screen, rgb, alpha, p->aov ? EC_FILM_FEATURES : 2, (uint64_t)p->first * p->width, count, to, out);
 }
 
 static ec_result write_pixels(const char *path, const ec_format *format, const ec_picture *picture, const ec_picture_style *style, ec_error *err)

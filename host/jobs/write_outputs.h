@@ -10,7 +10,8 @@
 #include "image/image.h"
 #include "store/store.h"
 
-/* Float planes of a film or of some of its rows, ready to be written and hashed. 64 bytes a pixel, 20 where no error is known. */
+/* Float planes of a film or of some of its rows, ready to be written and hashed. 64 bytes a pixel, 20 where no error is known; 32 more where features are
+ * brought together. */
 typedef struct ec_picture {
     uint32_t width, height;
     uint32_t first;    /* row of the whole that it begins with */
@@ -27,16 +28,16 @@ typedef struct ec_picture {
     float *layer_values; /* EC_LAYER_PLANES of each, per pixel; NULL: there are none. Owned */
     float *mattes[EC_MATTE_KINDS]; /* EC_MATTE_FLOATS of each that is asked for, per pixel; NULL of others. Owned */
     ec_pixel *room;    /* for ec_film_resolve_rows; owned */
-    const float *aov;  /* the film's: 8 per pixel, or NULL */
+    float *features;   /* EC_FILM_FEATURES per pixel, where the film does not have them in one place; owned */
+    const float *aov;  /* these, or the film's; NULL: there are none */
     ec_film_clean clean; /* the film's, or NULLs */
 } ec_picture;
 
 /* with_error false: what is known of the error stays NULL in any case. */
 ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *picture, ec_error *err);
 
-/* A picture in pieces: create makes room for `rows` rows, fill writes rows [first, first + rows) of the film there. */
-ec_result ec_picture_create(ec_picture *picture, uint32_t width, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, const ec_layers *layers,
-                            ec_error *err);
+/* A picture in pieces: create makes room for `rows` rows of such a film, fill writes rows [first, first + rows) of it there. */
+ec_result ec_picture_create(ec_picture *picture, const ec_film *film, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, ec_error *err);
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
 
 /* A part of it, which owns nothing: to be filled by itself. */

@@ -83,10 +83,10 @@ static ec_result create(ec_row_writer *w, const ec_film *film, const ec_error_su
 {
     const uint32_t rows = w->height < w->band_rows ? w->height : w->band_rows;
     const bool with_intervals = w->wanted & ec_channels_of(EC_PLANE_LOW) || w->wanted & ec_channels_of(EC_PLANE_HIGH);
-    EC_TRY(ec_picture_create(&w->band, w->width, rows, ec_film_replicates(film) >= 2, with_intervals, film->limit > 0, &film->layers, err));
+    EC_TRY(ec_picture_create(&w->band, film, rows, ec_film_replicates(film) >= 2, with_intervals, film->limit > 0, err));
     w->rooms = malloc((size_t)omp_get_max_threads() * ec_resolve_room(w->width, SEAM) * sizeof *w->rooms);
     if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
-    w->band.aov = film->aov;
+    w->band.aov = w->band.features ? w->band.features : ec_film_features_at(film, 0);
     w->band.clean = film->clean;
     if (sums) w->sums = *sums;
     else ec_film_sum_errors(film, &w->sums);
@@ -101,7 +101,7 @@ static void fill_band(ec_row_writer *w, const ec_film *film, uint32_t first, uin
 {
     uint64_t heavy = 0;
     w->band.height = rows;
-    w->band.aov = film->aov ? film->aov + (size_t)EC_FILM_FEATURES * first * film->width : NULL;
+    w->band.aov = w->band.features ? w->band.features : ec_film_features_at(film, (uint64_t)first * film->width);
     w->band.clean = ec_film_clean_from(&film->clean, (uint64_t)first * film->width);
 #pragma omp parallel for schedule(dynamic, 1) reduction(+ : heavy) if ((uint64_t)w->width * rows > 1 << 14)
     for (uint32_t k = 0; k < rows; k += SEAM) {

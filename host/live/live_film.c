@@ -18,6 +18,7 @@ void ec_live_film_limit(ec_live_film *p, const ec_render_options *o, uint32_t mo
         const ec_film old = p->film;
         ec_film_destroy(&p->film);
         (void)ec_film_create(&p->film, old.width, old.height, old.replicates, NULL);
+        ec_film_want_features(&p->film, old.feature_sets, old.feature_end);
         p->seconds = 0;
         p->goal = (ec_goal){.pixels = p->goal.pixels, .replicates = old.replicates, .forecast.seconds = INFINITY};
     }
@@ -32,7 +33,9 @@ ec_result ec_live_film_start(ec_live_film *p, const ec_render_options *options, 
     p->goal = (ec_goal){.pixels = (double)width * height, .replicates = replicates, .forecast.seconds = INFINITY};
     ec_live_film_limit(p, options, more);
     p->error = (ec_film_error){.error = INFINITY, .error_bound = INFINITY, .relmse = INFINITY};
-    return ec_film_create(&p->film, width, height, replicates, err);
+    EC_TRY(ec_film_create(&p->film, width, height, replicates, err));
+    ec_film_want_features(&p->film, ec_render_feature_sets(options), ec_render_feature_end(options));
+    return EC_OK;
 }
 
 void ec_live_film_stop(ec_live_film *p)
@@ -77,11 +80,11 @@ static void judge(ec_live_film *p, double took)
     if (p->film.cut) p->stopped_by = "spp";
 }
 
-/* The batch, and first-hit features with the first ones, as a render takes them. */
+/* The batch, and first-hit features where the film wants them. */
 static ec_result make_room(ec_live_film *p, float **features, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->film.width * p->film.height;
-    const bool wants_features = p->film.batch_count < ec_schedule_features(p->film.replicates, p->limits.denoise);
+    const bool wants_features = ec_film_sets(&p->film, p->film.batch_count) > 0;
     if (!p->room) p->room = malloc(pixels * EC_BATCH_FIELDS * sizeof *p->room);
     *features = wants_features ? malloc(pixels * EC_FILM_FEATURES * sizeof **features) : NULL;
     return p->room && (*features || !wants_features) ? EC_OK : ec_fail(err, "out of memory for a picture");
@@ -100,10 +103,9 @@ ec_result ec_live_film_take(ec_live_film *p, ec_session *session, bool (*go_on)(
                               .features = features, .batch = p->room};
     if (result == EC_OK) result = ec_session_take(session, &batch, err);
     *complete = result == EC_OK && batch.complete;
-    if (result == EC_OK && *complete && features) result = ec_film_add_features(&p->film, features, (uint64_t)p->film.width * p->film.height, 0, p->limits.denoise, err);
+    if (*complete) result = ec_film_take(&p->film, &(ec_film_batch){.index = index, .cut = cut, .values = p->room, .features = features}, err);
     free(features);
     if (result != EC_OK || !*complete) return result;
-    EC_TRY(cut ? ec_film_add_cut(&p->film, index, cut, p->room, err) : ec_film_add(&p->film, index, p->room, err));
     EC_TRY(foretell(p, session, err));
     p->invalid += batch.invalid;
     p->seconds += batch.seconds;

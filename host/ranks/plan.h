@@ -24,7 +24,7 @@ typedef struct ec_plan {
     double batches;                /* of the whole job */
     bool batches_foretold;         /* from the pilot, for an error target */
     double samples;                /* a pixel, of a batch in the mean */
-    uint32_t replicates;
+    uint32_t replicates, feature_sets; /* sets: where all batches bring first-hit features */
     /* Assumed. */
     double gbit, microseconds;
     uint32_t ranks;                /* the most that are asked for */

@@ -26,7 +26,7 @@ static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_letter
     letter->numbers[EC_ORDER_FROM] = order->done;
     letter->numbers[EC_ORDER_TO] = order->count;
     memcpy(&letter->numbers[EC_ORDER_LIMIT], &order->limit, sizeof order->limit);
-    letter->numbers[EC_ORDER_FEATURES] = order->aov != NULL;
+    letter->numbers[EC_ORDER_FEATURES] = order->feature_sets;
     return box;
 }
 
@@ -74,18 +74,18 @@ static void count(ec_remote *m, const ec_letter *back)
 static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     ec_remote *m = (ec_remote *)source;
-    const uint64_t first = order->done, positions = order->count - first;
+    const uint64_t positions = order->count - order->done;
     ec_letter back;
     EC_TRY(fetch(m, order, &back, complete, err));
     if (!*complete) return EC_OK;
     count(m, &back);
     if (order->batches > 1) {
-        const ec_sums sums = ec_sums_in(back.body, order->sums->replicates, positions);
+        const ec_sums sums = ec_sums_in(back.body, order->sums->replicates, order->feature_sets, positions);
         ec_sums_copy(order->sums, &sums, positions);
     } else {
         memcpy(order->into, back.body, 4 * EC_BATCH_FIELDS * positions);
+        if (order->feature_sets) memcpy(order->features_into, (float *)back.body + EC_BATCH_FIELDS * positions, 4 * EC_AOV_FIELDS * positions);
     }
-    if (order->aov) memcpy(order->aov + EC_AOV_FIELDS * first, (float *)back.body + EC_BATCH_FIELDS * positions, 4 * EC_AOV_FIELDS * positions);
     free(back.body);
     return EC_OK;
 }

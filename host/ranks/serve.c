@@ -23,17 +23,18 @@ static bool goes_on(void *user, uint32_t done)
 }
 
 /* Writes the results of an order, from position `first` on, as they are sent. */
-static void write_body(const server *s, const ec_batch_order *order, const float *aov, void *body)
+static void write_body(const server *s, const ec_batch_order *order, void *body)
 {
     const ec_batch_source *source = s->source;
     const uint64_t first = order->done, positions = order->count - first;
     if (order->batches > 1) {
-        const ec_sums sums = ec_sums_in(body, source->sums.replicates, positions);
+        const ec_sums sums = ec_sums_in(body, source->sums.replicates, order->feature_sets, positions);
         ec_sums_copy(&sums, &source->sums, positions);
         return;
     }
     memcpy(body, source->mean + EC_BATCH_FIELDS * first, 4 * EC_BATCH_FIELDS * positions);
-    if (aov) memcpy((float *)body + EC_BATCH_FIELDS * positions, aov + EC_AOV_FIELDS * first, 4 * EC_AOV_FIELDS * positions);
+    if (order->feature_sets)
+        memcpy((float *)body + EC_BATCH_FIELDS * positions, source->features + EC_AOV_FIELDS * first, 4 * EC_AOV_FIELDS * positions);
 }
 
 /* The answer's body is malloc'ed. It stays NULL where the job was ended meanwhile. */
@@ -43,16 +44,15 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     const uint32_t index = (uint32_t)letter->numbers[EC_ORDER_INDEX], from = (uint32_t)letter->numbers[EC_ORDER_FROM];
     const uint32_t batches = (uint32_t)letter->numbers[EC_ORDER_BATCHES];
     const uint32_t positions = (uint32_t)letter->numbers[EC_ORDER_TO] - from, first = letter->body ? 0 : from;
-    const uint64_t features = letter->numbers[EC_ORDER_FEATURES] ? EC_AOV_FIELDS : 0;
-    const uint64_t bytes = (batches > 1 ? ec_sums_bytes(s->replicates) : 4 * (EC_BATCH_FIELDS + features)) * positions;
-    EC_FREED float *aov = features ? malloc(4 * features * s->pixels) : NULL;
+    const uint32_t sets = (uint32_t)letter->numbers[EC_ORDER_FEATURES];
+    const uint64_t bytes = (batches > 1 ? ec_sums_bytes(s->replicates, sets) : 4 * (EC_BATCH_FIELDS + (sets ? EC_AOV_FIELDS : 0))) * positions;
     EC_FREED float *body = malloc(bytes);
-    if (!body || (features && !aov)) return ec_fail(err, "out of memory for a batch of %u pixels", positions);
+    if (!body) return ec_fail(err, "out of memory for a batch of %u pixels", positions);
     float limit;
     memcpy(&limit, &letter->numbers[EC_ORDER_LIMIT], sizeof limit);
     const ec_batch_order order = {.light = (ec_order_light)letter->numbers[EC_ORDER_LIGHT], .index = index, .end = index + batches, .batches = batches, .cut = (uint32_t)letter->numbers[EC_ORDER_CUT],
                                   .list = letter->body, .samples = (uint32_t)letter->numbers[EC_ORDER_SAMPLES], .done = first,
-                                  .count = first + positions, .limit = limit, .with_features = aov != NULL, .aov = aov, .go_on = goes_on, .user = s};
+                                  .count = first + positions, .limit = limit, .feature_sets = sets, .go_on = goes_on, .user = s};
     const uint64_t rays = source->rays;
     uint32_t invalid[EC_STAGE_COUNT];
     bool complete = false;
@@ -62,7 +62,7 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     answer->numbers[EC_RESULT_LEAST] = source->least;
     for (int i = 0; i < EC_STAGE_COUNT; i++) answer->numbers[EC_RESULT_INVALID + i] = source->invalid[i] - invalid[i];
     if (!complete) return EC_OK;
-    write_body(s, &order, aov, body);
+    write_body(s, &order, body);
     answer->body = body;
     answer->bytes = bytes;
     body = NULL;

@@ -16,6 +16,7 @@ typedef struct ec_past {
     uint64_t invalid[EC_STAGE_COUNT]; /* dropped by the kernels, by ec_stage */
     uint32_t under_way;               /* pixels of batch `next`, in the order of its pass, that are done … */
     const float *batch;               /* … and what they came to, EC_BATCH_FIELDS a pixel of the image; NULL: none are */
+    const float *features;            /* likewise, EC_FILM_FEATURES a pixel; NULL: the batch has none */
     ec_slope slope;                   /* that the rounds so far show: an allotment goes by it */
     bool allotted;                    /* the pilot of an adaptive render is over, and its allotment is made */
     ec_allotment allotment;           /* weight, gain and level count; without weights sampling stays uniform */

@@ -56,6 +56,7 @@ static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *er
     const ec_pipeline *alone = ec_sources_alone(&r->sources);
     if (alone) EC_TRY(ec_render_choose_rows(r, log, err));
     if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_create(r->film, r->options->width, r->options->height, r->replicates, err));
+    if (!r->course->past && !r->strip_rows) ec_film_want_features(r->film, ec_render_feature_sets(r->options), ec_render_feature_end(r->options));
     if (!r->course->past && !r->strip_rows) EC_TRY(ec_film_set_layers(r->film, &r->options->layers, err));
     if (!r->strip_rows) EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
     if (!r->course->past && !r->strip_rows && r->options->adaptive && r->params.light_paths > 0) EC_TRY(ec_film_part_light(r->film, err));
@@ -230,7 +231,6 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
                          .matte_lock = PTHREAD_MUTEX_INITIALIZER};
     r.error.error = r.error.error_bound = r.error.relmse = INFINITY;
     r.replicates = ec_render_replicates(options);
-    r.feature_batches = options->hides_environment ? UINT32_MAX /* of alpha as of colour */ : ec_schedule_features(r.replicates, options->denoise);
     r.matte.lock = &r.matte_lock;
     r.goal.pixels = (double)options->width * options->height;
     r.goal.replicates = r.replicates;
@@ -247,7 +247,6 @@ ec_result ec_render_course(ec_cl *devices, uint32_t device_count, const ec_scene
         ec_render_finish_stats(&r);
     }
     ec_allotment_free(&r.past.allotment);
-    free(r.aov);
     free(r.layers);
     free(r.layer);
     free(r.matte.entries);

@@ -16,14 +16,15 @@ uint64_t ec_render_order_samples(const ec_render_state *r)
     return ec_schedule_samples(r->replicates, r->order.index + batches) - ec_schedule_samples(r->replicates, r->order.index) - r->order.cut;
 }
 
-bool ec_render_wants_features(const ec_render_state *r)
+uint32_t ec_render_wants_sets(const ec_render_state *r)
 {
-    return r->past.next < r->feature_batches && r->film->aov_batches == r->past.next && !r->past.allotment.weight;
+    const bool are_all = r->film->feature_end == UINT32_MAX;
+    return are_all || (r->past.next < r->film->feature_end && !r->past.allotment.weight) ? r->film->feature_sets : 0;
 }
 
 void ec_render_keep(ec_render_state *r, uint32_t under_way)
 {
-    if (ec_render_wants_features(r) || r->order.count > ec_render_film_pixels(r) || r->film->layers.count || r->film->light) under_way = 0;
+    if (r->order.count > ec_render_film_pixels(r) || r->film->layers.count || r->film->light) under_way = 0;
     const bool is_new = r->past.next != r->kept_next || under_way > r->kept_under_way;
     if (!r->course->keep || !is_new || !(r->film->batch_count || under_way) || r->film->unsampled || r->film->cut) return;
     ec_past now = r->past;
@@ -32,14 +33,13 @@ void ec_render_keep(ec_render_state *r, uint32_t under_way)
     if (under_way) {
         now.under_way = under_way;
         now.batch = r->source->mean;
+        now.features = r->order.feature_sets ? r->source->features : NULL;
         now.rays = r->rays_before + r->source->rays;
         for (int i = 0; i < EC_STAGE_COUNT; i++) now.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
     }
     if (r->course->keep(r->course->user, r->film, &now)) r->kept_next = now.next, r->kept_under_way = under_way;
     r->kept_at = ec_now();
 }
-
-static float *batch_features(const ec_render_state *r) { return r->aov ? r->aov : r->source->features; }
 
 /* Tells pixels that the batch has not reached, which then hold nothing; returns how many. */
 static uint64_t clear_unreached(float *mean, float *features, float *layers, uint32_t layer_count, uint64_t pixels, uint8_t *unsampled)
@@ -70,22 +70,14 @@ static ec_result add_begun(ec_render_state *r, ec_error *err)
     uint8_t *unsampled = r->film->unsampled = malloc(pixels);
     if (!unsampled) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)pixels);
     memset(unsampled + reached, 1, pixels - reached);
-    const uint64_t missing = clear_unreached(r->source->mean, batch_features(r), r->layers, r->film->layers.count, reached, unsampled);
+    const uint64_t missing = clear_unreached(r->source->mean, r->source->features, r->layers, r->film->layers.count, reached, unsampled);
     r->under_way = (reached - missing) * ec_render_order_samples(r);
-    EC_TRY(ec_film_add_features(r->film, batch_features(r), reached, 0, r->options->denoise, err));
     for (uint32_t k = 0; k < r->film->layers.count; k++) {
         ec_film_layer_batch(r->film, k, r->layers, reached, r->layer);
-        EC_TRY(ec_film_add_begun(&r->film->layer_films[k], r->layer, reached, err));
+        EC_TRY(ec_film_take(&r->film->layer_films[k], &(ec_film_batch){.values = r->layer, .missing = pixels - reached}, err));
     }
     EC_TRY(add_matte(r, err));
-    return ec_film_add_begun(r->film, r->source->mean, reached, err);
-}
-
-/* The last ones make room for the batch, before that goes into the film. */
-static ec_result add_features(ec_render_state *r, ec_error *err)
-{
-    EC_TRY(ec_film_add_features(r->film, batch_features(r), r->order.count, r->order.cut, r->options->denoise, err));
-    return r->source->end_features && r->past.next + 1 == r->feature_batches ? r->source->end_features(r->source, err) : EC_OK;
+    return ec_film_take(r->film, &(ec_film_batch){.values = r->source->mean, .features = r->source->features, .missing = pixels - reached}, err);
 }
 
 static ec_result add_block(ec_render_state *r, ec_error *err)
@@ -97,18 +89,17 @@ static ec_result add_block(ec_render_state *r, ec_error *err)
 }
 
 /* The picture's, or a layer's. */
-static ec_result add_to(const ec_render_state *r, ec_film *film, const float *mean, ec_error *err)
+static ec_result add_to(const ec_render_state *r, ec_film *film, const float *mean, const float *features, ec_error *err)
 {
-    if (r->order.list) return ec_film_add_some(film, mean, r->past.allotment.places, r->order.count, r->order.samples, err);
-    if (r->order.cut) return ec_film_add_cut(film, r->past.next, r->order.cut, mean, err);
-    return ec_film_add(film, r->past.next, mean, err);
+    if (r->order.list) return ec_film_add_some(film, mean, features, r->past.allotment.places, r->order.count, r->order.samples, err);
+    return ec_film_take(film, &(ec_film_batch){.index = r->past.next, .cut = r->order.cut, .values = mean, .features = features}, err);
 }
 
 static ec_result add_layers(ec_render_state *r, ec_error *err)
 {
     for (uint32_t k = 0; k < r->film->layers.count; k++) {
         ec_film_layer_batch(r->film, k, r->layers, r->order.count, r->layer);
-        EC_TRY(add_to(r, &r->film->layer_films[k], r->layer, err));
+        EC_TRY(add_to(r, &r->film->layer_films[k], r->layer, NULL, err));
     }
     return EC_OK;
 }
@@ -117,10 +108,12 @@ static ec_result add_layers(ec_render_state *r, ec_error *err)
 static ec_result add_whole(ec_render_state *r, ec_error *err)
 {
     if (r->order.cut) ec_render_keep(r, 0);
-    if (r->order.with_features) EC_TRY(add_features(r, err));
     EC_TRY(add_layers(r, err));
     EC_TRY(add_matte(r, err));
-    return r->source->batches > 1 ? add_block(r, err) : add_to(r, r->film, r->source->mean, err);
+    if (r->source->batches > 1) return add_block(r, err);
+    EC_TRY(add_to(r, r->film, r->source->mean, r->order.feature_sets ? r->source->features : NULL, err));
+    const bool are_last = r->order.feature_sets && r->past.next + 1 == r->film->feature_end;
+    return are_last && r->source->end_features ? r->source->end_features(r->source, err) : EC_OK;
 }
 
 /* What the source has counted so far; the film has changed. */

@@ -45,7 +45,7 @@ static void make_room(ec_render_state *r, uint32_t done)
     const uint32_t from = r->room_made;
     if (r->past.next > 0 || r->source->batches != 1 || done < from + STEP) return;
     r->room_made = done;
-    ec_film_make_room(r->film, from, done, ec_render_wants_features(r), r->options->denoise);
+    ec_film_make_room(r->film, from, done);
 }
 
 /* Between waves: goes on unless a limit or the caller ends the batch early. */
@@ -75,21 +75,14 @@ static uint32_t known_end(const ec_render_state *r)
 {
     const uint32_t next = r->past.next;
     uint32_t end = next < r->end ? r->end : next + 1;
-    if (r->film->light || r->past.allotment.weight || ec_render_wants_features(r) || r->film->layers.count || r->film->layers.mattes) return next + 1;
+    if (r->film->light || r->past.allotment.weight || r->film->layers.count || r->film->layers.mattes) return next + 1;
+    if (ec_render_wants_sets(r) && end > r->film->feature_end) end = r->film->feature_end; /* those after it bring no features */
     while (r->options->adaptive && !r->past.allotted && end > next + 1 && ec_schedule_has_pilot(r->replicates, end - 1)) {
         const uint32_t pilot = (uint32_t)ec_schedule_round(r->replicates, next);
         if (ec_schedule_has_pilot(r->replicates, pilot) || pilot >= end) return pilot < end ? pilot : end;
         end = pilot;
     }
     return end;
-}
-
-static ec_result make_room_for_features(ec_render_state *r, ec_error *err)
-{
-    const bool wants_room = ec_render_wants_features(r) && !ec_sources_alone(&r->sources);
-    if (!wants_room) free(r->aov), r->aov = NULL;
-    else if (!r->aov) r->aov = malloc((uint64_t)r->film->width * r->film->height * EC_AOV_FIELDS * sizeof *r->aov);
-    return r->aov || !wants_room ? EC_OK : ec_fail(err, "out of memory for the first-hit features");
 }
 
 static ec_result make_room_for_layers(ec_render_state *r, ec_error *err)
@@ -125,10 +118,9 @@ static double samples_left(const ec_render_state *r)
 static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
 {
     ec_allotment *a = &r->past.allotment;
-    EC_TRY(make_room_for_features(r, err));
     EC_TRY(make_room_for_layers(r, err));
     r->order = (ec_batch_order){.index = r->past.next, .end = known_end(r), .count = (uint32_t)ec_render_film_pixels(r),
-                                .light = r->film->light ? EC_LIGHT_APART : EC_LIGHT_ADDED, .with_features = ec_render_wants_features(r), .aov = r->aov, .layers = r->layers,
+                                .light = r->film->light ? EC_LIGHT_APART : EC_LIGHT_ADDED, .feature_sets = ec_render_wants_sets(r), .layers = r->layers,
                                 .matte = r->film->layers.mattes ? &r->matte : NULL,
                                 .cut = r->past.next == r->end ? r->cut : 0, .limit = r->limit, .whole = whole_from, .patience = patience(r),
                                 .until = r->options->time_limit > 0.0 ? r->render_start + r->options->time_limit : INFINITY, .left = samples_left(r),
@@ -139,9 +131,9 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     }
     r->matte.count = 0;
     r->order.done = gone_on_from(r);
-    if (r->order.done) r->order.before = r->past.batch;
+    if (r->order.done) r->order.before = r->past.batch, r->order.features_before = r->past.features;
     r->past.under_way = 0;
-    r->past.batch = NULL;
+    r->past.batch = r->past.features = NULL;
     r->samples_before_it = ec_render_samples_done(r);
     r->under_way = 0;
     ec_result result = r->source->take(r->source, &r->order, complete, err);

@@ -47,13 +47,11 @@ typedef struct ec_render_state {
     uint32_t room_made;        /* pixels of the first batch that the film has room for */
     double kept_at;
     uint32_t kept_next, kept_under_way;
-    float *aov;                /* first-hit features of a batch, until it is in the film */
     float *layers, *layer;     /* layers of a batch, until they are in the film; one of them as a batch */
     ec_matte_log matte;        /* what the samples of a batch meet, until it is in the film */
     pthread_mutex_t matte_lock;
     float limit;               /* ec_params.limit; 0: none, or not known yet */
     uint64_t cleaned_samples;  /* in the film when its clean picture was looked at last; 0: it was not */
-    uint32_t feature_batches;  /* that have first-hit features */
     const char *stopped_by;
     uint32_t strip_rows;       /* of a strip; 0: the picture is rendered whole */
     uint64_t samples_before, invalid_in_films; /* of the strips that are complete */
@@ -75,10 +73,10 @@ ec_result ec_render_foretell(ec_render_state *r, ec_error *err);
 ec_result ec_render_add_batch(ec_render_state *r, bool complete, ec_error *err);
 /* A whole one of what light paths bring goes into the film's light. */
 ec_result ec_render_add_light(ec_render_state *r, ec_error *err);
-/* Hands over what there is; of a batch that is under way too, but not of its features and layers, nor of a pass that is larger than the picture. What is
+/* Hands over what there is; of a batch that is under way too, but not of its layers, nor of a pass that is larger than the picture. What is
  * kept ends before a batch that is cut short, which cannot be gone on from. */
 void ec_render_keep(ec_render_state *r, uint32_t under_way);
-bool ec_render_wants_features(const ec_render_state *r); /* they come with the first batches, and not with those of an allotment */
+uint32_t ec_render_wants_sets(const ec_render_state *r); /* of features with the next batch */
 uint64_t ec_render_order_samples(const ec_render_state *r); /* of each position of the order */
 
 /* render_film.c: until a limit is met; what is there before stays in the film. */

@@ -42,6 +42,7 @@ static ec_result render_strip(ec_render_state *r, uint32_t first_row, uint32_t r
     r->past = (ec_past){.seconds = first_row ? ec_now() - r->render_start : 0.0, .allotment.gain = 1.0};
     r->stopped_by = NULL;
     EC_TRY(ec_film_create(r->film, r->options->width, rows, r->replicates, err));
+    ec_film_want_features(r->film, ec_render_feature_sets(r->options), ec_render_feature_end(r->options));
     EC_TRY(ec_film_set_layers(r->film, &r->options->layers, err));
     EC_TRY(ec_film_set_rare(r->film, &r->rare, err));
     EC_TRY(r->source->turn_to(r->source, first_row, rows, err));

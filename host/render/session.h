@@ -36,7 +36,7 @@ typedef struct ec_session_batch {
     bool (*go_on)(void *user);       /* asked between waves; NULL: never stops */
     void *user;
     double slice;                    /* seconds that a wave may take, as far as one can know; 0: as long as it likes */
-    float *features;                 /* result, if not NULL: of first hits, 8 a pixel as in ec_film.aov */
+    float *features;                 /* result, if not NULL: of first hits, EC_FILM_FEATURES a pixel */
     float *batch;                    /* result, if not NULL: EC_BATCH_FIELDS a pixel (shared/params.h); not finite: 0, and counted */
     float *rgb;                      /* the same: R, G, B of that alone */
     double seconds;                  /* result */

@@ -15,10 +15,11 @@ ec_strip_need ec_strip_needs(const ec_render_options *o)
     const uint64_t threads = (uint64_t)omp_get_max_threads(), around = EC_RESOLVE_ROWS + 2 * EC_INTERVAL_REACH;
     const uint64_t rows = 2 * around; /* that wait: write_rows.c; a band, and what is being resolved and compressed of it: */
     const uint64_t planes = threads * 2 * 16 * (64 + 3 + 4 * EC_LAYER_PLANES * o->layers.count), coded = threads * 3 * 16 * 25 * 4, room = threads * around * sizeof(ec_pixel);
-    const uint64_t film = o->slice_end ? ec_film_bytes(replicates, o->slice_first, o->slice_end) : ec_film_bytes(replicates, 0, batches);
-    const uint64_t batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES, layers = o->layers.count, mattes = o->layers.mattes ? EC_MATTE_BYTES : 0;
+    const uint64_t first = o->slice_end ? o->slice_first : 0, end = o->slice_end ? o->slice_end : batches;
+    const uint32_t sets = ec_render_feature_sets(o), all = ec_render_feature_end(o) == UINT32_MAX ? sets : 0; /* features of all batches; else of the first part */
+    const uint64_t film = ec_film_bytes(replicates, 0, first, end), batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES, layers = o->layers.count, mattes = o->layers.mattes ? EC_MATTE_BYTES : 0;
     const uint64_t light = o->adaptive && o->light_paths > 0 ? film : 0; /* kept apart */
-    const uint64_t pixel = film * (1 + layers) + light + features * (o->denoise ? 2 : 1), fresh = batch + features + layers * EC_LAYER_BYTES, beside = layers ? layers * EC_LAYER_BYTES + batch : 0;
+    const uint64_t pixel = film * layers + ec_film_bytes(replicates, all, first, end) + (all ? 0 : features * sets) + light, fresh = batch + features + layers * EC_LAYER_BYTES, beside = layers ? layers * EC_LAYER_BYTES + batch : 0;
     return (ec_strip_need){.host = pixel + fresh + beside + mattes, .device = fresh, .column = rows * pixel + room + planes + coded};
 }
 
@@ -34,7 +35,7 @@ uint64_t ec_strip_whole_for(const ec_render_options *o, const ec_device_info *de
     uint64_t bytes = ec_strip_whole(o);
     if (count + peers == 1) return bytes;
     for (uint32_t i = 0; i < count; i++) bytes += devices[i].type & CL_DEVICE_TYPE_CPU ? pixels * ec_strip_needs(o).device : 0;
-    return bytes + ec_team_bytes(count + peers, pixels, ec_render_replicates(o), peers > 0);
+    return bytes + ec_team_bytes(count + peers, pixels, ec_render_replicates(o), ec_render_feature_sets(o), peers > 0);
 }
 
 static uint64_t rows_in(uint64_t bytes, uint64_t width, uint64_t per_pixel) { return bytes / (width * per_pixel); }

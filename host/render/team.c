@@ -25,8 +25,9 @@ static void work_piece(member *m)
     const bool is_block = s->batches > 1;
     const ec_sums sums = is_block ? ec_sums_from(&s->sums, m->first - s->from) : (ec_sums){0};
     const ec_batch_order order = {.light = s->light, .index = s->index, .batches = s->batches, .cut = s->cut, .list = s->list, .samples = s->samples,
-                                  .limit = s->limit, .done = m->first, .count = m->end, .with_features = s->aov != NULL, .aov = s->aov, .layers = s->layers, .matte = s->matte,
-                                  .into = is_block ? NULL : s->mean + (uint64_t)EC_BATCH_FIELDS * m->first, .sums = is_block ? &sums : NULL,
+                                  .limit = s->limit, .done = m->first, .count = m->end, .layers = s->layers, .matte = s->matte,
+                                  .into = is_block ? NULL : s->mean + (uint64_t)EC_BATCH_FIELDS * m->first, .feature_sets = s->feature_sets,
+                                  .features_into = is_block || !s->feature_sets ? NULL : s->features + (uint64_t)EC_AOV_FIELDS * m->first, .sums = is_block ? &sums : NULL,
                                   .go_on = carries_on, .user = m};
     bool complete = false;
     m->is_busy = true;
@@ -131,6 +132,7 @@ static slot *open_ordered(ec_team *t, const ec_batch_order *order)
     t->done = order->batches ? order->done : 0;
     t->last = order->batches ? order->count : (uint32_t)t->pixels;
     t->limit = order->limit;
+    t->feature_sets = order->feature_sets;
     t->whole = order->whole;
     t->user = order->user;
     t->patience = order->patience;
@@ -158,6 +160,7 @@ static ec_result wait_for(ec_team *t, const ec_batch_order *order, bool *complet
     slot *s = open_ordered(t, order);
     if (!s) return ec_fail(err, "out of memory for a film of %llu pixels", (unsigned long long)t->pixels);
     t->base.mean = s->mean;
+    t->base.features = s->features;
     t->base.batches = s->batches;
     for (uint32_t done = order->done; *complete;) {
         EC_TRY(tell_failures(t, err));
@@ -218,7 +221,7 @@ static void close_team(ec_batch_source *source)
     t->next = t->opened;
     ec_team_free_units(t);
     ec_sums_destroy(&t->base.sums);
-    t->base.mean = NULL;
+    t->base.mean = t->base.features = NULL;
 }
 
 ec_batch_source *ec_team_source(ec_team *team) { return &team->base; }

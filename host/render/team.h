@@ -26,9 +26,10 @@
 #define EC_TEAM_PATIENCE_SECONDS 3.0      /* with a block, or … */
 #define EC_TEAM_PATIENCE_SHARE 0.01       /* … of the time so far */
 
-/* How many units of so many bytes a pixel a team of so many may have open; and bytes for them, where some of its pieces come from afar. */
+/* How many units of so many bytes a pixel a team of so many may have open; and bytes for them, with so many sets of features, where some of its pieces come
+ * from afar. */
 uint32_t ec_team_window(uint32_t members, uint64_t pixels, uint64_t bytes);
-uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, bool from_afar);
+uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, uint32_t sets, bool from_afar);
 
 typedef struct ec_team_recruit {
     const char *name;                 /* for messages */

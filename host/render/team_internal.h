@@ -14,7 +14,8 @@ typedef struct slot {
     uint32_t cut, samples;            /* of the order: what is not wanted of it; of each entry of a list */
     float limit;                      /* likewise */
     const uint32_t *list;
-    float *mean, *aov, *layers;       /* of a batch: EC_BATCH_FIELDS a position */
+    uint32_t feature_sets;            /* of the order */
+    float *mean, *features, *layers;  /* of a batch: EC_BATCH_FIELDS and EC_AOV_FIELDS a position, and the order's */
     ec_matte_log *matte;              /* of the order */
     ec_sums sums;                     /* of a block: of positions from `from` on */
     uint32_t from, count, handed;
@@ -50,6 +51,7 @@ struct ec_team {
     uint32_t from, end;               /* batches [from, end) may be opened next … */
     uint32_t step, done, last;        /* … so many at once, 0: as it suits; positions [done, last) of them */
     float limit;                      /* of the order */
+    uint32_t feature_sets;            /* likewise */
     bool is_out;                      /* the unit `next` has come out */
     uint64_t rays;                    /* in pieces that are over */
     bool sends;                       /* pieces of some members come from afar, and blocks are worth it */

@@ -14,9 +14,12 @@ uint32_t ec_team_window(uint32_t members, uint64_t pixels, uint64_t bytes)
     return fit > members ? members + 1 : fit > 2 ? (uint32_t)fit : 2;
 }
 
-uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, bool from_afar)
+/* Of a batch, a position. */
+static uint64_t batch_bytes(uint32_t sets) { return 4 * (EC_BATCH_FIELDS + (sets ? EC_AOV_FIELDS : 0)); }
+
+uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, uint32_t sets, bool from_afar)
 {
-    const uint64_t batch = 4 * EC_BATCH_FIELDS, sums = ec_sums_bytes(replicates);
+    const uint64_t batch = batch_bytes(sets), sums = ec_sums_bytes(replicates, sets);
     const uint64_t batches = batch * pixels * ec_team_window(members, pixels, batch);
     const uint64_t blocks = from_afar ? 2 * sums * pixels * ec_team_window(members, pixels, sums) : 0;
     return blocks > batches ? blocks : batches;
@@ -88,8 +91,9 @@ static uint32_t unit_from(const ec_team *t, uint32_t index)
 static void free_unit(slot *s)
 {
     free(s->mean);
+    free(s->features);
     ec_sums_destroy(&s->sums);
-    s->mean = NULL;
+    s->mean = s->features = NULL;
 }
 
 void ec_team_free_units(ec_team *t)
@@ -103,19 +107,21 @@ static bool make_room(ec_team *t, slot *s)
     if (s->batches <= 1) {
         ec_sums_destroy(&s->sums);
         if (!s->mean) s->mean = malloc(4 * EC_BATCH_FIELDS * ec_order_positions(t->pixels, t->replicates));
-        return s->mean != NULL;
+        if (!s->features && s->feature_sets) s->features = malloc(4 * EC_AOV_FIELDS * ec_order_positions(t->pixels, t->replicates));
+        return s->mean && (s->features || !s->feature_sets);
     }
     ec_team_free_units(t);
-    return ec_sums_create(&s->sums, t->replicates, s->count - s->from);
+    return ec_sums_create(&s->sums, t->replicates, s->feature_sets, s->count - s->from);
 }
 
 static bool open_unit(ec_team *t, const slot *unit)
 {
     slot *s = &t->slots[t->opened % t->room];
-    float *mean = s->mean;
+    float *mean = s->mean, *features = s->features;
     ec_sums_destroy(&s->sums);
     *s = *unit;
     s->mean = mean;
+    s->features = features;
     if (!make_room(t, s)) return false;
     t->opened++;
     t->from = s->index + s->batches;
@@ -124,18 +130,22 @@ static bool open_unit(ec_team *t, const slot *unit)
 
 bool ec_team_open_unit(ec_team *t, const ec_batch_order *o)
 {
-    slot unit = {.light = o->light, .index = o->index, .batches = o->batches, .cut = o->cut, .list = o->list, .samples = o->samples, .limit = o->limit, .aov = o->aov, .layers = o->layers,
+    slot unit = {.light = o->light, .index = o->index, .batches = o->batches, .cut = o->cut, .list = o->list, .samples = o->samples, .limit = o->limit, .feature_sets = o->feature_sets, .layers = o->layers,
                  .matte = o->matte, .from = o->done, .count = o->count, .handed = o->done};
-    const bool may_choose = o->light == EC_LIGHT_ADDED && !o->batches && !o->list && !o->aov && !o->layers && !o->matte && !o->done && !o->cut;
+    const bool may_choose = o->light == EC_LIGHT_ADDED && !o->batches && !o->list && !o->layers && !o->matte && !o->done && !o->cut;
     if (!unit.batches) unit.batches = may_choose ? unit_from(t, o->index) : 1;
     if (!open_unit(t, &unit)) return false;
-    float *mean = t->slots[(t->opened - 1) % t->room].mean;
-    if (o->before) memcpy(mean, o->before, 4ull * EC_BATCH_FIELDS * o->count);
-    for (uint64_t i = o->done; o->aov && i < o->count; i++) mean[EC_BATCH_FIELDS * i] = EC_NOT_REACHED;
+    const slot *s = &t->slots[(t->opened - 1) % t->room];
+    if (o->before) memcpy(s->mean, o->before, 4ull * EC_BATCH_FIELDS * o->done);
+    if (o->features_before && s->features) memcpy(s->features, o->features_before, 4ull * EC_AOV_FIELDS * o->done);
+    for (uint64_t i = o->done; s->mean && o->index == 0 && i < o->count; i++) s->mean[EC_BATCH_FIELDS * i] = EC_NOT_REACHED;
     return true;
 }
 
-static uint64_t bytes_of(const ec_team *t, uint32_t batches) { return t->pixels * (batches > 1 ? ec_sums_bytes(t->replicates) : 4 * EC_BATCH_FIELDS); }
+static uint64_t bytes_of(const ec_team *t, uint32_t batches)
+{
+    return t->pixels * (batches > 1 ? ec_sums_bytes(t->replicates, t->feature_sets) : batch_bytes(t->feature_sets));
+}
 
 static bool has_room(const ec_team *t, uint32_t batches)
 {
@@ -149,7 +159,7 @@ static bool open_ahead(ec_team *t)
 {
     if (t->opened == t->next || t->from >= t->end) return false;
     const slot unit = {.index = t->from, .batches = t->step ? t->step : unit_from(t, t->from), .from = t->done, .handed = t->done, .count = t->last,
-                       .limit = t->limit};
+                       .limit = t->limit, .feature_sets = t->feature_sets};
     return has_room(t, unit.batches) && open_unit(t, &unit);
 }
 
@@ -161,7 +171,7 @@ static uint32_t piece_of(const member *m, const slot *s)
     double seconds = seconds_for(t, samples) * alive,
            size = m->rate / samples * fmin(seconds > 0 ? seconds : EC_TEAM_PIECE_SECONDS, EC_TEAM_PIECE_SECONDS);
     if (t->from >= t->end) size = fmin(size, left / (2.0 * alive));
-    if (s->batches > 1) size = fmin(size, (double)(EC_TEAM_PIECE / ec_sums_bytes(t->replicates)));
+    if (s->batches > 1) size = fmin(size, (double)(EC_TEAM_PIECE / ec_sums_bytes(t->replicates, s->feature_sets)));
     size = ceil(fmax(fmax(size, m->source->least), 1) / unit) * unit;
     return size > 0.75 * left ? left : (uint32_t)size;
 }

@@ -1,9 +1,8 @@
 /* How a film lies in an EXR file.
  *
- * Part "picture": what viewers show; first-hit features are read from its channels A, albedo, normal and depth. Its attribute eclat.state
- * is a JSON object: state.c. Part "sums N" for each part of the film: R, G and B of each replicate, and the tail of the samples (film/sums.h); or
- * what a single batch tells. Pixels with counts of their own have "count" there. Parts "layer K sums N" are the same of the K-th layer, from 1 on; of what light paths bring, where that is apart, K is one more than there are layers. Part "allotment": "weight", by pixel number. Part
- * "features of even replicates" is of films that have them apart. Part "under way": what the batch that is not complete tells. */
+ * Part "picture": what viewers show. Its attribute eclat.state is a JSON object: state.c. Part "sums N" for each part of the film: R, G and B of each
+ * replicate, the tail of the samples and each set of features, if it has any (film/sums.h); or what a single batch tells. Pixels with counts of their own have "count" there. Parts "layer K sums N" are the same of the K-th layer, from 1 on; of what light paths bring, where that is apart, K is one more than there are layers. Part "allotment": "weight", by pixel number. Part
+ * "under way": what the batch that is not complete tells. */
 #ifndef EC_STORE_LAYOUT_H
 #define EC_STORE_LAYOUT_H
 
@@ -15,7 +14,7 @@ char *ec_state_write(const ec_job *job, const ec_film *film, const ec_past *past
 
 /* Fills the job, the past but for its arrays, and what is to be known of the film before it is read. */
 typedef struct ec_state_film {
-    uint32_t replicates, batch_count, part_count, cut, aov_batches;
+    uint32_t replicates, batch_count, part_count, cut, feature_sets, feature_end;
     float limit;
     uint64_t invalid_count;
     ec_film_part *parts, *light_parts; /* without sums; malloc'ed */
@@ -27,15 +26,15 @@ typedef struct ec_state_film {
 } ec_state_film;
 ec_result ec_state_read(const char *text, const char *path, ec_stored *stored, ec_state_film *film, ec_error *err);
 
-enum { EC_SUM_CHANNELS = 3 * EC_REPLICATES_MOST + 4 };
+enum { EC_SUM_CHANNELS = 3 * EC_REPLICATES_MOST + 4 + 2 * EC_FILM_FEATURES, EC_BATCH_CHANNELS = EC_BATCH_FIELDS + EC_FILM_FEATURES };
 typedef struct ec_channel_name {
     char text[24];
 } ec_channel_name;
 /* Channels of sums, and of counts where they are not NULL. Their names live in `names`. */
 uint32_t ec_sum_channels(const ec_sums *sums, const uint32_t *counts, ec_channel_name names[EC_SUM_CHANNELS], ec_channel channels[EC_SUM_CHANNELS]);
-uint32_t ec_batch_channels(const float *batch, ec_channel channels[EC_BATCH_FIELDS]);
+/* features: NULL where it has none. */
+uint32_t ec_batch_channels(const float *batch, const float *features, ec_channel channels[EC_BATCH_CHANNELS]);
 
-#define EC_PART_EVEN "features of even replicates"
 enum { EC_PART_NAME = 40 };
 void ec_sum_part_name(uint32_t layer, uint32_t index, char name[EC_PART_NAME]); /* layer 0: the picture */
 

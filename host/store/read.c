@@ -7,7 +7,7 @@
 #include "image/exr_header.h"
 #include "store/layout.h"
 
-enum { CHANNELS_MOST = EC_SUM_CHANNELS };
+enum { CHANNELS_MOST = EC_SUM_CHANNELS }; /* EC_BATCH_CHANNELS are fewer */
 
 /* The channels as they are written are also where they are read to: the memory is the film's own. */
 static ec_result fill(ec_exr_file *file, const char *part, const ec_channel *channels, uint32_t count, ec_error *err)
@@ -23,22 +23,26 @@ static ec_result no_memory(const char *path, ec_error *err)
     return ec_fail(err, "cannot read '%s': its film does not fit into memory", path);
 }
 
-/* Sums are averages of finite floats (film/sums.h sees to it); tails are sums of what is 0 to 1, of so many samples. */
+/* Sums and features are averages of finite floats (film/sums.h sees to it); tails are sums of what is 0 to 1, of so many samples. */
 static ec_result check_sums(const char *path, const ec_sums *sums, uint64_t pixels, ec_error *err)
 {
     bool all = true;
     for (uint64_t i = 0; i < 3ull * sums->replicates * pixels; i++) all &= fabsf(sums->mean[i]) <= FLT_MAX; /* NaN is not */
+    for (uint64_t i = 0; i < EC_FILM_FEATURES * sums->sets * pixels; i++) all &= fabsf(sums->features[i]) <= FLT_MAX;
     for (uint64_t i = 0; i < 3 * pixels; i++) all &= sums->tail[i] >= 0 && sums->tail[i] <= FLT_MAX;
     if (all) return EC_OK;
     return ec_fail(err, "cannot read '%s': sums in it are none of any samples; take an older file or render it again", path);
 }
 
-static ec_result read_batch(ec_exr_file *file, const char *path, const char *part, uint64_t pixels, float **batch, ec_error *err)
+/* *features stays NULL where the batch has none. */
+static ec_result read_batch(ec_exr_file *file, const char *path, const char *part, uint64_t pixels, float **batch, float **features, ec_error *err)
 {
-    ec_channel channels[EC_BATCH_FIELDS];
+    ec_channel channels[EC_BATCH_CHANNELS];
+    const bool has_features = ec_exr_has(file, part, ec_channel_name_of(EC_PLANE_FEATURES, 0));
     *batch = calloc(pixels * EC_BATCH_FIELDS, sizeof **batch); /* it goes by a const pointer, as what is written does */
-    if (!*batch) return no_memory(path, err);
-    return fill(file, part, channels, ec_batch_channels(*batch, channels), err);
+    if (has_features) *features = calloc(pixels * EC_FILM_FEATURES, sizeof **features);
+    if (!*batch || (has_features && !*features)) return no_memory(path, err);
+    return fill(file, part, channels, ec_batch_channels(*batch, *features, channels), err);
 }
 
 static ec_result read_part(ec_exr_file *file, const char *path, uint32_t layer, uint32_t index, ec_film_part *part, ec_film *film, ec_error *err)
@@ -49,9 +53,9 @@ static ec_result read_part(ec_exr_file *file, const char *path, uint32_t layer, 
     ec_channel_name names[CHANNELS_MOST];
     ec_sum_part_name(layer, index, name);
     if (ec_film_part_is_batch(part->first, part->count)) {
-        EC_TRY(read_batch(file, path, name, pixels, &part->batch, err));
+        EC_TRY(read_batch(file, path, name, pixels, &part->batch, &part->features, err));
     } else {
-        if (!ec_sums_create(&part->sums, film->replicates, pixels)) return no_memory(path, err);
+        if (!ec_sums_create(&part->sums, film->replicates, ec_film_sets(film, part->first), pixels)) return no_memory(path, err);
         EC_TRY(fill(file, name, channels, ec_sum_channels(&part->sums, film->counts, names, channels), err));
         EC_TRY(check_sums(path, &part->sums, pixels, err));
     }
@@ -118,21 +122,11 @@ static ec_result read_weights(ec_exr_file *file, const char *path, ec_stored *s,
 
 static ec_result read_under_way(ec_exr_file *file, const char *path, ec_stored *s, ec_error *err)
 {
-    float *batch;
-    ec_result result = read_batch(file, path, "under way", (uint64_t)s->film.width * s->film.height, &batch, err);
+    float *batch, *features = NULL;
+    ec_result result = read_batch(file, path, "under way", (uint64_t)s->film.width * s->film.height, &batch, &features, err);
     s->past.batch = batch;
+    s->past.features = features;
     return result;
-}
-
-static ec_result read_features(ec_exr_file *file, const char *path, const char *part, const ec_film *film, float **features, ec_error *err)
-{
-    ec_exr_room rooms[EC_FEATURE_CHANNELS];
-    if (!ec_exr_has(file, part, ec_channel_name_of(EC_PLANE_FEATURES, 0))) return EC_OK;
-    *features = malloc((uint64_t)film->width * film->height * EC_FEATURE_CHANNELS * sizeof(float));
-    if (!*features) return no_memory(path, err);
-    for (uint32_t i = 0; i < EC_FEATURE_CHANNELS; i++)
-        rooms[i] = (ec_exr_room){ec_channel_name_of(EC_PLANE_FEATURES, i), *features + i, EC_FEATURE_CHANNELS};
-    return ec_exr_fill(file, part, rooms, EC_FEATURE_CHANNELS, err);
 }
 
 ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
@@ -149,6 +143,7 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
                          path);
     else result = ec_state_read(text, path, s, &state, err);
     if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.replicates, err);
+    ec_film_want_features(&s->film, state.feature_sets, state.feature_end);
     state.rare.width = width;
     state.rare.height = height;
     if (result == EC_OK) result = ec_film_set_rare(&s->film, &state.rare, err);
@@ -158,9 +153,6 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     if (result == EC_OK && state.has_weights) result = read_weights(file, path, s, err);
     if (result == EC_OK && s->past.under_way) result = read_under_way(file, path, s, err);
     if (result == EC_OK) s->film.invalid_count = state.invalid_count, s->film.limit = state.limit;
-    if (result == EC_OK && state.aov_batches) result = read_features(file, path, "picture", &s->film, &s->film.aov, err);
-    if (result == EC_OK && s->film.aov) result = read_features(file, path, EC_PART_EVEN, &s->film, &s->film.aov_even, err);
-    if (s->film.aov) s->film.aov_batches = state.aov_batches;
     free(state.parts);
     free(state.light_parts);
     ec_exr_close(file);
@@ -190,6 +182,7 @@ void ec_stored_free(ec_stored *s)
     free((char *)(uintptr_t)s->job.device);
     free(s->past.allotment.weight);
     free((float *)(uintptr_t)s->past.batch);
+    free((float *)(uintptr_t)s->past.features);
     ec_film_destroy(&s->film);
     *s = (ec_stored){0};
 }

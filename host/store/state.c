@@ -10,7 +10,7 @@
 #include "store/layout.h"
 #include "store/rare_state.h"
 
-enum { FORMAT = 4 };
+enum { FORMAT = 5 };
 
 static void add_count(cJSON *object, const char *name, uint64_t value)
 {
@@ -85,7 +85,8 @@ static void add_film(cJSON *state, const ec_film *film)
     cJSON_AddNumberToObject(state, "replicates", film->replicates);
     cJSON_AddNumberToObject(state, "cut", film->cut);
     if (film->limit > 0) cJSON_AddNumberToObject(state, "limit", (double)film->limit);
-    cJSON_AddNumberToObject(state, "featureBatches", film->aov_batches);
+    cJSON_AddNumberToObject(state, "featureSets", film->feature_sets);
+    cJSON_AddNumberToObject(state, "featureEnd", film->feature_end);
     cJSON_AddNumberToObject(state, "batches", film->batch_count);
     cJSON_AddBoolToObject(state, "hasCounts", film->counts != NULL);
     add_count(state, "invalidValues", film->invalid_count);
@@ -257,7 +258,8 @@ static void read_film(reader *r, ec_state_film *film)
     film->replicates = whole(r, "replicates");
     film->cut = whole(r, "cut");
     film->limit = cJSON_HasObjectItem(r->state, "limit") ? (float)number(r, "limit", FLT_MAX) : 0;
-    film->aov_batches = whole(r, "featureBatches");
+    film->feature_sets = (uint32_t)number(r, "featureSets", 2);
+    film->feature_end = (uint32_t)number(r, "featureEnd", UINT32_MAX);
     film->batch_count = whole(r, "batches");
     film->has_counts = flag(r, "hasCounts");
     film->has_weights = flag(r, "hasWeights");
@@ -266,7 +268,7 @@ static void read_film(reader *r, ec_state_film *film)
     read_layers(r, &film->layers);
     const int most = cJSON_GetArraySize(parts);
     const bool fits = film->replicates >= 1 && film->replicates <= EC_REPLICATES_MOST && (film->batch_count >= 1) == (most >= 1) &&
-                      (most >= 1 || !film->cut) && film->aov_batches <= film->batch_count && film->cut < EC_BATCH_MOST && (most == 1 || !film->has_counts);
+                      (most >= 1 || !film->cut) && film->cut < EC_BATCH_MOST && (most == 1 || !film->has_counts);
     r->is_wrong |= !fits;
     film->part_count = read_parts(r, "parts", &film->parts);
     film->has_light = cJSON_HasObjectItem(r->state, "lightParts");

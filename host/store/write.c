@@ -14,7 +14,7 @@ static ec_exr_part make_part(sum_part *room, uint32_t layer, uint32_t index, con
 {
     uint32_t count;
     ec_sum_part_name(layer, index, room->name);
-    if (film->parts[index].batch) count = ec_batch_channels(film->parts[index].batch, room->channels);
+    if (film->parts[index].batch) count = ec_batch_channels(film->parts[index].batch, film->parts[index].features, room->channels);
     else count = ec_sum_channels(&film->parts[index].sums, film->counts, room->names, room->channels);
     return (ec_exr_part){.name = room->name, .channels = room->channels, .channel_count = count, .is_plain = true};
 }
@@ -26,8 +26,8 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
     const uint32_t sums = own + (film->light ? film->light->part_count : 0);
     uint32_t count = 1 + sums;
     const ec_channel weight = {"weight", past->allotment.weight, 1, EC_CHANNEL_FLOAT};
-    ec_channel batch[EC_BATCH_FIELDS], features[EC_FEATURE_CHANNELS];
-    ec_exr_part *parts = calloc(sums + 4, sizeof *parts);
+    ec_channel batch[EC_BATCH_CHANNELS];
+    ec_exr_part *parts = calloc(sums + 3, sizeof *parts);
     sum_part *rooms = calloc(sums + 1, sizeof *rooms);
     ec_attribute *attributes = calloc(picture->attribute_count + 1, sizeof *attributes);
     char *state = ec_state_write(job, film, past);
@@ -46,13 +46,10 @@ ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *fil
             parts[i + 1] = make_part(&rooms[i], layer, i % film->part_count, layer ? &film->layer_films[layer - 1] : film);
         }
         if (weight.data) parts[count++] = (ec_exr_part){.name = "allotment", .channels = &weight, .channel_count = 1};
-        for (uint32_t i = 0; film->aov_even && i < EC_FEATURE_CHANNELS; i++)
-            features[i] = (ec_channel){ec_channel_name_of(EC_PLANE_FEATURES, i), film->aov_even + i, EC_FEATURE_CHANNELS, EC_CHANNEL_FLOAT};
-        if (film->aov_even) parts[count++] = (ec_exr_part){.name = EC_PART_EVEN, .channels = features, .channel_count = EC_FEATURE_CHANNELS};
         if (past->under_way)
             parts[count++] = (ec_exr_part){.name = "under way",
                                            .channels = batch,
-                                           .channel_count = ec_batch_channels(past->batch, batch),
+                                           .channel_count = ec_batch_channels(past->batch, past->features, batch),
                                            .is_plain = true};
         result = ec_exr_write_parts(path, film->width, film->height, parts, count, err);
     }

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import random
+import struct
 import unittest
 
 import denoiser
@@ -16,6 +17,10 @@ JOB = [CORNELL, "--size", "48x40", *QUICK]
 # A caustic-free room with texture and gloss, where denoising pays.
 SMOOTH = [os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf"), "--size", "64x48", *QUICK]
 LAYERS = [*(f"{layer}.{c}" for layer in ("denoised", "best") for c in "RGB"), "denoised.stderr"]
+
+
+def half(x):
+    return struct.unpack("e", struct.pack("e", x))[0]
 
 
 def luminance(planes, layer=""):
@@ -118,21 +123,22 @@ class Denoise(Case):
             self.assertIn(word, line)
 
     def test_merged(self):
-        """Slices come to the denoised picture of the whole; each is denoised by itself, where it has first hits to go by."""
-        whole, attributes, planes = self.render("--spp", "96")
+        """Slices come to the denoised picture of the whole, first hits included; each is denoised by itself."""
+        whole, attributes, planes = self.render("--spp", "96", "--channels", "all")
         slices = []
-        for samples in ("0:64", "64:96"):
+        for samples in ("0:64", "64:80", "80:96"):
             slices.append(self.path(samples.replace(":", "-") + ".exr"))
             run = self.assert_ok(eclat("render", *JOB, "--denoise", "--spp", "96", "--samples", samples, "-o", slices[-1], env=self.oidn))
-            self.assertIn("denoised error" if samples == "0:64" else "denoised no: first hits, by which a denoiser goes, are of the slice that begins with sample 0",
-                          run.stdout)
+            self.assertIn("denoised error", run.stdout)
         merged = self.path("merged.exr")
         report = json.loads(self.assert_ok(eclat("merge", *reversed(slices), "--denoise", "--json", "-o", merged, env=self.oidn)).stdout)
         for name in ("denoised", "best"):
             self.assertEqual({**report[name], "seconds": 0}, {**whole[name], "seconds": 0})
         merged_attributes, merged_planes = read_exr(merged)
-        for layer in LAYERS:
-            self.assertEqual(merged_planes[layer], planes[layer], layer)
+        exact = {c: v if v == planes[c] else [half(x) for x in v] for c, v in merged_planes.items()}  # a picture alone keeps some in 16 bits
+        self.assertEqual([c for c in planes if exact.get(c) != planes[c]], [])
+        first = read_exr(slices[0])[1]
+        self.assertNotEqual([half(x) for x in first["albedo.R"]], planes["albedo.R"])
         self.assertEqual(merged_attributes["eclat.best.high95"], attributes["eclat.best.high95"])
         run = self.assert_ok(eclat("merge", merged, "--denoise=atrous", "-o", self.path("again.png"), env=self.oidn))
         self.assertRegex(run.stdout, r"denoised error .*\nbest     error ")

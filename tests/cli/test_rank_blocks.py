@@ -52,6 +52,14 @@ class RankBlocks(Case):
         self.assertGreater(report["other_ranks_samples_per_pixel"], 8192)
         self.assertLess(bytes_of_each(report), 24 / 1.5)
 
+    def test_first_hits(self):
+        """A denoiser goes by those of all samples, which are 32 bytes a pixel more of a batch, and twice that of sums."""
+        job = [*MANY[:-1], "1200000", "--denoise=atrous", "--channels", "all"]
+        whole = self.render(*job)
+        report, planes = self.render_on(3, *job)
+        self.assert_same(whole, (report, planes))
+        self.assertLess(bytes_of_each(report), 56 / 1.5)
+
     def test_until_an_error(self):
         """The same batch ends it, wherever they were rendered: it is looked at where all replicates have a quarter of a power of two, and no block
         goes beyond that. From 32768 samples on 128 batches and more lie between two looks."""

@@ -122,7 +122,7 @@ class Ranks(Case):
         self.assert_same([*JOB, "--error", "25%"], 3)
 
     def test_more_samples_where_they_tell(self):
-        self.assert_same([*JOB, "--adaptive", "--spp", "80"], 3)
+        self.assert_same([*JOB, "--adaptive", "--spp", "80", "--denoise=atrous", "--channels", "all"], 3)
 
     @full
     def test_a_slice(self):

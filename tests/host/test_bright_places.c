@@ -82,7 +82,7 @@ static ec_film render(const picture *of)
     uint32_t before;
     ec_film_part part = {.count = ec_schedule_find(REPLICATES, of->samples, &before)};
     CHECK_OK(ec_film_create(&film, SIDE, SIDE, REPLICATES, &err), err);
-    if (before || !ec_sums_create(&part.sums, REPLICATES, PIXELS)) exit(1);
+    if (before || !ec_sums_create(&part.sums, REPLICATES, 0, PIXELS)) exit(1);
     for (uint32_t r = 0; r < REPLICATES; r++) {
         memset(batch, 0, sizeof batch);
         for (uint32_t p = 0; p < PIXELS; p++) of->draw(p, of->samples / REPLICATES, batch + EC_BATCH_FIELDS * p);

@@ -105,7 +105,7 @@ static void the_last_batch_may_be_cut(void)
 {
     ec_film film = filled_by(4, 10, value);
     ec_error err;
-    CHECK_OK(films_add_cut(&film, 10, 1, batch_of(10, value), &err), err);
+    CHECK_OK(films_add_with(&film, 10, 1, batch_of(10, value), NULL, &err), err);
     CHECK(film.cut == 1 && film.batch_count == 11 && ec_film_end(&film) == 11);
     check_uneven(&film, (double[4]){4, 4, 3, 2}, two_three_or_four);
     const ec_pixel before = films_pixel(&film, 3);
@@ -130,8 +130,8 @@ static void pixels_go_on_twice(void)
     float rgb[18], batch[6 * EC_BATCH_FIELDS];
     for (int i = 0; i < 18; i++) rgb[i] = (float)(i + 1);
     films_lay_out(rgb, 6, batch);
-    CHECK_OK(ec_film_add_some(&once, batch, places, 6, 2, &err), err);
-    for (uint32_t i = 0; i < 6; i += 2) CHECK_OK(ec_film_add_some(&twice, batch + EC_BATCH_FIELDS * i, places + i, 2, 2, &err), err);
+    CHECK_OK(ec_film_add_some(&once, batch, NULL, places, 6, 2, &err), err);
+    for (uint32_t i = 0; i < 6; i += 2) CHECK_OK(ec_film_add_some(&twice, batch + EC_BATCH_FIELDS * i, NULL, places + i, 2, 2, &err), err);
     CHECK(ec_film_samples(&once, 3) == 12 && ec_film_samples(&once, 7) == 8);
     for (uint64_t p = 0; p < P; p++) {
         const ec_pixel a = films_pixel(&once, p), b = films_pixel(&twice, p);
@@ -150,8 +150,8 @@ static void some_pixels_go_on(void)
     float rgb[12], batch[4 * EC_BATCH_FIELDS];
     for (int i = 0; i < 12; i++) rgb[i] = (float)(i + 1);
     films_lay_out(rgb, 4, batch);
-    CHECK_OK(ec_film_add_some(&film, batch, places, 4, 2, &err), err);
-    CHECK_OK(ec_film_add_some(&film, batch, again, 2, 4, &err), err);
+    CHECK_OK(ec_film_add_some(&film, batch, NULL, places, 4, 2, &err), err);
+    CHECK_OK(ec_film_add_some(&film, batch, NULL, again, 2, 4, &err), err);
     CHECK(ec_film_samples(&film, 0) == 4 && ec_film_samples(&film, 1) == 8 && ec_film_samples(&film, 7) == 16);
     for (int p = 0; p < P; p++) {
         const ec_pixel pixel = films_pixel(&film, (uint64_t)p);
@@ -167,52 +167,98 @@ static void some_pixels_go_on(void)
     }
     ec_film_destroy(&film);
     film = filled_by(2, 5, value);
-    CHECK(ec_film_add_some(&film, batch, places, 4, 2, &err) == EC_FAILED && strstr(err.text, "whole round"));
+    CHECK(ec_film_add_some(&film, batch, NULL, places, 4, 2, &err) == EC_FAILED && strstr(err.text, "whole round"));
     ec_film_destroy(&film);
 }
 
-static void features_are_averaged(void)
-{
-    ec_film film = filled(0, value);
-    float features[EC_FILM_FEATURES * P];
-    for (int b = 0; b < 3; b++) {
-        for (int i = 0; i < EC_FILM_FEATURES * P; i++) features[i] = value(b, i, 0);
-        films_add_features(&film, features);
-    }
-    CHECK(film.aov_batches == 3);
-    for (int i = 0; i < EC_FILM_FEATURES * P; i++)
-        CHECK_NEAR(film.aov[i], (value(0, i, 0) + (double)value(1, i, 0) + (double)value(2, i, 0)) / 3, 1e-6);
-    ec_film_destroy(&film);
-}
-
-/* Batches of 1 sample and, from the ninth on, of 2; the last one has 1 of these. */
+/* Batches of 1 sample and, from the ninth on, of 2; the last one has 1 of these. As they come, as a file has them, and rows of them. */
 static void features_of_halves(void)
 {
-    for (int by_halves = 0; by_halves < 2; by_halves++) {
+    for (uint32_t sets = 1; sets < 3; sets++) {
         enum { BATCHES = 11 };
-        ec_film film = filled_by(4, BATCHES - 1, value);
+        ec_film film, rows;
         ec_error err;
         float features[EC_FILM_FEATURES * P], half[EC_FILM_FEATURES * P];
-        double sums[2][EC_FILM_FEATURES * P] = {{0}}, samples[2] = {0};
+        double sums[3][EC_FILM_FEATURES * P] = {{0}}, samples[3] = {0};
+        CHECK_OK(ec_film_create(&film, W, H, 4, &err), err);
+        ec_film_want_features(&film, sets, UINT32_MAX);
         for (int b = 0; b < BATCHES; b++) {
             const uint32_t cut = b == BATCHES - 1, own = ec_schedule_batch(4, (uint32_t)b).samples - cut;
-            for (int i = 0; i < EC_FILM_FEATURES * P; i++) features[i] = value(b, i, 0), sums[b % 2][i] += own * features[i];
-            samples[b % 2] += own;
-            films_add_features_by(&film, features, cut, by_halves);
+            for (int h = 0; h < 3; h++) {
+                if (h < 2 && h != b % 2) continue;
+                for (int i = 0; i < EC_FILM_FEATURES * P; i++) features[i] = value(b, i, 0), sums[h][i] += own * features[i];
+                samples[h] += own;
+            }
+            CHECK_OK(films_add_with(&film, (uint32_t)b, cut, batch_of(b, value), features, &err), err);
         }
-        CHECK_OK(films_add_cut(&film, BATCHES - 1, 1, batch_of(BATCHES - 1, value), &err), err);
-        CHECK(samples[0] == 7 && samples[1] == 6 && (film.aov_even != NULL) == by_halves);
-        ec_film rows = {0};
+        CHECK(samples[0] == 7 && samples[1] == 6 && samples[2] == 13 && ec_film_feature_samples(&film) == 13);
         CHECK_OK(ec_film_create_like(&rows, &film, H, &err), err);
         ec_film_copy_rows(&rows, 0, &film, 0, H);
-        for (uint32_t h = 0; h < 2; h++) {
+        for (uint32_t h = 0; h < 3; h++) {
+            const uint32_t of = sets == 2 ? h : EC_BOTH_HALVES;
             ec_film_features_of(&rows, h, 0, P, half);
-            for (int i = 0; i < EC_FILM_FEATURES * P; i++)
-                CHECK_NEAR(half[i], by_halves ? sums[h][i] / samples[h] : (sums[0][i] + sums[1][i]) / (samples[0] + samples[1]), 1e-5);
+            for (int i = 0; i < EC_FILM_FEATURES * P; i++) CHECK_NEAR(half[i], sums[of][i] / samples[of], 1e-5);
         }
         ec_film_destroy(&rows);
         ec_film_destroy(&film);
     }
+}
+
+/* Pixel 3 goes on by 1 sample in each of 3 replicates, and again by 2. In one pass, in two, and in sums as if the batches had been uniform. */
+static void features_go_on(void)
+{
+    enum { N = 3, ENTRIES = 2 * N };
+    const uint32_t places[N] = {3, 3, 3};
+    float features[ENTRIES * EC_FILM_FEATURES], batch[ENTRIES * EC_BATCH_FIELDS] = {0}, first[EC_FILM_FEATURES * P], out[EC_FILM_FEATURES * P];
+    for (int i = 0; i < EC_FILM_FEATURES * P; i++) first[i] = 5;
+    for (int i = 0; i < ENTRIES * EC_FILM_FEATURES; i++) features[i] = value(1, i, 0);
+    for (uint32_t end = 3; end; end = end == 3 ? UINT32_MAX : 0)
+        for (uint32_t sets = 1; sets < 3; sets++) {
+            ec_film film;
+            ec_error err;
+            CHECK_OK(ec_film_create(&film, W, H, N, &err), err);
+            ec_film_want_features(&film, sets, end);
+            for (uint32_t r = 0; r < N; r++) CHECK_OK(films_add_with(&film, r, 0, batch_of((int)r, value), first, &err), err);
+            CHECK_OK(ec_film_add_some(&film, batch, features, places, N, 1, &err), err);
+            CHECK_OK(ec_film_add_some(&film, batch, features + N * EC_FILM_FEATURES, places, N, 2, &err), err);
+            for (uint32_t half = 0; half < 3; half++) {
+                ec_film_features_of(&film, half, 0, P, out);
+                for (int i = 0; i < EC_FILM_FEATURES; i++) {
+                    double sum = 0, samples = 0;
+                    for (uint32_t r = 0; r < N; r++) {
+                        if (sets == 2 && half < 2 && r % 2 != half) continue;
+                        sum += 5 + features[EC_FILM_FEATURES * r + i] + 2 * (double)features[EC_FILM_FEATURES * (N + r) + i];
+                        samples += 4;
+                    }
+                    CHECK_NEAR(out[3 * EC_FILM_FEATURES + i], end == 3 ? 5 : sum / samples, 1e-5);
+                    CHECK(out[2 * EC_FILM_FEATURES + i] == 5);
+                }
+            }
+            ec_film_destroy(&film);
+        }
+}
+
+/* What a shadow leaves of an alpha that is less, in the picture alone. */
+static void shadow_is_alpha(void)
+{
+    ec_film film, rows;
+    ec_error err;
+    float features[EC_FILM_FEATURES * P], all[EC_FILM_FEATURES * P], half[EC_FILM_FEATURES * P];
+    for (int i = 0; i < EC_FILM_FEATURES * P; i++) features[i] = i % EC_FILM_FEATURES == EC_FILM_ALPHA ? 0.5f : value(0, i, 0);
+    CHECK_OK(ec_film_create(&film, W, H, 1, &err), err);
+    ec_film_want_features(&film, 1, UINT32_MAX);
+    CHECK_OK(films_add_with(&film, 0, 0, batch_of(0, value), features, &err), err);
+    CHECK(ec_film_features_at(&film, 1) && !memcmp(ec_film_features_at(&film, 0), features, sizeof features));
+    film.shadow = calloc(P, sizeof *film.shadow);
+    film.shadow[1] = 0.25f, film.shadow[2] = 0.75f;
+    CHECK_OK(ec_film_create_like(&rows, &film, H, &err), err);
+    ec_film_copy_rows(&rows, 0, &film, 0, H);
+    CHECK(!ec_film_features_at(&rows, 0));
+    ec_film_features_of(&rows, EC_BOTH_HALVES, 0, P, all);
+    ec_film_features_of(&rows, 0, 0, P, half);
+    for (int i = 0; i < EC_FILM_FEATURES * P; i++) CHECK(half[i] == features[i] && all[i] == (i == 2 * EC_FILM_FEATURES + EC_FILM_ALPHA ? 0.75f : features[i]));
+    ec_film_destroy(&rows);
+    ec_film_destroy(&film);
 }
 
 /* Mean 100, standard deviation 0.1; sums of squares in float gave a negative variance here. */
@@ -364,8 +410,9 @@ int main(void)
     the_last_batch_may_be_cut();
     some_pixels_go_on();
     pixels_go_on_twice();
-    features_are_averaged();
     features_of_halves();
+    features_go_on();
+    shadow_is_alpha();
     variance_survives_a_large_mean();
     resolves_mean_and_standard_error();
     error_never_lies_about_corner_cases();

@@ -7,7 +7,7 @@
 enum { W = 3, H = 2, P = W * H, MOST = 5000, FIELDS = EC_BATCH_FIELDS * P };
 
 static test_random state = {7};
-static uint32_t replicates = EC_REPLICATES;
+static uint32_t replicates = EC_REPLICATES, sets, feature_end = UINT32_MAX;
 
 /* Batch k of every film here. Heavy-tailed, and far from 0, where sums in another order do not round alike. */
 static const float *batch_of(uint32_t k)
@@ -25,11 +25,27 @@ static const float *batch_of(uint32_t k)
     return batch;
 }
 
+static float feature(uint32_t k, uint32_t i) { return (float)(1 + (k * 31 + i * 7) % 97 / 97.0); }
+
+/* Its features. */
+static const float *features_of(uint32_t k)
+{
+    static float features[EC_FILM_FEATURES * P];
+    for (uint32_t i = 0; i < EC_FILM_FEATURES * P; i++) features[i] = feature(k, i);
+    return features;
+}
+
+static ec_result add(ec_film *film, uint32_t k, uint32_t cut, ec_error *err)
+{
+    return ec_film_take(film, &(ec_film_batch){.index = k, .cut = cut, .values = batch_of(k), .features = sets ? features_of(k) : NULL}, err);
+}
+
 static ec_film empty(void)
 {
     ec_film film;
     ec_error err;
     CHECK_OK(ec_film_create(&film, W, H, replicates, &err), err);
+    ec_film_want_features(&film, sets, feature_end);
     return film;
 }
 
@@ -37,7 +53,7 @@ static ec_film slice(uint32_t first, uint32_t end)
 {
     ec_film film = empty();
     ec_error err;
-    for (uint32_t k = first; k < end; k++) CHECK_OK(ec_film_add(&film, k, batch_of(k), &err), err);
+    for (uint32_t k = first; k < end; k++) CHECK_OK(add(&film, k, 0, &err), err);
     return film;
 }
 
@@ -46,13 +62,13 @@ static ec_film cut_after(uint32_t count)
 {
     ec_film film = slice(0, count - 1);
     ec_error err;
-    CHECK_OK(ec_film_add_cut(&film, count - 1, 1, batch_of(count - 1), &err), err);
+    CHECK_OK(add(&film, count - 1, 1, &err), err);
     return film;
 }
 
 static bool same(const ec_film *a, const ec_film *b)
 {
-    return films_same_bits(a, b) && a->part_count == b->part_count && !memcmp(a->samples, b->samples, sizeof a->samples);
+    return films_same_bits(a, b) && films_same_features(a, b) && a->part_count == b->part_count && !memcmp(a->samples, b->samples, sizeof a->samples);
 }
 
 static void shuffle(uint32_t *order, uint32_t count)
@@ -74,7 +90,7 @@ static void any_order_of_batches(void)
             ec_film in_order = slice(0, n), mixed = empty();
             ec_error err;
             shuffle(order, n);
-            for (uint32_t k = 0; k < n; k++) CHECK_OK(ec_film_add(&mixed, order[k], batch_of(order[k]), &err), err);
+            for (uint32_t k = 0; k < n; k++) CHECK_OK(add(&mixed, order[k], 0, &err), err);
             CHECK_MSG(same(&in_order, &mixed), "%u batches", n);
             ec_film_destroy(&in_order);
             ec_film_destroy(&mixed);
@@ -156,6 +172,26 @@ static void figures_are_those_of_all_samples(const ec_film *film, const uint32_t
     }
 }
 
+static void features_are_those_of_all_samples(const ec_film *film, const uint32_t *batches, uint32_t n)
+{
+    double sum[3][EC_FILM_FEATURES * P] = {{0}}, samples[3] = {0};
+    float own[EC_FILM_FEATURES * P];
+    for (uint32_t k = 0; k < n; k++) {
+        const ec_batch_range range = ec_schedule_batch(replicates, batches[k]);
+        if (batches[k] >= feature_end) continue;
+        for (uint32_t half = 0; half < 3; half++) {
+            if (half < 2 && sets == 2 && range.replicate % 2 != half) continue;
+            samples[half] += range.samples;
+            for (uint32_t i = 0; i < EC_FILM_FEATURES * P; i++) sum[half][i] += (double)range.samples * feature(batches[k], i);
+        }
+    }
+    CHECK(ec_film_feature_samples(film) == samples[EC_BOTH_HALVES]);
+    for (uint32_t half = 0; half < 3; half++) {
+        ec_film_features_of(film, half, 0, P, own);
+        for (uint32_t i = 0; i < EC_FILM_FEATURES * P; i++) CHECK_NEAR(own[i], samples[half] > 0 ? sum[half][i] / samples[half] : 0, 46 * 0x1p-23);
+    }
+}
+
 static void what_is_shown(void)
 {
     static uint32_t all[MOST];
@@ -164,6 +200,7 @@ static void what_is_shown(void)
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
         ec_film film = slice(ranges[i][0], ranges[i][1]);
         figures_are_those_of_all_samples(&film, all + ranges[i][0], ranges[i][1] - ranges[i][0]);
+        if (sets) features_are_those_of_all_samples(&film, all + ranges[i][0], ranges[i][1] - ranges[i][0]);
         ec_film_destroy(&film);
     }
     ec_film gaps = slice(30, 70);
@@ -172,9 +209,10 @@ static void what_is_shown(void)
                              51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 999};
     uint32_t n = sizeof list / sizeof *list;
     for (uint32_t k = 0; k < n; k++)
-        if (list[k] < 30 || list[k] >= 70) CHECK_OK(ec_film_add(&gaps, list[k], batch_of(list[k]), &err), err);
+        if (list[k] < 30 || list[k] >= 70) CHECK_OK(add(&gaps, list[k], 0, &err), err);
     CHECK(gaps.batch_count == n && ec_film_end(&gaps) == 1000);
     figures_are_those_of_all_samples(&gaps, list, n);
+    if (sets) features_are_those_of_all_samples(&gaps, list, n);
     ec_film_destroy(&gaps);
 }
 
@@ -182,7 +220,10 @@ static void what_is_shown(void)
 static uint64_t bytes_of(const ec_film *film)
 {
     uint64_t bytes = 0;
-    for (uint32_t i = 0; i < film->part_count; i++) bytes += film->parts[i].batch ? 4 * EC_BATCH_FIELDS : ec_sums_bytes(replicates);
+    for (uint32_t i = 0; i < film->part_count; i++) {
+        const ec_film_part *part = &film->parts[i];
+        bytes += part->batch ? 4 * EC_BATCH_FIELDS + (part->features ? 4 * EC_FILM_FEATURES : 0) : ec_sums_bytes(replicates, part->sums.sets);
+    }
     return bytes;
 }
 
@@ -191,16 +232,17 @@ static void take_block(ec_film_part *part)
 {
     enum { CUT = 4 };
     ec_error err;
-    CHECK(ec_sums_create(&part->sums, replicates, P));
+    CHECK(ec_sums_create(&part->sums, replicates, sets, P));
     for (uint32_t first = 0, end; first < P; first = end) {
         ec_film piece;
         end = first ? P : CUT;
         CHECK_OK(ec_film_create(&piece, end - first, 1, replicates, &err), err);
+        ec_film_want_features(&piece, sets, UINT32_MAX);
         for (uint32_t i = part->first; i < part->first + part->count; i++)
-            CHECK_OK(ec_film_add(&piece, i, batch_of(i) + EC_BATCH_FIELDS * first, &err), err);
+            CHECK_OK(ec_film_take(&piece, &(ec_film_batch){.index = i, .values = batch_of(i) + EC_BATCH_FIELDS * first, .features = features_of(i) + EC_FILM_FEATURES * first}, &err), err);
         ec_sums sums = ec_film_give_sums(&piece), here = ec_sums_from(&part->sums, first);
-        float memory[(3 * EC_REPLICATES_MOST + 3) * P];
-        const ec_sums sent = ec_sums_in(memory, replicates, end - first);
+        float memory[(3 * EC_REPLICATES_MOST + 3 + 2 * EC_FILM_FEATURES) * P];
+        const ec_sums sent = ec_sums_in(memory, replicates, sets, end - first);
         ec_sums_copy(&sent, &sums, end - first);
         ec_sums_copy(&here, &sent, end - first);
         ec_sums_destroy(&sums);
@@ -220,8 +262,8 @@ static void blocks_of_batches(void)
         ec_film_part part = {.first = k, .count = count};
         if (count > 1) take_block(&part);
         if (count > 1) CHECK_OK(ec_film_insert(&mixed, &part, &err), err);
-        else CHECK_OK(ec_film_add(&mixed, k, batch_of(k), &err), err);
-        CHECK(!part.sums.mean && bytes_of(&mixed) <= ec_film_bytes(replicates, 0, k + count));
+        else CHECK_OK(add(&mixed, k, 0, &err), err);
+        CHECK(!part.sums.mean && bytes_of(&mixed) <= ec_film_bytes(replicates, sets, 0, k + count));
     }
     CHECK(same(&in_order, &mixed));
     ec_film_destroy(&in_order);
@@ -232,7 +274,7 @@ static void nothing_twice(void)
 {
     ec_film film = slice(0, 40), other = slice(39, 60);
     ec_error err;
-    CHECK(ec_film_add(&film, 17, batch_of(17), &err) == EC_FAILED && strstr(err.text, "batches 17 to 17 are there twice"));
+    CHECK(add(&film, 17, 0, &err) == EC_FAILED && strstr(err.text, "batches 17 to 17 are there twice"));
     CHECK(ec_film_take_parts(&film, &other, &err) == EC_FAILED && strstr(err.text, "batches 39 to 39 are there twice"));
     ec_film again = slice(0, 40);
     CHECK(same(&film, &again));
@@ -252,18 +294,18 @@ static void a_cut_batch(void)
         ec_error err;
         shuffle(order, n);
         for (uint32_t k = 0; k < n; k++) {
-            if (order[k] == n - 1) CHECK_OK(ec_film_add_cut(&mixed, n - 1, 1, batch_of(n - 1), &err), err);
-            else CHECK_OK(ec_film_add(&mixed, order[k], batch_of(order[k]), &err), err);
+            if (order[k] == n - 1) CHECK_OK(add(&mixed, n - 1, 1, &err), err);
+            else CHECK_OK(add(&mixed, order[k], 0, &err), err);
         }
         CHECK_MSG(same(&in_order, &mixed) && mixed.cut == 1, "%u batches", n);
         CHECK(ec_film_samples_of_all(&mixed) == (double)ec_schedule_samples(replicates, n) - 1);
-        CHECK_OK(ec_film_add_cut(&last, n - 1, 1, batch_of(n - 1), &err), err);
+        CHECK_OK(add(&last, n - 1, 1, &err), err);
         CHECK_OK(ec_film_take_parts(&first, &last, &err), err);
         CHECK_MSG(same(&in_order, &first) && first.cut == 1, "%u batches", n);
         CHECK(ec_film_take_parts(&first, &beyond, &err) == EC_FAILED && strstr(err.text, "ended within batch"));
         CHECK(ec_film_take_parts(&beyond, &first, &err) == EC_FAILED && strstr(err.text, "ended within batch"));
         CHECK(same(&in_order, &first) && beyond.batch_count == 2 && !beyond.cut);
-        CHECK(ec_film_add_cut(&beyond, n - 1, 1, batch_of(n - 1), &err) == EC_FAILED && strstr(err.text, "ended within batch"));
+        CHECK(add(&beyond, n - 1, 1, &err) == EC_FAILED && strstr(err.text, "ended within batch"));
         ec_film_destroy(&in_order);
         ec_film_destroy(&mixed);
         ec_film_destroy(&last);
@@ -275,14 +317,14 @@ static void a_cut_batch(void)
 /* As many sums as parts.h promises, at every number of batches on the way; and no batch is kept as it is. */
 static void memory_is_bounded(void)
 {
-    const uint64_t sum = ec_sums_bytes(replicates);
-    CHECK(ec_film_bytes(replicates, 0, 1) == sum && ec_film_bytes(replicates, 0, 128) == sum && ec_film_bytes(replicates, 0, 129) == 2 * sum &&
-          ec_film_bytes(replicates, 0, 2048) == 2 * sum && ec_film_bytes(replicates, 0, 2049) == 3 * sum && ec_film_bytes(replicates, 9, 9) == 0);
+    const uint64_t sum = ec_sums_bytes(replicates, sets);
+    CHECK(ec_film_bytes(replicates, sets, 0, 1) == sum && ec_film_bytes(replicates, sets, 0, 128) == sum && ec_film_bytes(replicates, sets, 0, 129) == 2 * sum &&
+          ec_film_bytes(replicates, sets, 0, 2048) == 2 * sum && ec_film_bytes(replicates, sets, 0, 2049) == 3 * sum && ec_film_bytes(replicates, sets, 9, 9) == 0);
     ec_film film = empty();
     ec_error err;
     for (uint32_t k = 0; k < MOST; k++) {
-        CHECK_OK(ec_film_add(&film, k, batch_of(k), &err), err);
-        CHECK(bytes_of(&film) <= ec_film_bytes(replicates, 0, k + 1));
+        CHECK_OK(add(&film, k, 0, &err), err);
+        CHECK(bytes_of(&film) <= ec_film_bytes(replicates, sets, 0, k + 1));
         for (uint32_t i = 0; i < film.part_count; i++) CHECK(!film.parts[i].batch && ec_film_part_is_sound(film.parts[i].first, film.parts[i].count));
     }
     ec_film_destroy(&film);
@@ -302,10 +344,10 @@ static void memory_of_slices_is_bounded(void)
         ec_error err;
         uint64_t worst = 0;
         for (uint32_t k = firsts[i]; k < firsts[i] + 600; k++) {
-            CHECK_OK(ec_film_add(&film, k, batch_of(k), &err), err);
+            CHECK_OK(add(&film, k, 0, &err), err);
             worst = bytes_of(&film) > worst ? bytes_of(&film) : worst;
-            const uint64_t most = ec_film_bytes(replicates, firsts[i], k + 1);
-            CHECK_MSG(worst <= most && most <= worst + 2 * ec_sums_bytes(replicates), "batches %u to %u: %llu of %llu", firsts[i], k,
+            const uint64_t most = ec_film_bytes(replicates, sets, firsts[i], k + 1);
+            CHECK_MSG(worst <= most && most <= worst + 2 * ec_sums_bytes(replicates, sets), "batches %u to %u: %llu of %llu", firsts[i], k,
                       (unsigned long long)worst, (unsigned long long)most);
         }
         ec_film_destroy(&film);
@@ -334,11 +376,38 @@ static void broken_and_huge_values(void)
     ec_film_destroy(&far);
 }
 
+/* In whatever order and slices, and pixels that have none of them have zeros. */
+static void features_of_the_first_batches(void)
+{
+    enum { END = 8, MANY = 300 };
+    static uint32_t all[MANY], order[MANY];
+    feature_end = END;
+    for (uint32_t k = 0; k < MANY; k++) all[k] = k;
+    ec_film in_order = slice(0, MANY), mixed = empty(), late = slice(64, 200), first = slice(0, 64), end = slice(200, MANY);
+    ec_error err;
+    shuffle(order, MANY);
+    for (uint32_t k = 0; k < MANY; k++) CHECK_OK(add(&mixed, order[k], 0, &err), err);
+    features_are_those_of_all_samples(&in_order, all, MANY);
+    features_are_those_of_all_samples(&late, all + 64, 200 - 64);
+    CHECK(same(&in_order, &mixed) && ec_film_features_at(&in_order, 1) && !ec_film_features_at(&late, 0));
+    CHECK(!memcmp(ec_film_features_at(&in_order, 1), ec_film_features_at(&mixed, 0) + EC_FILM_FEATURES, (P - 1) * EC_FILM_FEATURES * sizeof(float)));
+    CHECK_OK(ec_film_take_parts(&late, &end, &err), err);
+    CHECK_OK(ec_film_take_parts(&late, &first, &err), err);
+    CHECK(same(&in_order, &late));
+    feature_end = UINT32_MAX;
+    ec_film_destroy(&in_order);
+    ec_film_destroy(&mixed);
+    ec_film_destroy(&late);
+    ec_film_destroy(&first);
+    ec_film_destroy(&end);
+}
+
 int main(void)
 {
-    const uint32_t numbers[] = {EC_REPLICATES, 3, 1}; /* 3: no sum begins with the first replicate again */
-    for (int i = 0; i < 3; i++) {
+    const uint32_t numbers[] = {EC_REPLICATES, 3, 1, EC_REPLICATES}; /* 3: no sum begins with the first replicate again */
+    for (int i = 0; i < 4; i++) {
         replicates = numbers[i];
+        sets = i % 3; /* of features; with two replicates or more there are halves */
         any_order_of_batches();
         any_slices();
         what_is_shown();
@@ -347,8 +416,10 @@ int main(void)
         memory_is_bounded();
         memory_of_slices_is_bounded();
     }
-    replicates = EC_REPLICATES;
-    a_cut_batch();
+    for (sets = 0; sets < 3; sets++) a_cut_batch();
+    sets = 1;
+    features_of_the_first_batches();
+    sets = 0;
     broken_and_huge_values();
     TEST_END();
 }

@@ -19,7 +19,7 @@ static float *numbers(uint64_t count)
 static bool is_alike(const float *a, const float *b, uint64_t count) { return a && b && !memcmp(a, b, count * sizeof *a); }
 
 /* begun: so many pixels of the first batch, which is all; 0: it is whole, and others follow. */
-static void check(uint32_t begun, bool by_halves)
+static void check(uint32_t begun, uint32_t sets)
 {
     ec_film with, without;
     ec_error err = {0};
@@ -29,25 +29,20 @@ static void check(uint32_t begun, bool by_halves)
     CHECK(batch && features);
     for (int k = 0; k < 2; k++) {
         CHECK_OK(ec_film_create(films[k], WIDTH, HEIGHT, REPLICATES, &err), err);
+        ec_film_want_features(films[k], sets, UINT32_MAX);
     }
-    for (int i = 0; i < 4; i++) ec_film_make_room(&with, steps[i], steps[i + 1], true, by_halves);
-    CHECK(with.room.sums.mean && with.room.aov && !with.room.aov_even == !by_halves);
-    CHECK(!with.aov && !with.part_count); /* nothing is there yet */
-    for (int k = 0; k < 2; k++) {
-        CHECK_OK(ec_film_add_features(films[k], features, reached, 0, by_halves, &err), err);
-        if (begun) {
-            CHECK_OK(ec_film_add_begun(films[k], batch, reached, &err), err);
+    for (int i = 0; i < 4; i++) ec_film_make_room(&with, steps[i], steps[i + 1]);
+    CHECK(with.room.mean && with.room.sets == sets && !with.part_count); /* nothing is there yet */
+    for (int k = 0; k < 2; k++)
+        for (uint32_t i = 0; i < (begun ? 1 : 6); i++) {
+            const ec_film_batch own = {.index = i, .values = batch, .features = features, .missing = PIXELS - reached};
+            CHECK_OK(ec_film_take(films[k], &own, &err), err);
         }
-        for (uint32_t i = 0; !begun && i < 6; i++) {
-            CHECK_OK(ec_film_add(films[k], i, batch, &err), err);
-        }
-    }
-    CHECK(!with.room.sums.mean && !with.room.aov && !with.room.aov_even);
-    CHECK(is_alike(with.aov, without.aov, (uint64_t)PIXELS * EC_FILM_FEATURES));
-    if (by_halves) CHECK(is_alike(with.aov_even, without.aov_even, (uint64_t)PIXELS * EC_FILM_FEATURES));
+    CHECK(!with.room.mean);
     CHECK(with.part_count == 1 && without.part_count == 1);
     CHECK(is_alike(with.parts->sums.mean, without.parts->sums.mean, 3ull * REPLICATES * PIXELS));
     CHECK(is_alike(with.parts->sums.tail, without.parts->sums.tail, 3ull * PIXELS));
+    if (sets) CHECK(is_alike(with.parts->sums.features, without.parts->sums.features, (uint64_t)EC_FILM_FEATURES * sets * PIXELS));
     for (int k = 0; k < 2; k++) ec_film_destroy(films[k]);
     free(batch);
     free(features);
@@ -59,18 +54,16 @@ static void check_unused(void)
     ec_film film;
     ec_error err = {0};
     CHECK_OK(ec_film_create(&film, WIDTH, HEIGHT, REPLICATES, &err), err);
-    ec_film_make_room(&film, 0, PIXELS, true, true);
-    CHECK(film.room.aov && !film.aov);
+    ec_film_want_features(&film, 2, UINT32_MAX);
+    ec_film_make_room(&film, 0, PIXELS);
+    CHECK(film.room.features && !film.part_count);
     ec_film_destroy(&film);
-    CHECK(!film.room.sums.mean && !film.room.aov);
+    CHECK(!film.room.mean && !film.room.features);
 }
 
 int main(void)
 {
-    check(0, false);
-    check(0, true);
-    check(WIDTH * 300, false);
-    check(WIDTH * 300, true);
+    for (uint32_t sets = 0; sets < 3; sets++) check(0, sets), check(WIDTH * 300, sets);
     check_unused();
     TEST_END();
 }

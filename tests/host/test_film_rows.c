@@ -94,8 +94,8 @@ static void rows_may_come_from_two_films(void)
     for (int i = 0; i < 3 * P; i++) batch[i] = (float)i;
     for (int i = 0; i < EC_FILM_FEATURES * P; i++) features[i] = (float)(i % 1000);
     for (int i = 0; i < 3; i++) {
-        CHECK_OK(films_add(films[i], 40, batch + 3 * W * from[i], &err), err); /* with nothing between it and the others */
-        films_add_features(films[i], features + EC_FILM_FEATURES * W * from[i]);
+        ec_film_want_features(films[i], 1, UINT32_MAX);
+        CHECK_OK(films_add_with(films[i], 40, 0, batch + 3 * W * from[i], features + EC_FILM_FEATURES * W * from[i], &err), err); /* with nothing between it and the others */
     }
     CHECK_OK(ec_film_create_like(&around, &above, ALL, &err), err);
     ec_film_copy_rows(&around, 0, &above, FIRST - REACH, SEAM - FIRST + REACH);
@@ -110,7 +110,7 @@ static void rows_may_come_from_two_films(void)
         for (int c = 0; c < 3; c++)
             CHECK((float)pixel->mean[c] == all.rgb[3 * (FIRST * W + i) + c] && (float)sqrt(ec_pixel_se2(pixel, c)) == all.se[3 * (FIRST * W + i) + c]);
     }
-    CHECK(around.part_count == 2 && !memcmp(around.aov, features + EC_FILM_FEATURES * W * (FIRST - REACH), EC_FILM_FEATURES * ALL * W * sizeof(float)));
+    CHECK(around.part_count == 2 && !memcmp(ec_film_features_at(&around, 0), features + EC_FILM_FEATURES * W * (FIRST - REACH), EC_FILM_FEATURES * ALL * W * sizeof(float)));
     ec_film_destroy(&whole);
     ec_film_destroy(&above);
     ec_film_destroy(&below);

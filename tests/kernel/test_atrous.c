@@ -117,10 +117,10 @@ static void check_halves(const ec_cl *cl)
         ec_error err;
         float *const half[2] = {halves[run][0], halves[run][1]};
         CHECK_OK(ec_film_create(&film, SIDE, SIDE, 4, &err), err);
+        ec_film_want_features(&film, 2, UINT32_MAX);
         for (uint32_t b = 0; b < 4; b++) {
             for (int i = 0; run && b % 2 && i < EC_FILM_FEATURES * COUNT; i++) given[b][i] += (float)(i % 7);
-            films_add_features_by(&film, given[b], 0, true);
-            CHECK_OK(films_add(&film, b, colours[b], &err), err);
+            CHECK_OK(films_add_with(&film, b, 0, colours[b], given[b], &err), err);
         }
         CHECK_OK(ec_atrous(&cl->info, &film, 1, half, &err), err);
         ec_film_destroy(&film);

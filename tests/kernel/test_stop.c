@@ -18,10 +18,10 @@ static void check_pixels(const case_image *some, const case_image *all)
 {
     uint32_t reached = 0, alike = 0, dark = 0;
     for (uint32_t i = 0; i < PIXELS; i++) {
-        const float *rgb = some->rgb + 3 * i, *features = some->film.aov + EC_FILM_FEATURES * i;
+        const float *rgb = some->rgb + 3 * i, *features = ec_film_features_at(&some->film, i);
         const bool has_sample = !some->film.unsampled[i];
         reached += has_sample;
-        alike += has_sample && is_same(rgb, all->rgb + 3 * i, 3) && is_same(features, all->film.aov + EC_FILM_FEATURES * i, EC_FILM_FEATURES);
+        alike += has_sample && is_same(rgb, all->rgb + 3 * i, 3) && is_same(features, ec_film_features_at(&all->film, i), EC_FILM_FEATURES);
         dark += !has_sample && is_black(rgb, 3) && is_black(features, EC_FILM_FEATURES);
     }
     CHECK_MSG(alike == reached && dark == PIXELS - reached, "%u pixels reached, of which %u alike; of the others %u black", reached, alike, dark);

@@ -29,6 +29,19 @@ static void fill(float *batch, uint32_t index, uint32_t pixel)
     for (uint32_t k = 0; k < FIELDS; k++) batch[k] = k <= EC_BATCH_LARGEST ? value(index, pixel) : 1;
 }
 
+/* Its features there. */
+static void fill_features(float *features, uint32_t index, uint32_t pixel)
+{
+    for (uint32_t k = 0; k < EC_AOV_FIELDS; k++) features[k] = value(index, pixel) + (float)k;
+}
+
+static bool has_features(const float *features, uint32_t index, uint32_t pixel)
+{
+    float expected[EC_AOV_FIELDS];
+    fill_features(expected, index, pixel);
+    return !memcmp(features, expected, sizeof expected);
+}
+
 static bool is_filled(const float *batch, uint32_t index, uint32_t pixel)
 {
     float expected[FIELDS];
@@ -49,6 +62,7 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
     if (f->index == 1 && f->taken++ == (f->is_quick ? 200 : 7)) return ec_fail(err, "it is over");
     for (uint32_t i = order->done; i < order->count && *complete; i++) {
         fill(into + FIELDS * (i - order->done), order->index, pixel_at(order, i));
+        if (order->features_into) fill_features(order->features_into + EC_AOV_FIELDS * (i - order->done), order->index, pixel_at(order, i));
         if (f->pause && i % 64 == 0) usleep(f->pause);
         if (i % 64 == 0) *complete = order->go_on(order->user, i + 1) || i + 1 == order->count;
     }
@@ -87,19 +101,18 @@ static bool stop_early(void *user, uint32_t done)
 /* A first batch that is given up: what is not right is marked. */
 static int check_marked(const ec_team_recruit *recruits)
 {
-    static float aov[EC_AOV_FIELDS * PIXELS];
     uint32_t asked = 0, reached = 0, wrong = 0;
     ec_team *team;
     ec_error err = {0};
     bool complete;
     if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK) return 1;
     ec_batch_source *source = ec_team_source(team);
-    const ec_batch_order order = {.index = 0, .end = 9, .count = PIXELS, .with_features = true, .aov = aov, .go_on = stop_early, .user = &asked};
+    const ec_batch_order order = {.index = 0, .end = 9, .count = PIXELS, .feature_sets = 1, .go_on = stop_early, .user = &asked};
     if (source->take(source, &order, &complete, &err) != EC_OK || complete) return 1;
     for (uint32_t i = 0; i < PIXELS; i++) {
         const bool is_right = is_filled(source->mean + FIELDS * i, 0, i);
         reached += is_right;
-        wrong += !is_right && source->mean[FIELDS * i] != EC_NOT_REACHED;
+        wrong += is_right ? !has_features(source->features + EC_AOV_FIELDS * i, 0, i) : source->mean[FIELDS * i] != EC_NOT_REACHED;
     }
     ec_team_free(team);
     return wrong || reached == PIXELS;
@@ -123,7 +136,7 @@ static uint32_t ordered(uint32_t b)
 /* A film of what a team takes, in blocks as it is told or where it likes, of which one member fails in the middle, has the bits of one batch by batch. */
 static int check_blocks(ec_team_recruit *recruits, bool is_told)
 {
-    static float batch[FIELDS * PIXELS];
+    static float batch[FIELDS * PIXELS], features[EC_AOV_FIELDS * PIXELS];
     uint32_t done = 0, blocks = 0, took;
     ec_team *team;
     ec_film alone, film;
@@ -133,23 +146,26 @@ static int check_blocks(ec_team_recruit *recruits, bool is_told)
     if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK || ec_film_create(&film, WIDTH, HEIGHT, REPLICATES, &err) != EC_OK ||
         ec_film_create(&alone, WIDTH, HEIGHT, REPLICATES, &err) != EC_OK)
         return 1;
+    ec_film_want_features(&film, 2, UINT32_MAX);
+    ec_film_want_features(&alone, 2, UINT32_MAX);
     ec_batch_source *source = ec_team_source(team);
     for (uint32_t b = 0; b < MOST; b += took) {
         const uint32_t told = is_told ? ordered(b) : 0;
-        const ec_batch_order order = {.index = b, .batches = told, .end = told ? b + told : MOST, .count = PIXELS, .whole = whole, .patience = 100,
+        const ec_batch_order order = {.index = b, .batches = told, .end = told ? b + told : MOST, .count = PIXELS, .feature_sets = 2, .whole = whole, .patience = 100,
                                       .until = 1e300, .go_on = go_on, .user = &done};
         if (source->take(source, &order, &complete, &err) != EC_OK || !complete) return 1;
         took = source->batches;
         ec_film_part part = {.first = b, .count = took, .sums = source->sums};
         if (took > 1) source->sums = (ec_sums){0}, blocks++;
-        if ((took > 1 ? ec_film_insert(&film, &part, &err) : ec_film_add(&film, b, source->mean, &err)) != EC_OK) return 1;
+        const ec_film_batch one = {.index = b, .values = source->mean, .features = source->features};
+        if ((took > 1 ? ec_film_insert(&film, &part, &err) : ec_film_take(&film, &one, &err)) != EC_OK) return 1;
     }
     for (uint32_t b = 0; b < MOST; b++) {
-        for (uint32_t i = 0; i < PIXELS; i++) fill(batch + FIELDS * i, b, i);
-        if (ec_film_add(&alone, b, batch, &err) != EC_OK) return 1;
+        for (uint32_t i = 0; i < PIXELS; i++) fill(batch + FIELDS * i, b, i), fill_features(features + EC_AOV_FIELDS * i, b, i);
+        if (ec_film_take(&alone, &(ec_film_batch){.index = b, .values = batch, .features = features}, &err) != EC_OK) return 1;
     }
     ec_team_free(team);
-    const bool same = films_same_bits(&film, &alone) && film.batch_count == MOST;
+    const bool same = films_same_bits(&film, &alone) && films_same_features(&film, &alone) && film.batch_count == MOST;
     ec_film_destroy(&film);
     ec_film_destroy(&alone);
     printf("%u blocks, %s\n", blocks, same ? "the same bits" : "other bits");
@@ -163,10 +179,12 @@ static void count_warning(void *user, ec_severity severity, const char *text)
     ++*(int *)user;
 }
 
-static int check(const ec_batch_order *order, const float *mean)
+static int check(const ec_batch_order *order, const ec_batch_source *source)
 {
-    for (uint32_t i = 0; i < order->count; i++)
-        if (!is_filled(mean + FIELDS * i, order->index, pixel_at(order, i))) return 1;
+    for (uint32_t i = 0; i < order->count; i++) {
+        if (!is_filled(source->mean + FIELDS * i, order->index, pixel_at(order, i))) return 1;
+        if (order->feature_sets && !has_features(source->features + EC_AOV_FIELDS * i, order->index, pixel_at(order, i))) return 1;
+    }
     return 0;
 }
 
@@ -195,10 +213,10 @@ int main(int argc, char **argv)
         const uint32_t samples = ec_schedule_batch(REPLICATES, b).samples, cut = b == BATCHES - 1 ? samples / 2 : 0;
         const uint32_t next_pass = b / 20 * 20 + 20, end = next_pass < BATCHES || cut ? next_pass : BATCHES - 1; /* what is cut is not begun ahead */
         const ec_batch_order order = {.index = b, .end = end, .list = is_pass ? list : NULL, .samples = is_pass ? 3 : 0,
-                                      .cut = cut, .count = is_pass ? PIXELS - 100 : PIXELS, .go_on = go_on, .user = &done};
+                                      .cut = cut, .count = is_pass ? PIXELS - 100 : PIXELS, .feature_sets = b / 20 % 2, .go_on = go_on, .user = &done};
         bool complete;
         if (source->take(source, &order, &complete, &err) != EC_OK || !complete || done != order.count) return 3;
-        wrong += check(&order, source->mean);
+        wrong += check(&order, source);
         due += order.count * (is_pass ? 3.0 : samples - (double)cut);
     }
     double shares = 0;

@@ -21,6 +21,7 @@ KINDS = {  # what is rendered, and the file of it that is kept
     "whole": (["--size", "2x2", "--spp", "523", "--checkpoint", "c.exr"], "c.exr"),
     "adaptive": (["--size", "8x8", "--spp", "40", "--adaptive", "--checkpoint", "c.exr"], "c.exr"),
     "slice": (["--size", "2x2", "--spp", "64", "--samples", "10:20"], "x.exr"),
+    "denoised": (["--size", "2x2", "--spp", "96", "--samples", "64:80", "--denoise=atrous"], "x.exr"),
     "cut": (["--size", "2x2", "--spp", "47", "--samples", "40:47"], "x.exr"),
     "under-way": (["--size", "4x4", "--wave", "16", "--spp", "100000", "--checkpoint", "c.exr", "--every", "0.00001s"], "c.exr"),
 }
@@ -73,7 +74,7 @@ def main():
         (FOLDER / path.name).write_bytes(path.read_bytes())
     made = {name: make(name) for name in KINDS}
     states = {name: state_of(data) for name, data in made.items()}
-    assert states["cut"]["cut"] and states["under-way"]["underWay"] and states["adaptive"]["hasWeights"] and states["adaptive"]["hasCounts"]
+    assert states["cut"]["cut"] and states["denoised"]["featureSets"] == 2 and states["under-way"]["underWay"] and states["adaptive"]["hasWeights"] and states["adaptive"]["hasCounts"]
     made.update({name + "-state": json.dumps(state, separators=(",", ":")).encode() for name, state in states.items()})
     made.update({"sums-not-a-number": with_nan(made["whole"]), "huge-window": with_huge_window(made["whole"])})
     for name, data in made.items():

@@ -145,7 +145,16 @@ class CheckpointFaults(FaultCase):
         kept = self.path("kept.exr")
         self.refused(kept, data + MARK + hashlib.sha256(data).digest())
         error = self.check_error(eclat("render", "--resume", kept, "-q", "-o", self.path("b.png")))
-        self.assertIn("it was written by another version of eclat (format 1, this one reads 4); use that version, or render anew", error)
+        form = json.loads(read_exr(self.make()[0])[0]["eclat.state"])["format"]
+        self.assertIn(f"it was written by another version of eclat (format 1, this one reads {form}); use that version, or render anew", error)
+
+    def test_seeds_are_of_this_version(self):
+        """Older ones would be refused before anything in them is read."""
+        form = json.loads(read_exr(self.make()[0])[0]["eclat.state"])["format"]
+        for name in os.listdir(CORPUS):
+            if name.endswith("-state") and name != "format-1-state":
+                with open(os.path.join(CORPUS, name)) as file:
+                    self.assertEqual(json.load(file)["format"], form, f"{name}: make them anew by seed_checkpoints.py")
 
     def test_forged(self):
         """Changed and sealed anew: read as what it says, or refused; never a crash."""

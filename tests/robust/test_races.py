@@ -13,7 +13,7 @@ import unittest
 from support import SOURCE
 
 CLANG = shutil.which("clang")
-TEAM = ["render/team*.c", "device/fold.c", "film/film.c", "film/matte*.c", "film/parts.c", "film/pixel.c", "film/schedule.c", "film/sums.c", "film/threads.c"]
+TEAM = ["render/team*.c", "device/fold.c", "film/features.c", "film/film.c", "film/matte*.c", "film/parts.c", "film/pixel.c", "film/schedule.c", "film/sums.c", "film/threads.c"]
 
 
 class Races(unittest.TestCase):

@@ -76,6 +76,7 @@ class Several(Case):
         self.assertLess(several["allotment_gain"], 1)  # it is not uniform all the same
         self.assertTrue(all(one["samples_per_pixel"] > 0 for one in several["devices"]), several["devices"])
         self.assert_same("--error", "10%")
+        self.assert_same("--adaptive", "--spp", "160", "--wave", "4096", "--denoise=atrous", "--channels", "all")
 
     @full
     def test_slices(self):
@@ -85,6 +86,7 @@ class Several(Case):
         self.assert_ok(eclat("merge", self.path("first.exr"), self.path("second.exr"), "-o", self.path("all.exr"), "-q"))
         self.render(CORNELL, *SIZE, "--spp", "97", device="1")
         self.assertEqual(read_exr(self.path("a.exr"))[1]["R"], read_exr(self.path("all.exr"))[1]["R"])
+        self.assert_same("--samples", "64:80", "--spp", "97", "--denoise=atrous")
 
     @long
     def test_other_integrators_and_lanes(self):

@@ -61,7 +61,7 @@ static void check_bias(void)
             const uint32_t wrong = count_wrong(&a, &pass, taken);
             CHECK_MSG(wrong == 0, "%u of %u entries of a pass do not go on where their replicate is", wrong, pass.count);
             CHECK(pass.count % EC_REPLICATES == 0 && pass.count <= PIXELS * EC_REPLICATES);
-            CHECK_OK(ec_film_add_some(&film, draw_batch(a.places, pass.count, pass.samples), a.places, pass.count, pass.samples, &err), err);
+            CHECK_OK(ec_film_add_some(&film, draw_batch(a.places, pass.count, pass.samples), NULL, a.places, pass.count, pass.samples, &err), err);
             samples += (double)pass.count * pass.samples / PIXELS;
         }
         double mean = ec_film_estimate_error(&film).mean_luminance;

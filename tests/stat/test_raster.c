@@ -31,8 +31,8 @@ static void check_agreement(const char *path, uint32_t camera)
     case_image raster = render(scene, EC_INTEGRATOR_RASTER, camera, 1), rays = render(scene, EC_INTEGRATOR_PATH, camera, 1);
     uint32_t differ = 0, seen = 0;
     for (uint32_t i = 0; i < SIZE * SIZE; i++) {
-        differ += !same_place(raster.film.aov + EC_FILM_FEATURES * i, rays.film.aov + EC_FILM_FEATURES * i);
-        seen += rays.film.aov[EC_FILM_FEATURES * i + 7] > 0;
+        differ += !same_place(ec_film_features_at(&raster.film, i), ec_film_features_at(&rays.film, i));
+        seen += ec_film_features_at(&rays.film, i)[EC_FILM_ALPHA] > 0;
     }
     printf("%-60.60s camera %u: %u of %u pixels differ, %u covered\n", strrchr(path, '/') + 1, camera, differ, SIZE * SIZE, seen);
     CHECK_MSG(seen > SIZE, "%s: nothing to see", path);

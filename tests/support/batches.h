@@ -71,7 +71,7 @@ static inline ec_film case_film_of(const case_batches *b, uint32_t i)
     ec_film_part part = {.count = ec_schedule_find(b->replicates, b->samples, &before)};
     if (before || part.count > EC_FILM_FIRST) exit(1);
     if (ec_film_create(&film, b->width, b->height, b->replicates, &err) != EC_OK) case_end("film", &err);
-    if (!ec_sums_create(&part.sums, b->replicates, b->values / 3)) exit(1);
+    if (!ec_sums_create(&part.sums, b->replicates, 0, b->values / 3)) exit(1);
     for (uint32_t r = 0; r < b->replicates; r++) ec_sums_add(&part.sums, case_replicate(b, i, r), r, 1, b->values / 3);
     if (ec_film_insert(&film, &part, &err) != EC_OK) case_end("film", &err);
     return film;

@@ -22,31 +22,22 @@ static inline void films_lay_out(const float *rgb, uint64_t pixels, float *batch
     }
 }
 
-/* Batch `index` of the film, `cut` samples short; rgb: 3 a pixel. */
-static inline ec_result films_add_cut(ec_film *film, uint32_t index, uint32_t cut, const float *rgb, ec_error *err)
+/* Batch `index` of the film, `cut` samples short; rgb: 3 a pixel, features: EC_FILM_FEATURES, or NULL. */
+static inline ec_result films_add_with(ec_film *film, uint32_t index, uint32_t cut, const float *rgb, const float *features, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
     float *batch = malloc(pixels * EC_BATCH_FIELDS * sizeof *batch);
     if (!batch) return ec_fail(err, "out of memory");
     films_lay_out(rgb, pixels, batch);
-    const ec_result result = cut ? ec_film_add_cut(film, index, cut, batch, err) : ec_film_add(film, index, batch, err);
+    const ec_result result = ec_film_take(film, &(ec_film_batch){.index = index, .cut = cut, .values = batch, .features = features}, err);
     free(batch);
     return result;
 }
 
 static inline ec_result films_add(ec_film *film, uint32_t index, const float *rgb, ec_error *err)
 {
-    return films_add_cut(film, index, 0, rgb, err);
+    return films_add_with(film, index, 0, rgb, NULL, err);
 }
-
-/* A batch's first-hit features, EC_FILM_FEATURES a pixel. */
-static inline void films_add_features_by(ec_film *film, const float *features, uint32_t cut, bool by_halves)
-{
-    ec_error err;
-    if (ec_film_add_features(film, features, (uint64_t)film->width * film->height, cut, by_halves, &err) != EC_OK) exit(1);
-}
-
-static inline void films_add_features(ec_film *film, const float *features) { films_add_features_by(film, features, 0, false); }
 
 static inline ec_pixel films_pixel(const ec_film *film, uint64_t p)
 {
@@ -65,6 +56,21 @@ static inline bool films_same_bits(const ec_film *a, const ec_film *b)
         for (int c = 0; c < 4; c++) same &= x.m2[c] == y.m2[c] && (c == 3 || (x.mean[c] == y.mean[c] && x.tail[c] == y.tail[c]));
         same &= x.m3 == y.m3 && x.m4 == y.m4 && x.n == y.n && x.samples == y.samples;
     }
+    return same;
+}
+
+/* And their features', by halves and in all? */
+static inline bool films_same_features(const ec_film *a, const ec_film *b)
+{
+    const uint64_t pixels = (uint64_t)a->width * a->height;
+    bool same = ec_film_feature_samples(a) == ec_film_feature_samples(b);
+    for (uint64_t p = 0; same && p < pixels; p++)
+        for (uint32_t half = 0; half < 3; half++) {
+            float x[EC_FILM_FEATURES], y[EC_FILM_FEATURES];
+            ec_film_features_of(a, half, p, 1, x);
+            ec_film_features_of(b, half, p, 1, y);
+            same &= !memcmp(x, y, sizeof x);
+        }
     return same;
 }
 

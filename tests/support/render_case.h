@@ -186,7 +186,14 @@ static inline int case_same_bits(const ec_film *a, const ec_film *b)
         same = !memcmp(x.mean, y.mean, sizeof x.mean) && !memcmp(x.m2, y.m2, sizeof x.m2) && x.m3 == y.m3 && x.m4 == y.m4 &&
                x.n == y.n && x.samples == y.samples && !memcmp(x.tail, y.tail, sizeof x.tail);
     }
-    return same && !memcmp(a->aov, b->aov, pixels * EC_FILM_FEATURES * sizeof *a->aov);
+    for (uint64_t p = 0; same && p < pixels; p++)
+        for (uint32_t half = 0; half <= EC_BOTH_HALVES; half++) {
+            float x[EC_FILM_FEATURES], y[EC_FILM_FEATURES];
+            ec_film_features_of(a, half, p, 1, x);
+            ec_film_features_of(b, half, p, 1, y);
+            same &= !memcmp(x, y, sizeof x);
+        }
+    return same;
 }
 
 /* For ztest.h; borrows the pixels. */
