@@ -199,7 +199,7 @@ static bool keep_batch(const ec_film *film, const ec_film_batch *batch, ec_film_
     return part->batch && (part->features || !batch->features);
 }
 
-/* Into sums that have no samples of its replicate, and none of features. */
+/* Makes a sum of it alone. */
 static bool begin_sums(ec_film *film, const ec_film_batch *batch, ec_film_part *part, uint64_t *invalid)
 {
     const uint64_t pixels = pixels_of(film) - batch->missing;
@@ -223,7 +223,7 @@ static ec_result insert_batch(ec_film *film, const ec_film_batch *batch, ec_film
     return result;
 }
 
-/* What is joined to its left neighbour as it comes. */
+/* Joins it to its left neighbour, without a part of its own. */
 static void add_batch(ec_film *film, const ec_film_batch *batch, const ec_film_part *part, ec_film_part *left)
 {
     const uint32_t replicate = batch->index % film->replicates, set = batch->features ? set_of(film, replicate) : 0;

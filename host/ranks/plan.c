@@ -24,7 +24,7 @@ static const char *largest_loss(double start, double messages, double end, doubl
     return names[most];
 }
 
-/* A pixel. */
+/* Bytes that a pixel of a batch takes. */
 static uint32_t batch_bytes(const ec_plan *p) { return 4 * (EC_BATCH_FIELDS + (p->feature_sets ? EC_FILM_FEATURES : 0)); }
 
 /* How batches come in: so many of them one by one, in blocks of EC_FILM_FIRST and of 16 times that. */

@@ -14,7 +14,7 @@ uint32_t ec_team_window(uint32_t members, uint64_t pixels, uint64_t bytes)
     return fit > members ? members + 1 : fit > 2 ? (uint32_t)fit : 2;
 }
 
-/* Of a batch, a position. */
+/* Bytes that a position of a batch takes. */
 static uint64_t batch_bytes(uint32_t sets) { return 4 * (EC_BATCH_FIELDS + (sets ? EC_AOV_FIELDS : 0)); }
 
 uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, uint32_t sets, bool from_afar)

@@ -1,8 +1,9 @@
 /* How a film lies in an EXR file.
  *
  * Part "picture": what viewers show. Its attribute eclat.state is a JSON object: state.c. Part "sums N" for each part of the film: R, G and B of each
- * replicate, the tail of the samples and each set of features, if it has any (film/sums.h); or what a single batch tells. Pixels with counts of their own have "count" there. Parts "layer K sums N" are the same of the K-th layer, from 1 on; of what light paths bring, where that is apart, K is one more than there are layers. Part "allotment": "weight", by pixel number. Part
- * "under way": what the batch that is not complete tells. */
+ * replicate, the tail of the samples and each set of features, if it has any (film/sums.h); or what a single batch tells. Pixels with counts of their own have
+ * "count" there. Parts "layer K sums N" are the same of the K-th layer, from 1 on; of what light paths bring, where that is apart, K is one more than there
+ * are layers. Part "allotment": "weight", by pixel number. Part "under way": what the batch that is not complete tells. */
 #ifndef EC_STORE_LAYOUT_H
 #define EC_STORE_LAYOUT_H
 

@@ -34,11 +34,13 @@ static ec_result check_sums(const char *path, const ec_sums *sums, uint64_t pixe
     return ec_fail(err, "cannot read '%s': sums in it are none of any samples; take an older file or render it again", path);
 }
 
-/* *features stays NULL where the batch has none. */
-static ec_result read_batch(ec_exr_file *file, const char *path, const char *part, uint64_t pixels, float **batch, float **features, ec_error *err)
+/* `first`: of a film that wants features from there on they come along, if the file has them; else *features stays NULL. */
+static ec_result read_batch(ec_exr_file *file, const char *path, const char *part, const ec_film *film, uint64_t first, float **batch, float **features,
+                            ec_error *err)
 {
     ec_channel channels[EC_BATCH_CHANNELS];
-    const bool has_features = ec_exr_has(file, part, ec_channel_name_of(EC_PLANE_FEATURES, 0));
+    const uint64_t pixels = (uint64_t)film->width * film->height;
+    const bool has_features = ec_film_sets(film, first) > 0 && ec_exr_has(file, part, ec_channel_name_of(EC_PLANE_FEATURES, 0));
     *batch = calloc(pixels * EC_BATCH_FIELDS, sizeof **batch); /* it goes by a const pointer, as what is written does */
     if (has_features) *features = calloc(pixels * EC_FILM_FEATURES, sizeof **features);
     if (!*batch || (has_features && !*features)) return no_memory(path, err);
@@ -53,7 +55,7 @@ static ec_result read_part(ec_exr_file *file, const char *path, uint32_t layer, 
     ec_channel_name names[CHANNELS_MOST];
     ec_sum_part_name(layer, index, name);
     if (ec_film_part_is_batch(part->first, part->count)) {
-        EC_TRY(read_batch(file, path, name, pixels, &part->batch, &part->features, err));
+        EC_TRY(read_batch(file, path, name, film, part->first, &part->batch, &part->features, err));
     } else {
         if (!ec_sums_create(&part->sums, film->replicates, ec_film_sets(film, part->first), pixels)) return no_memory(path, err);
         EC_TRY(fill(file, name, channels, ec_sum_channels(&part->sums, film->counts, names, channels), err));
@@ -123,7 +125,7 @@ static ec_result read_weights(ec_exr_file *file, const char *path, ec_stored *s,
 static ec_result read_under_way(ec_exr_file *file, const char *path, ec_stored *s, ec_error *err)
 {
     float *batch, *features = NULL;
-    ec_result result = read_batch(file, path, "under way", (uint64_t)s->film.width * s->film.height, &batch, &features, err);
+    ec_result result = read_batch(file, path, "under way", &s->film, s->past.next, &batch, &features, err);
     s->past.batch = batch;
     s->past.features = features;
     return result;

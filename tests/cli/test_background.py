@@ -133,6 +133,9 @@ class Background(Case):
         self.assertTrue(any(abs(64 * a - round(64 * a)) > 0.1 for _, _, a in edges))
         for c, e, a in edges:
             self.assertAlmostEqual(c[0] + (1 - a) * 0.8, e[0], delta=1e-3)
+        self.render("adaptive.exr", background="transparent", options=(*options, "--adaptive"))  # a pilot of 32
+        alpha = self.pixels("adaptive.exr")[1]
+        self.assertTrue(any(abs(64 * a - round(64 * a)) > 0.1 for a in alpha))
 
     def test_sixteen_bits(self):
         self.render("a.exr", "a.png", options=("--png-depth", "16", "--tonemap", "aces"))

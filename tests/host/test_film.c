@@ -192,6 +192,13 @@ static void features_of_halves(void)
             CHECK_OK(films_add_with(&film, (uint32_t)b, cut, batch_of(b, value), features, &err), err);
         }
         CHECK(samples[0] == 7 && samples[1] == 6 && samples[2] == 13 && ec_film_feature_samples(&film) == 13);
+        ec_film read;
+        CHECK_OK(ec_film_create(&read, W, H, 4, &err), err);
+        ec_film_want_features(&read, sets, UINT32_MAX);
+        for (uint32_t b = 0; b < BATCHES; b++) CHECK_OK(films_add_with(&read, b, 0, batch_of((int)b, value), features, &err), err);
+        ec_film_set_cut(&read, 1);
+        CHECK(!memcmp(read.parts->set_samples, film.parts->set_samples, sizeof film.parts->set_samples));
+        ec_film_destroy(&read);
         CHECK_OK(ec_film_create_like(&rows, &film, H, &err), err);
         ec_film_copy_rows(&rows, 0, &film, 0, H);
         for (uint32_t h = 0; h < 3; h++) {

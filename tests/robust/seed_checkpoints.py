@@ -76,7 +76,8 @@ def main():
     states = {name: state_of(data) for name, data in made.items()}
     assert states["cut"]["cut"] and states["denoised"]["featureSets"] == 2 and states["under-way"]["underWay"] and states["adaptive"]["hasWeights"] and states["adaptive"]["hasCounts"]
     made.update({name + "-state": json.dumps(state, separators=(",", ":")).encode() for name, state in states.items()})
-    made.update({"sums-not-a-number": with_nan(made["whole"]), "huge-window": with_huge_window(made["whole"])})
+    unasked = made["denoised"].replace(b'"featureSets":2', b'"featureSets":0')
+    made.update({"features-unasked": unasked, "sums-not-a-number": with_nan(made["whole"]), "huge-window": with_huge_window(made["whole"])})
     for name, data in made.items():
         (out / name).write_bytes(data)
         print(f"{len(data):7} {name}")

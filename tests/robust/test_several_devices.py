@@ -106,7 +106,7 @@ class Several(Case):
     @long
     def test_going_on_within_a_batch_of_one_device(self):
         """Its waves end anywhere in a row of tiles, pieces of several devices at their ends."""
-        kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "2048", "--replicates", "1", "--wave", "16384"]  # batches of 32 samples from 256 on, of 64 from 512
+        kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "2048", "--replicates", "1", "--wave", "16384", "--background", "transparent"]  # batches of 32 samples from 256 on, of 64 from 512
         whole = self.render(*job, device="0")
         planes = read_exr(self.path("a.exr"))[1]
         for wanted in [22, 29]:
