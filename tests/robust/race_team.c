@@ -133,35 +133,37 @@ static uint32_t ordered(uint32_t b)
     return b % EC_FILM_FIRST == 0 && b + EC_FILM_FIRST <= MOST ? EC_FILM_FIRST : 1;
 }
 
-/* A film of what a team takes, in blocks as it is told or where it likes, of which one member fails in the middle, has the bits of one batch by batch. */
+/* A film of what a team takes, in blocks as it is told, of positions from the second row of tiles on, or where it likes, of which one member fails in the
+ * middle, has the bits of one batch by batch. */
 static int check_blocks(ec_team_recruit *recruits, bool is_told)
 {
     static float batch[FIELDS * PIXELS], features[EC_AOV_FIELDS * PIXELS];
+    const uint32_t rows = is_told ? HEIGHT - EC_TILE_ROWS : HEIGHT, from = PIXELS - WIDTH * rows;
     uint32_t done = 0, blocks = 0, took;
     ec_team *team;
     ec_film alone, film;
     ec_error err = {0};
     bool complete;
     for (uint32_t i = 0; i < MEMBERS; i++) recruits[i].processes = 1;
-    if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK || ec_film_create(&film, WIDTH, HEIGHT, REPLICATES, &err) != EC_OK ||
-        ec_film_create(&alone, WIDTH, HEIGHT, REPLICATES, &err) != EC_OK)
+    if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK || ec_film_create(&film, WIDTH, rows, REPLICATES, &err) != EC_OK ||
+        ec_film_create(&alone, WIDTH, rows, REPLICATES, &err) != EC_OK)
         return 1;
     ec_film_want_features(&film, 2, UINT32_MAX);
     ec_film_want_features(&alone, 2, UINT32_MAX);
     ec_batch_source *source = ec_team_source(team);
     for (uint32_t b = 0; b < MOST; b += took) {
         const uint32_t told = is_told ? ordered(b) : 0;
-        const ec_batch_order order = {.index = b, .batches = told, .end = told ? b + told : MOST, .count = PIXELS, .feature_sets = 2, .whole = whole, .patience = 100,
+        const ec_batch_order order = {.index = b, .batches = told, .end = told ? b + told : MOST, .done = from, .count = PIXELS, .feature_sets = 2, .whole = whole, .patience = 100,
                                       .until = 1e300, .go_on = go_on, .user = &done};
         if (source->take(source, &order, &complete, &err) != EC_OK || !complete) return 1;
         took = source->batches;
         ec_film_part part = {.first = b, .count = took, .sums = source->sums};
         if (took > 1) source->sums = (ec_sums){0}, blocks++;
-        const ec_film_batch one = {.index = b, .values = source->mean, .features = source->features};
+        const ec_film_batch one = {.index = b, .values = source->mean + FIELDS * from, .features = source->features + EC_AOV_FIELDS * from};
         if ((took > 1 ? ec_film_insert(&film, &part, &err) : ec_film_take(&film, &one, &err)) != EC_OK) return 1;
     }
     for (uint32_t b = 0; b < MOST; b++) {
-        for (uint32_t i = 0; i < PIXELS; i++) fill(batch + FIELDS * i, b, i), fill_features(features + EC_AOV_FIELDS * i, b, i);
+        for (uint32_t i = 0; i < PIXELS - from; i++) fill(batch + FIELDS * i, b, from + i), fill_features(features + EC_AOV_FIELDS * i, b, from + i);
         if (ec_film_take(&alone, &(ec_film_batch){.index = b, .values = batch, .features = features}, &err) != EC_OK) return 1;
     }
     ec_team_free(team);
