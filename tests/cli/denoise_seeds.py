@@ -52,7 +52,7 @@ class Seeds:
 
     def slice(self, seed, first, end):
         path = f"{self.stem}-{seed}-{first}-{end}.exr"
-        if not os.path.exists(path):  # --denoise: first hits of 64 samples
+        if not os.path.exists(path):  # --denoise: first hits of all samples
             part = os.path.join(self.folder, f"part-{os.getpid()}.exr")
             run("render", self.path, *self.options, "--seed", str(seed), "--samples", f"{first}:{end}", "--denoise=atrous", "-q", "-o", part)
             os.rename(part, path)
