@@ -105,8 +105,8 @@ static inline uint32_t ec_render_replicates(const ec_render_options *o)
     return o->replicates ? o->replicates : o->denoise ? EC_REPLICATES_DENOISED : EC_REPLICATES;
 }
 
-/* Sets of first-hit features (film/sums.h) that its film has, and the batches before which samples bring them: all where a denoiser goes by them, or the
- * picture is as transparent as they say. */
+/* Sets of first-hit features (film/sums.h) that its film has, and the batch from which on samples bring none: UINT32_MAX where a denoiser goes by them, or
+ * the picture is as transparent as they say. */
 static inline uint32_t ec_render_feature_sets(const ec_render_options *o) { return o->denoise ? 2 : 1; }
 static inline uint32_t ec_render_feature_end(const ec_render_options *o)
 {

@@ -17,7 +17,8 @@ ec_strip_need ec_strip_needs(const ec_render_options *o)
     const uint64_t planes = threads * 2 * 16 * (64 + 3 + 4 * EC_LAYER_PLANES * o->layers.count), coded = threads * 3 * 16 * 25 * 4, room = threads * around * sizeof(ec_pixel);
     const uint64_t first = o->slice_end ? o->slice_first : 0, end = o->slice_end ? o->slice_end : batches;
     const uint32_t sets = ec_render_feature_sets(o), all = ec_render_feature_end(o) == UINT32_MAX ? sets : 0; /* features of all batches; else of the first part */
-    const uint64_t film = ec_film_bytes(replicates, 0, first, end), batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES, layers = o->layers.count, mattes = o->layers.mattes ? EC_MATTE_BYTES : 0;
+    const uint64_t film = ec_film_bytes(replicates, 0, first, end), batch = 4 * EC_BATCH_FIELDS, features = 4 * EC_FILM_FEATURES;
+    const uint64_t layers = o->layers.count, mattes = o->layers.mattes ? EC_MATTE_BYTES : 0;
     const uint64_t light = o->adaptive && o->light_paths > 0 ? film : 0; /* kept apart */
     const uint64_t pixel = film * layers + ec_film_bytes(replicates, all, first, end) + (all ? 0 : features * sets) + light, fresh = batch + features + layers * EC_LAYER_BYTES, beside = layers ? layers * EC_LAYER_BYTES + batch : 0;
     return (ec_strip_need){.host = pixel + fresh + beside + mattes, .device = fresh, .column = rows * pixel + room + planes + coded};
