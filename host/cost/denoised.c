@@ -7,14 +7,17 @@
 #include "cost/cost_internal.h"
 #include "film/resolve.h"
 
-/* A replicate with all of its samples is one batch of the film. */
-static ec_result take_replicate(ec_cost_runner *runner, ec_film *film, ec_session_batch *batch, ec_error *err)
+/* All samples of a replicate. Replicates have as many, so that each is the same share of its set of features. */
+static ec_result take_replicate(ec_cost_runner *runner, const ec_sums *sums, ec_session_batch *batch, ec_error *err)
 {
+    const uint32_t r = batch->replicate;
     EC_TRY(ec_session_take(runner->session, batch, err));
     runner->stopped = !batch->complete;
     if (runner->stopped) return EC_OK;
     runner->invalid += batch->invalid;
-    return ec_film_take(film, &(ec_film_batch){.index = batch->replicate, .values = batch->batch, .features = batch->features}, err);
+    (void)ec_sums_add(sums, batch->batch, r, 1, runner->pixels);
+    ec_sums_add_features(sums, batch->features, r % sums->sets, 1 / (r / sums->sets + 1.0), runner->pixels);
+    return EC_OK;
 }
 
 static ec_result denoise(ec_cost_runner *runner, ec_film *film, ec_error *err)
@@ -30,15 +33,21 @@ static ec_result denoise(ec_cost_runner *runner, ec_film *film, ec_error *err)
 static ec_result take_all(ec_cost_runner *runner, ec_film *film, ec_session_batch *room, uint32_t samples, double *seconds, ec_error *err)
 {
     const uint32_t count = samples < film->replicates ? samples : film->replicates;
-    for (uint32_t r = 0; r < count && !runner->stopped; r++) {
+    uint32_t before;
+    ec_film_part part = {.count = ec_schedule_find(film->replicates, samples, &before)};
+    ec_result result = ec_sums_create(&part.sums, film->replicates, ec_film_sets(film, 0), runner->pixels) ? EC_OK : ec_fail(err, "out of memory for a picture to denoise");
+    for (uint32_t r = 0; result == EC_OK && r < count && !runner->stopped; r++) {
         ec_session_batch batch = *room;
         batch.replicate = r;
         batch.samples = samples / count + (r < samples % count);
-        EC_TRY(take_replicate(runner, film, &batch, err));
+        result = take_replicate(runner, &part.sums, &batch, err);
         *seconds += batch.seconds;
     }
     runner->seconds_per_sample = *seconds / ((double)samples * (double)runner->pixels);
-    return runner->stopped ? EC_OK : denoise(runner, film, err);
+    if (result == EC_OK && !runner->stopped) result = ec_film_insert(film, &part, err);
+    if (result == EC_OK && !runner->stopped) result = denoise(runner, film, err);
+    ec_film_part_free(&part);
+    return result;
 }
 
 ec_result ec_cost_denoised_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, bool (*go_on)(void *study), double *seconds, ec_error *err)
