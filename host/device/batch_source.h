@@ -61,13 +61,12 @@ typedef struct ec_batch_order {
     void *user;
 } ec_batch_order;
 
-/* What mean[EC_BATCH_FIELDS i] holds of a pixel that a batch with features which was given up has not reached: radiance is never negative. */
+/* What mean[EC_BATCH_FIELDS i] holds of a pixel that batch 0, given up, has not reached: radiance is never negative. */
 #define EC_NOT_REACHED (-1.0f)
 
 typedef struct ec_batch_source ec_batch_source;
 struct ec_batch_source {
-    /* *complete: false where go_on said no; positions not reached then hold anything, where features were wanted
-     * EC_NOT_REACHED if they are before `reached`. */
+    /* *complete: false where go_on said no; positions not reached then hold anything, of batch 0 EC_NOT_REACHED if they are before `reached`. */
     ec_result (*take)(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err);
     /* From go_on alone: mean becomes what the batch under way has come to so far, and features, rays and invalid too. */
     ec_result (*look)(ec_batch_source *source, const ec_batch_order *order, ec_error *err);
@@ -78,7 +77,7 @@ struct ec_batch_source {
     void (*close)(ec_batch_source *source); /* the figures stay */
     uint32_t batches;                 /* that the order under way, or the last one, is for: as go_on is called it is known */
     float *mean;                      /* EC_BATCH_FIELDS a position: of the batch taken last, until the next one is. Of one given up it may be written */
-    uint32_t reached;                 /* places from here on hold nothing of a batch with features that was given up */
+    uint32_t reached;                 /* places from here on hold nothing of batch 0, given up */
     float *features;                  /* of that batch likewise, EC_AOV_FIELDS a position, where they were wanted and had no room */
     ec_sums sums;                     /* of the block taken last, from order->done on; owned, until somebody else takes it (and sets zeros) */
     uint64_t rays;                    /* traced so far */

@@ -112,7 +112,7 @@ static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_e
     return tell((ec_device_source *)source, order, false, err);
 }
 
-/* A batch was given up before it reached a pixel number: marks what is not there of the rows of tiles that are begun. */
+/* A first batch was given up before it reached a pixel number: marks what is not there of the rows of tiles that are begun, which nobody goes on from. */
 static void mark_unreached(ec_device_source *s, const ec_batch_order *order, uint32_t number)
 {
     const ec_params *params = &s->pipeline.params;
@@ -199,7 +199,7 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
     }
     EC_TRY(tell(s, order, !*complete, err));
     if (order->matte) EC_TRY(ec_mattes_tell(&s->mattes, order->matte, err));
-    if (!*complete && order->feature_sets && !order->into) mark_unreached(s, order, reached);
+    if (!*complete && order->index == 0 && !order->into) mark_unreached(s, order, reached);
     return EC_OK;
 }
 

@@ -120,6 +120,30 @@ class Checkpoint(Case):
         self.assertTrue([batches for batches, done in parts if batches < 8 and done], "never stopped early enough")
 
     @full
+    def test_within_a_pass(self):
+        """Ctrl-C in one that holds no more than the picture: what is kept of it is in the pass's order, and stays as it is."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        job = [CORNELL, "--size", "640x480", "--max-depth", "1", "--spp", "72", "--wave", "65536", "--adaptive", "--denoise=atrous"]
+        whole = self.render(*job)
+        planes = read_exr(self.path("a.exr"))[1]
+        fault = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_FOLDER": self.folder, "FAULT_CALL": "clEnqueueNDRangeKernel",
+                 "FAULT_SIGNAL": str(int(signal.SIGINT))}
+        found = 0
+        for at in range(1450, 2300, 40):
+            eclat("render", *job, "--checkpoint", self.kept, "--every", "1h", "-q", "-o", self.path("b.exr"), env=dict(fault, FAULT_AT=str(at)))
+            state = self.state()
+            if state["hasWeights"] and state["underWay"]:
+                found += 1
+                again = self.render("--resume", self.kept)
+                self.assertEqual((whole["image_sha256"], whole["samples"]), (again["image_sha256"], again["samples"]))
+                self.assertEqual([c for c, plane in read_exr(self.path("a.exr"))[1].items() if plane != planes[c]], [])
+            os.remove(self.kept)
+            if found == 2:
+                return
+        self.fail("never stopped within a pass")
+
+    @full
     def test_within_the_first_batch_of_a_slice(self):
         """It is cut as any other: on large pictures it takes minutes."""
         job = [CORNELL, "--size", "40x36", "--wave", "1024", "--spp", "4608", "--samples", "4096:4608"]  # a checkpoint after each of 90 waves
