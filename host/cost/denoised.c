@@ -7,7 +7,7 @@
 #include "cost/cost_internal.h"
 #include "film/resolve.h"
 
-/* All samples of a replicate. Replicates have as many, so that each is the same share of its set of features. */
+/* All samples of a replicate. Others have as many, or one more or less, so that each is the same share of its set of features. */
 static ec_result take_replicate(ec_cost_runner *runner, const ec_sums *sums, ec_session_batch *batch, ec_error *err)
 {
     const uint32_t r = batch->replicate;

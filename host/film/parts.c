@@ -33,7 +33,7 @@ bool ec_film_parts_fit(const ec_film_part *left, const ec_film_part *right)
 
 uint64_t ec_film_bytes(uint32_t replicates, uint32_t sets, uint64_t first, uint64_t end)
 {
-    const uint64_t sum = ec_sums_bytes(replicates, sets), batch = 4 * EC_BATCH_FIELDS + (sets ? 4 * EC_FILM_FEATURES : 0);
+    const uint64_t sum = ec_sums_bytes(replicates, sets), batch = ec_batch_bytes(sets);
     if (end <= first) return 0;
     uint64_t bytes = sum; /* the last level's, or the first part's */
     if (first == 0) {

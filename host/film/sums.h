@@ -33,6 +33,7 @@ static inline float *ec_sums_features(const ec_sums *s, uint32_t set, uint64_t p
 }
 
 static inline uint64_t ec_sums_bytes(uint32_t replicates, uint32_t sets) { return 12ull * replicates + 12 + 4ull * EC_FILM_FEATURES * sets; } /* a pixel */
+static inline uint64_t ec_batch_bytes(uint32_t sets) { return 4ull * (EC_BATCH_FIELDS + (sets ? EC_FILM_FEATURES : 0)); } /* likewise, of a batch as it is */
 
 /* Zeros. False where there is no memory. */
 bool ec_sums_create(ec_sums *sums, uint32_t replicates, uint32_t sets, uint64_t pixels);

@@ -37,6 +37,13 @@ static void fill_mattes(ec_picture *picture, const ec_film *film, uint64_t first
                 ec_matte_pixel(&film->matte, &film->layers, k, first + i, ec_film_samples(film, first + i), picture->mattes[k] + EC_MATTE_FLOATS * i);
 }
 
+void ec_picture_turn_to(ec_picture *picture, const ec_film *film, uint32_t first)
+{
+    const uint64_t before = (uint64_t)first * film->width;
+    picture->aov = picture->features ? picture->features : ec_film_features_at(film, before);
+    picture->clean = ec_film_clean_from(&film->clean, before);
+}
+
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows)
 {
     const size_t pixel_count = (size_t)film->width * rows;
@@ -45,8 +52,7 @@ void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, u
                               .intervals = {picture->low, picture->high, picture->heavy}};
     picture->height = rows;
     if (picture->features) ec_film_features_of(film, EC_BOTH_HALVES, (uint64_t)first * film->width, pixel_count, picture->features);
-    picture->aov = picture->features ? picture->features : ec_film_features_at(film, (uint64_t)first * film->width);
-    picture->clean = ec_film_clean_from(&film->clean, (uint64_t)first * film->width);
+    ec_picture_turn_to(picture, film, first);
     picture->heavy_count = ec_film_resolve_rows(film, first, rows, &planes, picture->room);
     if (picture->layer_values) ec_film_resolve_layers(film, first, rows, picture->rgb, picture->layer_values);
     if (film->layers.mattes) fill_mattes(picture, film, (uint64_t)first * film->width);

@@ -38,6 +38,7 @@ ec_result ec_picture_resolve(const ec_film *film, bool with_error, ec_picture *p
 
 /* A picture in pieces: create makes room for `rows` rows of such a film, fill writes rows [first, first + rows) of it there. */
 ec_result ec_picture_create(ec_picture *picture, const ec_film *film, uint32_t rows, bool with_error, bool with_intervals, bool with_cut, ec_error *err);
+void ec_picture_turn_to(ec_picture *picture, const ec_film *film, uint32_t first); /* of that, what is the film's own: it stays there */
 void ec_picture_fill(ec_picture *picture, const ec_film *film, uint32_t first, uint32_t rows);
 
 /* A part of it, which owns nothing: to be filled by itself. */

@@ -86,8 +86,7 @@ static ec_result create(ec_row_writer *w, const ec_film *film, const ec_error_su
     EC_TRY(ec_picture_create(&w->band, film, rows, ec_film_replicates(film) >= 2, with_intervals, film->limit > 0, err));
     w->rooms = malloc((size_t)omp_get_max_threads() * ec_resolve_room(w->width, SEAM) * sizeof *w->rooms);
     if (!w->rooms) return ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
-    w->band.aov = w->band.features ? w->band.features : ec_film_features_at(film, 0);
-    w->band.clean = film->clean;
+    ec_picture_turn_to(&w->band, film, 0);
     if (sums) w->sums = *sums;
     else ec_film_sum_errors(film, &w->sums);
     w->wide_errors = are_errors_wide(&w->sums, (uint64_t)film->width * film->height);
@@ -101,8 +100,7 @@ static void fill_band(ec_row_writer *w, const ec_film *film, uint32_t first, uin
 {
     uint64_t heavy = 0;
     w->band.height = rows;
-    w->band.aov = w->band.features ? w->band.features : ec_film_features_at(film, (uint64_t)first * film->width);
-    w->band.clean = ec_film_clean_from(&film->clean, (uint64_t)first * film->width);
+    ec_picture_turn_to(&w->band, film, first);
 #pragma omp parallel for schedule(dynamic, 1) reduction(+ : heavy) if ((uint64_t)w->width * rows > 1 << 14)
     for (uint32_t k = 0; k < rows; k += SEAM) {
         const uint32_t count = rows - k < SEAM ? rows - k : SEAM;

@@ -24,9 +24,6 @@ static const char *largest_loss(double start, double messages, double end, doubl
     return names[most];
 }
 
-/* Bytes that a pixel of a batch takes. */
-static uint32_t batch_bytes(const ec_plan *p) { return 4 * (EC_BATCH_FIELDS + (p->feature_sets ? EC_FILM_FEATURES : 0)); }
-
 /* How batches come in: so many of them one by one, in blocks of EC_FILM_FIRST and of 16 times that. */
 static double block_size(int level) { return EC_FILM_FIRST * pow(EC_FILM_RADIX, level - 1); }
 
@@ -70,7 +67,7 @@ ec_plan_row ec_plan_for(const ec_plan *p, uint32_t ranks)
     const double n = p->batches, pixels = (double)p->pixels, work = n * p->batch / ranks, a_byte = 1 / bytes_per_second(p);
     const mixture m = mixture_of(p, ranks);
     const double blocks = m.count[1] / block_size(1) + m.count[2] / block_size(2);
-    const double bytes = pixels * (batch_bytes(p) * m.count[0] + (double)ec_sums_bytes(p->replicates, p->feature_sets) * blocks);
+    const double bytes = pixels * ((double)ec_batch_bytes(p->feature_sets) * m.count[0] + (double)ec_sums_bytes(p->replicates, p->feature_sets) * blocks);
     const double piece = fmin(EC_TEAM_PIECE_SECONDS, m.largest * p->batch),
                  idle = alone ? 0 : IDLE_SECONDS + 2 * latency(p) + bytes / n * piece / p->batch * a_byte;
     const double messages = work * idle / piece, end = alone ? 0 : p->batch * fmin(1, (double)p->least / pixels) + idle;
@@ -99,7 +96,7 @@ void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
             p->batch, p->add,
             p->add_block, device);
     fprintf(to, "sent        scene: %s to each rank, down a tree of %d to one; sums, to rank 0: %s a batch, or %s a block of %u or %u\n",
-            ec_bytes(p->scene_bytes).text, EC_TREE_FANOUT, ec_bytes(batch_bytes(p) * p->pixels).text,
+            ec_bytes(p->scene_bytes).text, EC_TREE_FANOUT, ec_bytes(ec_batch_bytes(p->feature_sets) * p->pixels).text,
             ec_bytes(ec_sums_bytes(p->replicates, p->feature_sets) * p->pixels).text, EC_FILM_FIRST, EC_FILM_FIRST * EC_FILM_RADIX);
     fprintf(
         to,
@@ -127,7 +124,7 @@ ec_result ec_plan_json(const ec_plan *p, FILE *to, ec_error *err)
     ec_json_real(root, "add_seconds", p->add);
     ec_json_real(root, "add_block_seconds", p->add_block);
     ec_json_whole(root, "scene_bytes", p->scene_bytes);
-    ec_json_whole(root, "batch_bytes", batch_bytes(p) * p->pixels);
+    ec_json_whole(root, "batch_bytes", ec_batch_bytes(p->feature_sets) * p->pixels);
     ec_json_real(root, "batches", p->batches);
     ec_json_real(root, "gbit_per_second", p->gbit);
     ec_json_real(root, "message_microseconds", p->microseconds);

@@ -45,7 +45,7 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     const uint32_t batches = (uint32_t)letter->numbers[EC_ORDER_BATCHES];
     const uint32_t positions = (uint32_t)letter->numbers[EC_ORDER_TO] - from, first = letter->body ? 0 : from;
     const uint32_t sets = (uint32_t)letter->numbers[EC_ORDER_FEATURES];
-    const uint64_t bytes = (batches > 1 ? ec_sums_bytes(s->replicates, sets) : 4 * (EC_BATCH_FIELDS + (sets ? EC_AOV_FIELDS : 0))) * positions;
+    const uint64_t bytes = (batches > 1 ? ec_sums_bytes(s->replicates, sets) : ec_batch_bytes(sets)) * positions;
     EC_FREED float *body = malloc(bytes);
     if (!body) return ec_fail(err, "out of memory for a batch of %u pixels", positions);
     float limit;

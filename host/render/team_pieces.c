@@ -14,12 +14,9 @@ uint32_t ec_team_window(uint32_t members, uint64_t pixels, uint64_t bytes)
     return fit > members ? members + 1 : fit > 2 ? (uint32_t)fit : 2;
 }
 
-/* Bytes that a position of a batch takes. */
-static uint64_t batch_bytes(uint32_t sets) { return 4 * (EC_BATCH_FIELDS + (sets ? EC_AOV_FIELDS : 0)); }
-
 uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, uint32_t sets, bool from_afar)
 {
-    const uint64_t batch = batch_bytes(sets), sums = ec_sums_bytes(replicates, sets);
+    const uint64_t batch = ec_batch_bytes(sets), sums = ec_sums_bytes(replicates, sets);
     const uint64_t batches = batch * pixels * ec_team_window(members, pixels, batch);
     const uint64_t blocks = from_afar ? 2 * sums * pixels * ec_team_window(members, pixels, sums) : 0;
     return blocks > batches ? blocks : batches;
@@ -107,7 +104,8 @@ static bool make_room(ec_team *t, slot *s)
     if (s->batches <= 1) {
         ec_sums_destroy(&s->sums);
         if (!s->mean) s->mean = malloc(4 * EC_BATCH_FIELDS * ec_order_positions(t->pixels, t->replicates));
-        if (!s->features && s->feature_sets) s->features = malloc(4 * EC_AOV_FIELDS * ec_order_positions(t->pixels, t->replicates));
+        if (!s->feature_sets) free(s->features), s->features = NULL;
+        else if (!s->features) s->features = malloc(4 * EC_AOV_FIELDS * ec_order_positions(t->pixels, t->replicates));
         return s->mean && (s->features || !s->feature_sets);
     }
     ec_team_free_units(t);
@@ -144,7 +142,7 @@ bool ec_team_open_unit(ec_team *t, const ec_batch_order *o)
 
 static uint64_t bytes_of(const ec_team *t, uint32_t batches)
 {
-    return t->pixels * (batches > 1 ? ec_sums_bytes(t->replicates, t->feature_sets) : batch_bytes(t->feature_sets));
+    return t->pixels * (batches > 1 ? ec_sums_bytes(t->replicates, t->feature_sets) : ec_batch_bytes(t->feature_sets));
 }
 
 static bool has_room(const ec_team *t, uint32_t batches)

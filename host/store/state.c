@@ -258,7 +258,8 @@ static void read_film(reader *r, ec_state_film *film)
     film->replicates = whole(r, "replicates");
     film->cut = whole(r, "cut");
     film->limit = cJSON_HasObjectItem(r->state, "limit") ? (float)number(r, "limit", FLT_MAX) : 0;
-    film->feature_sets = (uint32_t)number(r, "featureSets", 2);
+    film->feature_sets = whole(r, "featureSets");
+    r->is_wrong |= film->feature_sets > 2;
     film->feature_end = (uint32_t)number(r, "featureEnd", UINT32_MAX);
     film->batch_count = whole(r, "batches");
     film->has_counts = flag(r, "hasCounts");
