@@ -1,61 +1,11 @@
 /* tier: quick */
 /* The same bits, whoever adds the batches, in whatever order, in whatever slices; and the figures are those of the definition. */
-#include "support/films.h"
-#include "support/random.h"
+#include "support/film_batches.h"
 #include "support/test.h"
 
-enum { W = 3, H = 2, P = W * H, MOST = 5000, FIELDS = EC_BATCH_FIELDS * P };
+enum { MOST = 5000 };
 
 static test_random state = {7};
-static uint32_t replicates = EC_REPLICATES, sets, feature_end = UINT32_MAX;
-
-/* Batch k of every film here. Heavy-tailed, and far from 0, where sums in another order do not round alike. */
-static const float *batch_of(uint32_t k)
-{
-    static float batch[FIELDS];
-    for (uint32_t i = 0; i < P; i++) {
-        float *to = batch + EC_BATCH_FIELDS * i, *tail = to + EC_BATCH_LARGEST;
-        test_random own = {k * 1000003ull + i};
-        test_uniform(&own);
-        for (uint32_t c = 0; c < 3; c++) to[c] = (float)(10 * (3 * i + c) + 1 / (0.01 + test_uniform(&own)));
-        tail[0] = (float)(ec_luminance((double[3]){to[0], to[1], to[2]}) * (1 + 3 * test_uniform(&own)));
-        tail[2] = (float)(1 + test_uniform(&own));
-        tail[1] = (float)(tail[2] + 2 * test_uniform(&own));
-    }
-    return batch;
-}
-
-static float feature(uint32_t k, uint32_t i) { return (float)(1 + (k * 31 + i * 7) % 97 / 97.0); }
-
-/* Its features. */
-static const float *features_of(uint32_t k)
-{
-    static float features[EC_FILM_FEATURES * P];
-    for (uint32_t i = 0; i < EC_FILM_FEATURES * P; i++) features[i] = feature(k, i);
-    return features;
-}
-
-static ec_result add(ec_film *film, uint32_t k, uint32_t cut, ec_error *err)
-{
-    return ec_film_take(film, &(ec_film_batch){.index = k, .cut = cut, .values = batch_of(k), .features = sets ? features_of(k) : NULL}, err);
-}
-
-static ec_film empty(void)
-{
-    ec_film film;
-    ec_error err;
-    CHECK_OK(ec_film_create(&film, W, H, replicates, &err), err);
-    ec_film_want_features(&film, sets, feature_end);
-    return film;
-}
-
-static ec_film slice(uint32_t first, uint32_t end)
-{
-    ec_film film = empty();
-    ec_error err;
-    for (uint32_t k = first; k < end; k++) CHECK_OK(add(&film, k, 0, &err), err);
-    return film;
-}
 
 /* Batches 0 to count - 1, of which the last is a sample short. */
 static ec_film cut_after(uint32_t count)
@@ -216,17 +166,6 @@ static void what_is_shown(void)
     ec_film_destroy(&gaps);
 }
 
-/* Bytes a pixel that the film holds. */
-static uint64_t bytes_of(const ec_film *film)
-{
-    uint64_t bytes = 0;
-    for (uint32_t i = 0; i < film->part_count; i++) {
-        const ec_film_part *part = &film->parts[i];
-        bytes += part->batch ? 4 * EC_BATCH_FIELDS + (part->features ? 4 * EC_FILM_FEATURES : 0) : ec_sums_bytes(replicates, part->sums.sets);
-    }
-    return bytes;
-}
-
 /* The sums of a block of batches that others have added up, a few pixels each, as they are sent. */
 static void take_block(ec_film_part *part)
 {
@@ -314,46 +253,6 @@ static void a_cut_batch(void)
     }
 }
 
-/* As many sums as parts.h promises, at every number of batches on the way; and no batch is kept as it is. */
-static void memory_is_bounded(void)
-{
-    const uint64_t sum = ec_sums_bytes(replicates, sets);
-    CHECK(ec_film_bytes(replicates, sets, 0, 1) == sum && ec_film_bytes(replicates, sets, 0, 128) == sum && ec_film_bytes(replicates, sets, 0, 129) == 2 * sum &&
-          ec_film_bytes(replicates, sets, 0, 2048) == 2 * sum && ec_film_bytes(replicates, sets, 0, 2049) == 3 * sum && ec_film_bytes(replicates, sets, 9, 9) == 0);
-    ec_film film = empty();
-    ec_error err;
-    for (uint32_t k = 0; k < MOST; k++) {
-        CHECK_OK(add(&film, k, 0, &err), err);
-        CHECK(bytes_of(&film) <= ec_film_bytes(replicates, sets, 0, k + 1));
-        for (uint32_t i = 0; i < film.part_count; i++) CHECK(!film.parts[i].batch && ec_film_part_is_sound(film.parts[i].first, film.parts[i].count));
-    }
-    ec_film_destroy(&film);
-    const uint32_t sound[][2] = {{5, 1}, {0, 1}, {0, 127}, {128, 128}, {128, 100}, {0, 256}, {0, 1920}, {2048, 2048}, {0, 6144}, {2048, 1024}};
-    const uint32_t unsound[][2] = {{0, 0}, {1, 2}, {0, 129}, {64, 128}, {128, 256}, {128, 2048}, {0, 2049}, {UINT32_MAX, 1}};
-    for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) CHECK_MSG(ec_film_part_is_sound(sound[i][0], sound[i][1]), "%u, %u", sound[i][0], sound[i][1]);
-    for (size_t i = 0; i < sizeof unsound / sizeof *unsound; i++)
-        CHECK_MSG(!ec_film_part_is_sound(unsound[i][0], unsound[i][1]), "%u, %u", unsound[i][0], unsound[i][1]);
-}
-
-/* Within the bound at any moment, and not far below it. */
-static void memory_of_slices_is_bounded(void)
-{
-    const uint32_t firsts[] = {0, 1, 5, 15, 127, 128, 129, 200, 256, 257, 1900, 2040, 2048, 2049, 4095, 4096};
-    for (size_t i = 0; i < sizeof firsts / sizeof *firsts; i++) {
-        ec_film film = empty();
-        ec_error err;
-        uint64_t worst = 0;
-        for (uint32_t k = firsts[i]; k < firsts[i] + 600; k++) {
-            CHECK_OK(add(&film, k, 0, &err), err);
-            worst = bytes_of(&film) > worst ? bytes_of(&film) : worst;
-            const uint64_t most = ec_film_bytes(replicates, sets, firsts[i], k + 1);
-            CHECK_MSG(worst <= most && most <= worst + 2 * ec_sums_bytes(replicates, sets), "batches %u to %u: %llu of %llu", firsts[i], k,
-                      (unsigned long long)worst, (unsigned long long)most);
-        }
-        ec_film_destroy(&film);
-    }
-}
-
 /* One float is broken wherever it stands: as a batch by itself, in a sum; sums in the range of floats stay there. */
 static void broken_and_huge_values(void)
 {
@@ -413,8 +312,6 @@ int main(void)
         what_is_shown();
         blocks_of_batches();
         nothing_twice();
-        memory_is_bounded();
-        memory_of_slices_is_bounded();
     }
     for (sets = 0; sets < 3; sets++) a_cut_batch();
     sets = 1;
