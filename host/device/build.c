@@ -16,17 +16,6 @@ typedef struct entry {
 } entry;
 enum { ENTRIES = EC_STAGE_ID_COUNT + 2 * EC_ACCEL_COUNT };
 
-#define EC_CACHE_LARGE (UINT64_C(32) << 20) /* bytes; a larger one is shared by many cores, and slow: to wait for it costs as much */
-
-const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features)
-{
-    const uint64_t cache = device->cache_bytes < EC_CACHE_LARGE ? device->cache_bytes : EC_CACHE_LARGE;
-    bool is_large = bytes > cache / 8; /* the last cache: those of a core are so much smaller */
-    bool is_known = !(features & (EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_COPLANAR)); /* to trace_interleaved.h */
-    if (!ec_accels[accel].lanes || !(device->type & CL_DEVICE_TYPE_CPU)) return "";
-    return accel == ec_accel_find("bvh8") && is_large && is_known ? " -DINTERLEAVE=8" : " -DRUN=16u";
-}
-
 static entry stage_entry(ec_kernel_set *set, ec_stage_id id)
 {
     entry e = {.stage = id, .accel = EC_ACCEL_COUNT, .lanes = set->lanes, .kernel = &set->stages[id].kernel};
@@ -75,7 +64,7 @@ static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, 
         features |= ec_stage_features(&ec_stages[entries[i].stage], set->features);
         if (entries[i].accel == EC_ACCEL_COUNT || entries[i].stage == EC_INTERSECT) names[used++] = entries[i].source; /* a source has both traversals */
         if (entries[i].accel == EC_ACCEL_COUNT) continue;
-        const char *own = ec_traversal_options(&p->cl->info, entries[i].accel, p->accels[entries[i].accel].bytes, set->features);
+        const char *own = ec_traversal_of(&p->cl->info, entries[i].accel, p->accels[entries[i].accel].bytes, set->features).options;
         if (*own) traversal = own;
     }
     snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s%s", lanes, features, traversal,
@@ -124,7 +113,7 @@ static ec_result add_kernel(const ec_pipeline *p, const ec_kernel_set *set, cons
     ec_compile_kernel *k = &job->kernels[job->kernel_count++];
     *k = (ec_compile_kernel){.program = program, .local = ec_local_size(&p->cl->info), .argument_count = stage->argument_count};
     snprintf(k->name, sizeof k->name, "%s", e->name);
-    k->global = ec_pipeline_items(e->stage, e->accel, set->lanes, set->wave, p->triangle_count);
+    k->global = ec_pipeline_items(p, set, set->wave, e->stage, e->accel);
     for (uint32_t i = 0; i < stage->argument_count; i++)
         k->arguments[i] = stage->arguments[i] < EC_ARG_SCALAR_COUNT ? EC_COMPILE_SCALAR
                           : stage->arguments[i] == EC_ARG_PARAMS  ? EC_COMPILE_CONSTANTS : EC_COMPILE_BUFFER;

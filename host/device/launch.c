@@ -5,12 +5,14 @@
 
 /* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, PoCL need not compile again for a
  * smaller grid, and several devices of its never run one kernel at two sizes, which makes it abort (3.1, pocl_release_dlhandle_cache). */
-uint64_t ec_pipeline_items(ec_stage_id id, uint32_t accel, uint32_t set_lanes, uint32_t wave, uint32_t triangles)
+uint64_t ec_pipeline_items(const ec_pipeline *p, const ec_kernel_set *set, uint32_t wave, ec_stage_id id, uint32_t accel)
 {
     const uint32_t lanes = accel < EC_ACCEL_COUNT ? ec_accels[accel].lanes : ec_stages[id].lanes;
-    uint64_t items = id == EC_RASTER_SETUP || id == EC_RASTER_FILL ? (triangles > EC_SMALL_LAUNCH ? triangles : EC_SMALL_LAUNCH) : wave;
-    if (lanes == EC_LANES_OF_PIPELINE) items /= set_lanes;
-    return items;
+    if (id == EC_RASTER_SETUP || id == EC_RASTER_FILL) return p->triangle_count > EC_SMALL_LAUNCH ? p->triangle_count : EC_SMALL_LAUNCH;
+    if (lanes == EC_LANES_OF_PIPELINE) return wave / set->lanes;
+    if (accel == EC_ACCEL_COUNT) return wave;
+    const uint64_t run = ec_traversal_of(&p->cl->info, accel, p->accels[accel].bytes, set->features).run;
+    return (wave / EC_PARTS + run - 1) / run * EC_PARTS;
 }
 
 uint32_t ec_local_size(const ec_device_info *device)
@@ -62,7 +64,7 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, ec_bound_kernel *bound, 
     const ec_stage_entry *stage = &ec_stages[id];
     const cl_kernel kernel = bound->kernel;
     EC_TRY(bind(p, stage, bound, scalars, err));
-    const uint64_t items = ec_pipeline_items(id, accel, p->kernels.lanes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
+    const uint64_t items = ec_pipeline_items(p, &p->kernels, p->wave, id, accel);
     if (stage->busy < EC_ARG_SCALAR_COUNT) ec_cl_busy(p->cl, stage->label, work_items(p, stage, scalars[stage->busy]));
     const uint32_t local = ec_local_size(&p->cl->info);
     const uint64_t of_part = work_items_a_part(p, stage, items, local);

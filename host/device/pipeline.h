@@ -44,10 +44,10 @@ typedef struct ec_pipeline {
         uint64_t bytes;
         cl_mem buffers[EC_ACCEL_BUFFERS];
         /* Where there are several ways, all give the same hits: rays a second of each, the best trial at each bounce. */
-        struct {
+        struct ec_tuning {
             double best_rate;
             uint32_t trials;
-        } tuning[2][EC_TUNED_BOUNCES][2]; /* intersect and connect; rays as they come, and sorted */
+        } tuning[2][2][EC_TUNED_BOUNCES][2]; /* paths from the camera, and from lights; intersect and connect; rays as they come, and sorted */
     } accels[EC_ACCEL_COUNT];
     float *guide;                 /* what EC_ARG_GUIDE holds; owned; NULL: nothing */
     uint64_t rays;                /* traced so far, shadow rays included */
@@ -118,8 +118,8 @@ uint32_t ec_pipeline_narrow_wave(const ec_pipeline *pipeline, uint64_t features)
 ec_result ec_pipeline_use_wave(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
 /* Room for films of so many pixels and batches of so many positions, which ec_pipeline_run_wave wants; what was in them is lost where they grow. */
 ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, uint64_t positions, ec_error *err);
-/* launch.c; items: of a launch of this stage by kernels of a set. accel: EC_ACCEL_COUNT where it goes through none */
-uint64_t ec_pipeline_items(ec_stage_id stage, uint32_t accel, uint32_t set_lanes, uint32_t wave, uint32_t triangles);
+/* launch.c; items: of a launch of this stage by kernels of a set, over a wave. accel: EC_ACCEL_COUNT where it goes through none */
+uint64_t ec_pipeline_items(const ec_pipeline *pipeline, const ec_kernel_set *set, uint32_t wave, ec_stage_id stage, uint32_t accel);
 ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
 ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
 /* A launch of a stage had the entries of a queue, counted by parts. */

@@ -102,7 +102,7 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
                  (LIGHT_PATH_FEATURES & ~(EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LENS)) | EC_FEATURE_COPLANAR, EC_ARG_PATH_COUNT, ARGS(emit)},
     [EC_SHADE_LIGHT] = {"shade_light", "shade light paths", EC_OF_PATHS, EC_LANES_OF_PIPELINE, EC_FEATURES_FROM_LIGHTS,
                         LIGHT_PATH_FEATURES | EC_FEATURE_CULLING, EC_ARG_COUNTERS, ARGS(shade_light)},
-    [EC_SPLAT] = {"splat", "add light paths' light to pixels", EC_OF_PATHS, 1, EC_FEATURE_LIGHT_PATHS, 0, EC_ARG_PATH_COUNT, ARGS(splat)},
+    [EC_SPLAT] = {"splat", "add light paths' light to pixels", EC_OF_PATHS, EC_LANES_OF_PIPELINE, EC_FEATURE_LIGHT_PATHS, 0, EC_ARG_PATH_COUNT, ARGS(splat)},
     [EC_RASTER_SETUP] = {"raster_setup", "set up triangles", EC_OF(RASTER), 1, 0, 0, EC_ARG_TRIANGLE_COUNT, ARGS(raster_setup)},
     [EC_RASTER_FILL] = {"raster_fill", "fill tiles", EC_OF(RASTER), 1, 0, 0, EC_ARG_TRIANGLE_COUNT, ARGS(raster_fill)},
     [EC_RASTER] = {"raster", "rasterise", EC_OF(RASTER), EC_LANES_OF_PIPELINE, 0,

@@ -123,9 +123,14 @@ bool ec_stage_is_of(const ec_stage_entry *stage, ec_integrator integrator, uint6
 
 extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
 
-/* What an accelerator's kernels are built with besides lanes and features. On processors a call traces 16 rays, one after the other, or in bvh8
- * side by side (lib/trace_interleaved.h), where its buffers, `bytes` in all, are larger than the device's cache. Static text, "" for nothing. features: those that are built. */
-const char *ec_traversal_options(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features);
+typedef struct ec_traversal {
+    const char *options; /* that an accelerator's kernels are built with besides lanes and features; static text, "" for nothing */
+    uint32_t run;        /* rays that a work-item takes, unless it takes a packet */
+} ec_traversal;
+
+/* On processors a work-item traces 16 rays, one after the other, or in bvh8 64 by turns (lib/trace_interleaved.h), where the accelerator's buffers, `bytes`
+ * in all, are larger than the device's cache. features: those that are built. */
+ec_traversal ec_traversal_of(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features);
 
 #define EC_LOCAL_SIZE 16 /* one fixed local size a kernel: PoCL compiles again for each new one */
 #define EC_LOCAL_SIZE_OF_CARDS 64 /* whose threads go in step by 32 or 64. On an H100 128 are as fast, 32 and 256 take 3 to 13 % longer */

@@ -1,5 +1,7 @@
 /* Which accelerator a bounce goes through, where several are in use, and whether its packets sort their rays first. Hits are the same, so
  * only time is at stake. */
+#include <math.h>
+
 #include "base/clock.h"
 #include "device/pipeline.h"
 
@@ -8,40 +10,49 @@ typedef struct way {
     uint32_t accel, sorts;
 } way;
 
+/* Rays of a kind, which have a choice of their own. */
+typedef struct kind {
+    int of_light, connect;
+} kind;
+
 static bool is_packets(uint32_t accel) { return ec_accels[accel].lanes == EC_LANES_OF_PIPELINE; }
 
 /* All that there are at a bounce; returns how many. */
-static uint32_t list_ways(const ec_pipeline *p, uint32_t bounce, way ways[2 * EC_ACCEL_COUNT])
+static uint32_t list_ways(const ec_pipeline *p, kind k, uint32_t bounce, way ways[2 * EC_ACCEL_COUNT])
 {
     uint32_t count = 0;
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
         if (!(p->kernels.accels >> a & 1)) continue;
         ways[count++] = (way){a, 0};
-        if (is_packets(a) && p->kernels.lanes > 1 && bounce > 0) ways[count++] = (way){a, 1};
+        if (is_packets(a) && p->kernels.lanes > 1 && (bounce > 0 || k.of_light)) ways[count++] = (way){a, 1};
     }
     return count;
+}
+
+static struct ec_tuning *tuning_of(ec_pipeline *p, kind k, uint32_t bounce, way w)
+{
+    return &p->accels[w.accel].tuning[k.of_light][k.connect][bounce][w.sorts];
 }
 
 /* Tries each at each of the first bounces, then keeps the fastest. The best of three counts (after one that may compile),
  * since other programs can only slow a trial down. Rays only lose coherence from bounce to bounce: packets are tried where
  * they have won the bounce before, and until then the last of the list takes over. */
 #define TRIALS 4
-static way choose(const ec_pipeline *p, int connect, uint32_t bounce, bool *is_trial)
+static way choose(ec_pipeline *p, kind k, uint32_t bounce, bool *is_trial)
 {
     way ways[2 * EC_ACCEL_COUNT], best = {0};
     *is_trial = false;
     for (uint32_t b = 0; b <= bounce && b < EC_TUNED_BOUNCES; b++) {
-        uint32_t count = list_ways(p, b, ways);
+        const uint32_t count = list_ways(p, k, b, ways);
         double best_rate = -1.0;
         best = ways[0]; /* where there is no other */
         for (uint32_t w = 0; w < count && count > 1; w++) {
-            uint32_t trials = p->accels[ways[w].accel].tuning[connect][b][ways[w].sorts].trials;
-            double rate = p->accels[ways[w].accel].tuning[connect][b][ways[w].sorts].best_rate;
-            if (trials < TRIALS) {
+            const struct ec_tuning *tuning = tuning_of(p, k, b, ways[w]);
+            if (tuning->trials < TRIALS) {
                 *is_trial = b == bounce;
                 return ways[*is_trial ? w : count - 1];
             }
-            if (rate > best_rate) best = ways[w], best_rate = rate;
+            if (tuning->best_rate > best_rate) best = ways[w], best_rate = tuning->best_rate;
         }
         if (!is_packets(best.accel)) return best;
     }
@@ -50,8 +61,9 @@ static way choose(const ec_pipeline *p, int connect, uint32_t bounce, bool *is_t
 
 ec_result ec_pipeline_trace(ec_pipeline *p, int connect, uint32_t bounce, uint32_t *scalars, ec_error *err)
 {
+    const kind k = {(scalars[EC_ARG_BOUNCE] & EC_LIGHT_BOUNCE) != 0, connect};
     bool is_trial;
-    way w = choose(p, connect, bounce, &is_trial);
+    const way w = choose(p, k, bounce, &is_trial);
     scalars[EC_ARG_SORTS] = w.sorts;
     if (!is_trial) return ec_pipeline_launch_trace(p, connect, w.accel, scalars, err);
     ec_counters *counters = &p->counters;
@@ -61,9 +73,10 @@ ec_result ec_pipeline_trace(ec_pipeline *p, int connect, uint32_t bounce, uint32
     EC_TRY(ec_cl_finish(p->cl, err));
     uint32_t step = scalars[EC_ARG_STEP];
     uint64_t rays = ec_pipeline_total(connect ? counters->shadows[step] : counters->rays[step]);
-    double rate = (double)rays / (ec_now() - start), *best = &p->accels[w.accel].tuning[connect][bounce][w.sorts].best_rate;
-    if (p->accels[w.accel].tuning[connect][bounce][w.sorts].trials++ == 0) return EC_OK;
-    if (rate > *best) *best = rate;
+    const double rate = (double)rays / (ec_now() - start);
+    struct ec_tuning *tuning = tuning_of(p, k, bounce, w);
+    if (tuning->trials++ == 0) return EC_OK;
+    tuning->best_rate = fmax(tuning->best_rate, rate);
     p->clocked_seconds += (double)rays / rate;
     p->clocked_rays += (double)rays;
     return EC_OK;

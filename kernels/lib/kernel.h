@@ -8,23 +8,20 @@
 /* Kernel `name`, whose body follows: for the entry i that a work-item begins at, of `lanes` entries each, and how many there are from it on. LIST(DO):
  * DO(type, name) of its parameters, but for params, in the order of host/device/stages.c. entries: how many, by i and the parameters; none, and the body
  * is not called. */
-#define EC_KERNEL(name, lanes, LIST, entries)                                                                                                         \
+#define EC_KERNEL(name, lanes, LIST, entries) EC_KERNEL_AT(name, queue_entry(params->part, lanes), LIST, entries)
+#define EC_KERNEL_AT(name, first, LIST, entries)                                                                                                      \
     EC_CALLED void EC_CAT(name, _item)(uint i, uint left, constant ec_params *params LIST(EC_PARAMETER));                                             \
     kernel void name(constant ec_params *params LIST(EC_PARAMETER))                                                                                   \
     {                                                                                                                                                 \
-        uint i = queue_entry(params->part, lanes), left = entries;                                                                                    \
+        uint i = first, left = entries;                                                                                                               \
         if (left) EC_CAT(name, _item)(i, left, params LIST(EC_ARGUMENT));                                                                             \
     }                                                                                                                                                 \
     EC_CALLED void EC_CAT(name, _item)(uint i, uint left, constant ec_params *params LIST(EC_PARAMETER))
 
-/* One of a single entry, which has so little to do that a call for each would cost up to 3 % of a render: the first of RUN work-items takes those of
- * all of them, by one call. */
-#ifndef RUN
-#define RUN 1u
-#endif
+/* One whose body is for a single entry i: a work-item has RUN of them, one after the other. */
 #define EC_RUN_KERNEL(name, LIST, entries)                                                                                                            \
     EC_INLINED void EC_CAT(name, _entry)(uint i, constant ec_params *params LIST(EC_PARAMETER));                                                      \
-    EC_KERNEL(name, 1u, LIST, i % params->part % RUN ? 0u : entries)                                                                                  \
+    EC_KERNEL_AT(name, queue_run(params->part), LIST, entries)                                                                                        \
     {                                                                                                                                                 \
         for (uint end = i + min(left, RUN); i < end; i++) EC_CAT(name, _entry)(i, params LIST(EC_ARGUMENT));                                          \
     }                                                                                                                                                 \

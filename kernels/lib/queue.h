@@ -8,6 +8,16 @@
 
 /* The entry that a work-item begins at. A launch goes over all entries, or has a second dimension, the parts, and goes over the first of each. */
 EC_INLINED uint queue_entry(uint part, uint lanes) { return get_global_id(0) * lanes + get_global_id(1) * part; }
+/* The same for work-items of RUN entries, the last one of a part of as many as are left there. */
+#ifndef RUN
+#define RUN 1u
+#endif
+EC_INLINED uint queue_run(uint part)
+{
+    if (RUN == 1u) return queue_entry(part, 1u);
+    uint id = get_global_id(0), runs = (part + RUN - 1u) / RUN;
+    return id / runs * part + id % runs * RUN;
+}
 /* How many entries stand at i or after it: of a queue in i's part, and of all slots. */
 EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, uint i)
 {

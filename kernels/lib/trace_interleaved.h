@@ -8,8 +8,6 @@
 #include "packet8.h"
 #include "trace.h"
 
-#define EC_INTERLEAVED_RAYS 64u /* that a work-item takes in all: at the end fewer than INTERLEAVE are on their way */
-
 /* A ray on its way. */
 typedef struct walk {
     ray8 q;
@@ -81,18 +79,17 @@ EC_INLINED bool walk_any(const accel *a, hit_filter *filter, walk *w)
     return false;
 }
 
-/* The rays that a work-item takes: `left` from its own place on, of which `next` have begun. order[0 .. count) are those on their way. */
+/* The rays that a work-item takes, up to RUN (at the end fewer than INTERLEAVE are on their way): `left` from its own place on, of which `next` have
+ * begun. order[0 .. count) are those on their way. */
 typedef struct turns {
     uint left, next, count;
     uint order[INTERLEAVE];
 } turns;
 
-EC_INLINED bool turns_begin(uint part, uint i) { return i % part % EC_INTERLEAVED_RAYS == 0u; }
-
 EC_INLINED turns turns_of(uint left)
 {
     turns t;
-    t.left = min(left, EC_INTERLEAVED_RAYS);
+    t.left = min(left, RUN);
     t.next = t.count = 0;
     return t;
 }
@@ -157,7 +154,7 @@ EC_INLINED void camera_rays(uint i, uint left, constant ec_params *params INTERS
 }
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part, i) ? QUEUED(rays[step]) : 0u)
+EC_KERNEL_AT(ec_intersect_bvh8, queue_run(params->part), INTERSECT_PARAMETERS, QUEUED(rays[step]))
 {
     uint wave = params->wave;
     turns t = turns_of(left);
@@ -182,7 +179,7 @@ EC_KERNEL(ec_intersect_bvh8, 1u, INTERSECT_PARAMETERS, turns_begin(params->part,
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-EC_KERNEL(ec_connect_bvh8, 1u, CONNECT_PARAMETERS, turns_begin(params->part, i) ? QUEUED(shadows[step]) : 0u)
+EC_KERNEL_AT(ec_connect_bvh8, queue_run(params->part), CONNECT_PARAMETERS, QUEUED(shadows[step]))
 {
     uint wave = params->wave;
     turns t = turns_of(left);

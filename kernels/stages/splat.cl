@@ -22,19 +22,22 @@ static void add_fixed(volatile global uint *words, float steps, uint r)
     DO(uint, seed) DO(uint, first_pixel) DO(uint, bounce) DO(uint, path_count) DO(global float *, radiance) DO(global const float *, light_slots)     \
     DO(volatile global uint *, splats)
 
-EC_KERNEL(ec_splat, 1u, SPLAT_PARAMETERS, slot_entries(path_count, i))
+EC_KERNEL(ec_splat, LANES, SPLAT_PARAMETERS, slot_entries(path_count, i))
 {
-    uint slot = i, wave = params->wave;
-    lane_u path, sample;
-    float red = radiance[slot], green = radiance[wave + slot], blue = radiance[2 * wave + slot];
-    if (max(red, max(green, blue)) == 0.0f) return;
-    for (uint c = 0; c < 3; c++) radiance[c * wave + slot] = 0.0f;
-    slot_to_pixel(params, first_pixel, 0, U(slot), &path, &sample);
-    volatile global uint *words = splats + EC_SPLAT_WORDS * (ulong)as_uint(light_slots[EC_LIGHT_SLOT_PIXEL * wave + slot]);
-    uint r = hash_scalar(hash_scalar(hash_scalar(LANE(path, 0)) ^ seed) + LANE(sample, 0) * 0x9e3779b9u + bounce);
-    add_fixed(words + EC_SPLAT_R, red / params->splat_unit, r = hash_scalar(r));
-    add_fixed(words + EC_SPLAT_G, green / params->splat_unit, r = hash_scalar(r));
-    add_fixed(words + EC_SPLAT_B, blue / params->splat_unit, r = hash_scalar(r));
-    float y = luminance_one(red, green, blue);
-    if (is_finite_one(y)) atomic_max(words + EC_SPLAT_LARGEST, as_uint(y));
+    uint wave = params->wave;
+    v3 light = queue_load_v3(radiance, wave, 0, i);
+    uint bits = mask_bits((LANE_NUMBERS < left) & (v3_max_component(light) != 0.0f));
+    for (uint rest = bits; rest; rest &= rest - 1u) {
+        uint slot = i + 31u - clz(rest & (~rest + 1u));
+        lane_u path, sample;
+        float red = radiance[slot], green = radiance[wave + slot], blue = radiance[2 * wave + slot], y = luminance_one(red, green, blue);
+        slot_to_pixel(params, first_pixel, 0, U(slot), &path, &sample);
+        volatile global uint *words = splats + EC_SPLAT_WORDS * (ulong)as_uint(light_slots[EC_LIGHT_SLOT_PIXEL * wave + slot]);
+        uint r = hash_scalar(hash_scalar(hash_scalar(LANE(path, 0)) ^ seed) + LANE(sample, 0) * 0x9e3779b9u + bounce);
+        add_fixed(words + EC_SPLAT_R, red / params->splat_unit, r = hash_scalar(r));
+        add_fixed(words + EC_SPLAT_G, green / params->splat_unit, r = hash_scalar(r));
+        add_fixed(words + EC_SPLAT_B, blue / params->splat_unit, r = hash_scalar(r));
+        if (is_finite_one(y)) atomic_max(words + EC_SPLAT_LARGEST, as_uint(y));
+    }
+    if (bits) queue_store_v3(radiance, wave, 0, i, v3_zero());
 }

@@ -7,14 +7,14 @@
 
 static ec_render_options options(void)
 {
-    ec_render_options o = case_quick(case_options(48, 36, 16));
+    ec_render_options o = case_quick(case_options(160, 96, 4));
     o.accel = "bvh8";
     return o;
 }
 
 static bool is_interleaved(const case_image *image)
 {
-    return strstr(ec_traversal_options(&case_cl()->info, ec_accel_find("bvh8"), 1000, image->stats.effects.built), "INTERLEAVE") != NULL;
+    return strstr(ec_traversal_of(&case_cl()->info, ec_accel_find("bvh8"), 1000, image->stats.effects.built).options, "INTERLEAVE") != NULL;
 }
 
 /* A cache of hundreds of megabytes is shared by many cores, and slow. */
@@ -27,8 +27,26 @@ static void large_bvhs_are_told_by_what_is_fast(void)
     ec_device_info info = {.type = CL_DEVICE_TYPE_CPU};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         info.cache_bytes = cases[i].cache;
-        CHECK(!strstr(ec_traversal_options(&info, ec_accel_find("bvh8"), cases[i].bytes, 0), "INTERLEAVE") == !cases[i].interleaved);
+        CHECK(!strstr(ec_traversal_of(&info, ec_accel_find("bvh8"), cases[i].bytes, 0).options, "INTERLEAVE") == !cases[i].interleaved);
     }
+}
+
+/* A work-item takes 16 or 64 rays of one of the queue's 32 parts; here each part has room for 37, or for 301. */
+static void parts_of_any_size_are_traced_to_their_end(const ec_scene *scene, const case_image *expected)
+{
+    const uint64_t cache = case_cl()->info.cache_bytes, caches[] = {UINT64_C(1) << 30, 0};
+    const uint32_t parts[] = {37, 301};
+    for (int i = 0; i < 4; i++) {
+        ec_render_options o = options();
+        o.lanes = 1;
+        o.wave = 32 * parts[i / 2];
+        case_cl()->info.cache_bytes = caches[i % 2];
+        case_image image = case_render(scene, &o);
+        CHECK(image.stats.wave == o.wave);
+        CHECK(case_same_bits(&image.film, &expected->film));
+        case_free(&image);
+    }
+    case_cl()->info.cache_bytes = cache;
 }
 
 int main(void)
@@ -49,6 +67,7 @@ int main(void)
     case_image image = case_render(scene, &o);
     if (case_cl()->info.type & CL_DEVICE_TYPE_CPU) CHECK(is_interleaved(&image));
     CHECK(case_same_bits(&image.film, &expected.film));
+    parts_of_any_size_are_traced_to_their_end(scene, &expected);
     case_free(&opaque);
     case_free(&expected);
     case_free(&image);
