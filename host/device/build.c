@@ -65,6 +65,7 @@ static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, 
         if (entries[i].accel == EC_ACCEL_COUNT || entries[i].stage == EC_INTERSECT) names[used++] = entries[i].source; /* a source has both traversals */
         if (entries[i].accel == EC_ACCEL_COUNT) continue;
         const char *own = ec_traversal_of(&p->cl->info, entries[i].accel, p->accels[entries[i].accel].bytes, set->features).options;
+        if (*own && *traversal && own != traversal) return ec_fail(err, "internal error: traversals of one width that take different runs of rays");
         if (*own) traversal = own;
     }
     snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s%s", lanes, features, traversal,

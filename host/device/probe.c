@@ -89,7 +89,8 @@ static ec_result build(ec_pipeline *p, uint32_t which, bool count, ec_error *err
     *kernel = (ec_bound_kernel){0};
     snprintf(unit, sizeof unit, "traverse_%s", ec_accels[which].name);
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[which].name);
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u%s", lanes, count ? " -DPROBE" : "");
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u%s%s", lanes, ec_traversal_of(&p->cl->info, which, p->accels[which].bytes, 0).options,
+             count ? " -DPROBE" : "");
     EC_TRY(ec_program_build(p->cl, unit, ec_kernel_source(unit), options, program, err));
     return ec_kernel_create(*program, name, &kernel->kernel, err);
 }

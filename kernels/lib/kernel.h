@@ -7,7 +7,7 @@
 
 /* Kernel `name`, whose body follows: for the entry i that a work-item begins at, of `lanes` entries each, and how many there are from it on. LIST(DO):
  * DO(type, name) of its parameters, but for params, in the order of host/device/stages.c. entries: how many, by i and the parameters; none, and the body
- * is not called. */
+ * is not called. EC_KERNEL_AT: a work-item begins at entry `first`, by the parameters. */
 #define EC_KERNEL(name, lanes, LIST, entries) EC_KERNEL_AT(name, queue_entry(params->part, lanes), LIST, entries)
 #define EC_KERNEL_AT(name, first, LIST, entries)                                                                                                      \
     EC_CALLED void EC_CAT(name, _item)(uint i, uint left, constant ec_params *params LIST(EC_PARAMETER));                                             \

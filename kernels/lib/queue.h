@@ -8,7 +8,7 @@
 
 /* The entry that a work-item begins at. A launch goes over all entries, or has a second dimension, the parts, and goes over the first of each. */
 EC_INLINED uint queue_entry(uint part, uint lanes) { return get_global_id(0) * lanes + get_global_id(1) * part; }
-/* The same for work-items of RUN entries, the last one of a part of as many as are left there. */
+/* With RUN entries a work-item, all in one part: the last one of a part has as many as are left there. */
 #ifndef RUN
 #define RUN 1u
 #endif
