@@ -1,6 +1,6 @@
-/* tier: quick */
+/* tiers: quick, long */
 /* Light of light paths in the pixels it goes to, against sums in double: what is less than a step is rounded up as often as it is large, sums of
- * over 32 bits carry, the same bits come of it in any order, and slots are empty afterwards. */
+ * over 32 bits carry, the same bits come of it in any order and width, slots are empty afterwards, and those behind the last path are left out. */
 #include "kernel/kernel_run.h"
 #include "shared/params.h"
 #include "shared/path_state.h"
@@ -35,14 +35,35 @@ static void fill(double sums[PIXELS], float largest[PIXELS])
     }
 }
 
-static bool run(ec_cl *cl, cl_program program, uint32_t *out)
+static bool run(ec_cl *cl, cl_program program, uint32_t lanes, uint32_t count, uint32_t *out)
 {
     const ec_params params = {.batch = 4, .wave = PATHS, .splat_unit = unit};
-    const uint32_t seed = 7, first = 0, bounce = EC_LIGHT_BOUNCE, count = PATHS;
+    const uint32_t seed = 7, first = 0, bounce = EC_LIGHT_BOUNCE;
     memset(out, 0, sizeof splats);
     const kernel_array arrays[] = {IN(&params, 1), SCALAR(seed), SCALAR(first), SCALAR(bounce), SCALAR(count), OUT(radiance, 3 * PATHS),
                                    IN(slots, EC_LIGHT_SLOT_FIELDS * PATHS), OUT(out, EC_SPLAT_WORDS * PIXELS)};
-    return kernel_call(cl, program, "ec_splat", PATHS, 64, arrays, sizeof arrays / sizeof *arrays);
+    return kernel_call(cl, program, "ec_splat", PATHS / lanes, 64, arrays, sizeof arrays / sizeof *arrays);
+}
+
+/* Three paths less than there are slots with light in them: as if these three had brought none. */
+static void widths_agree(ec_cl *cl, cl_program one, const float *light)
+{
+    enum { COUNT = PATHS - 3 };
+    static uint32_t wide[EC_SPLAT_WORDS * PIXELS];
+    memcpy(radiance, light, sizeof radiance);
+    for (int c = 0; c < 3; c++) memset(radiance + c * PATHS + COUNT, 0, 3 * sizeof *radiance);
+    if (!run(cl, one, 1, PATHS, again)) return;
+    const int widths = kernel_widths(cl);
+    for (int w = 0; w < widths; w++) {
+        const int lanes = lane_widths[w];
+        cl_program program = kernel_build(cl, "splat", lanes, NULL);
+        memcpy(radiance, light, sizeof radiance);
+        if (program && run(cl, program, (uint32_t)lanes, COUNT, wide)) {
+            CHECK_MSG(!memcmp(wide, again, sizeof wide), "%d lanes", lanes);
+            for (uint32_t i = 0; i < 3 * PATHS; i++) CHECK(i % PATHS >= COUNT || radiance[i] == 0);
+        }
+        if (program) clReleaseProgram(program);
+    }
 }
 
 int main(void)
@@ -56,7 +77,7 @@ int main(void)
     fill(sums, largest);
     static float before[3 * PATHS];
     memcpy(before, radiance, sizeof before);
-    if (program && run(&cl, program, splats)) {
+    if (program && run(&cl, program, 1, PATHS, splats)) {
         for (int i = 0; i < 3 * PATHS; i++) CHECK(radiance[i] == 0);
         for (int p = 0; p < PIXELS; p++) {
             const uint32_t *w = splats + EC_SPLAT_WORDS * p;
@@ -70,7 +91,8 @@ int main(void)
         }
         CHECK(splats[EC_SPLAT_WORDS * 2 + 1] > 1000); /* there was something to carry */
         memcpy(radiance, before, sizeof before);
-        if (run(&cl, program, again)) CHECK(!memcmp(splats, again, sizeof splats));
+        if (run(&cl, program, 1, PATHS, again)) CHECK(!memcmp(splats, again, sizeof splats));
+        widths_agree(&cl, program, before);
     }
     if (program) clReleaseProgram(program);
     ec_cl_close(&cl);
