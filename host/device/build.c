@@ -11,23 +11,27 @@
 typedef struct entry {
     ec_stage_id stage;
     uint32_t accel, lanes; /* accel: EC_ACCEL_COUNT where the stage has nothing to do with them */
+    uint32_t takes;        /* as in ec_bound_kernel */
+    const char *options;   /* of its traversal; "" for none */
     char source[32], name[64];
-    cl_kernel *kernel;
+    ec_bound_kernel *kernel;
 } entry;
 enum { ENTRIES = EC_STAGE_ID_COUNT + 2 * EC_ACCEL_COUNT };
 
 static entry stage_entry(ec_kernel_set *set, ec_stage_id id)
 {
-    entry e = {.stage = id, .accel = EC_ACCEL_COUNT, .lanes = set->lanes, .kernel = &set->stages[id].kernel};
+    entry e = {.stage = id, .accel = EC_ACCEL_COUNT, .lanes = set->lanes, .options = "", .kernel = &set->stages[id]};
+    e.takes = ec_stages[id].lanes == EC_LANES_OF_PIPELINE ? set->lanes : 1;
     snprintf(e.source, sizeof e.source, "%s", ec_stages[id].source);
     snprintf(e.name, sizeof e.name, "ec_%s", ec_stages[id].source);
     return e;
 }
 
-static entry trace_entry(ec_kernel_set *set, int connect, uint32_t accel)
+static entry trace_entry(const ec_pipeline *p, ec_kernel_set *set, int connect, uint32_t accel)
 {
-    const uint32_t lanes = ec_accels[accel].lanes ? ec_accels[accel].lanes : set->lanes;
-    entry e = {.stage = connect ? EC_CONNECT : EC_INTERSECT, .accel = accel, .lanes = lanes, .kernel = &set->traverse[accel][connect].kernel};
+    const ec_traversal way = ec_traversal_of(&p->cl->info, accel, p->accels[accel].bytes, set->features, set->lanes);
+    entry e = {.stage = connect ? EC_CONNECT : EC_INTERSECT, .accel = accel, .lanes = way.lanes, .takes = way.takes, .options = way.options};
+    e.kernel = &set->traverse[accel][connect];
     snprintf(e.source, sizeof e.source, "traverse_%s", ec_accels[accel].name);
     snprintf(e.name, sizeof e.name, "ec_%s_%s", ec_stages[e.stage].source, ec_accels[accel].name);
     return e;
@@ -42,7 +46,7 @@ static uint32_t list_entries(const ec_pipeline *p, ec_kernel_set *set, entry ent
     const uint32_t first = ec_accels_needed(set->accels), parts[] = {first, set->accels & ~first};
     for (int i = 0; i < 2; i++)
         for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
-            for (int connect = 0; parts[i] >> a & 1 && connect < 2; connect++) entries[count++] = trace_entry(set, connect, a);
+            for (int connect = 0; parts[i] >> a & 1 && connect < 2; connect++) entries[count++] = trace_entry(p, set, connect, a);
     return count;
 }
 
@@ -63,8 +67,7 @@ static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, 
         if (entries[i].lanes != lanes) continue;
         features |= ec_stage_features(&ec_stages[entries[i].stage], set->features);
         if (entries[i].accel == EC_ACCEL_COUNT || entries[i].stage == EC_INTERSECT) names[used++] = entries[i].source; /* a source has both traversals */
-        if (entries[i].accel == EC_ACCEL_COUNT) continue;
-        const char *own = ec_traversal_of(&p->cl->info, entries[i].accel, p->accels[entries[i].accel].bytes, set->features).options;
+        const char *own = entries[i].options;
         if (*own && *traversal && own != traversal) return ec_fail(err, "internal error: traversals of one width that take different runs of rays");
         if (*own) traversal = own;
     }
@@ -84,7 +87,8 @@ ec_result ec_kernel_set_build(ec_pipeline *p, ec_kernel_set *set, ec_error *err)
         if (!*program) EC_TRY(describe_width(p, set, entries, count, entries[i].lanes, &described, err));
         ec_result result = *program ? EC_OK : ec_program_build(p->cl, described.label, described.source, described.options, program, err);
         free(described.source);
-        if (result == EC_OK) result = ec_kernel_create(*program, entries[i].name, entries[i].kernel, err);
+        if (result == EC_OK) result = ec_kernel_create(*program, entries[i].name, &entries[i].kernel->kernel, err);
+        entries[i].kernel->takes = entries[i].takes;
         EC_TRY(result);
     }
     return EC_OK;
@@ -114,7 +118,7 @@ static ec_result add_kernel(const ec_pipeline *p, const ec_kernel_set *set, cons
     ec_compile_kernel *k = &job->kernels[job->kernel_count++];
     *k = (ec_compile_kernel){.program = program, .local = ec_local_size(&p->cl->info), .argument_count = stage->argument_count};
     snprintf(k->name, sizeof k->name, "%s", e->name);
-    k->global = ec_pipeline_items(p, set, set->wave, e->stage, e->accel);
+    k->global = ec_pipeline_items(e->stage, e->takes, set->wave, p->triangle_count);
     for (uint32_t i = 0; i < stage->argument_count; i++)
         k->arguments[i] = stage->arguments[i] < EC_ARG_SCALAR_COUNT ? EC_COMPILE_SCALAR
                           : stage->arguments[i] == EC_ARG_PARAMS  ? EC_COMPILE_CONSTANTS : EC_COMPILE_BUFFER;

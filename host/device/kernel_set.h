@@ -11,6 +11,7 @@
 /* A kernel and the arguments that it has. They are compared before they are set, which takes a driver longer. */
 typedef struct ec_bound_kernel {
     cl_kernel kernel;
+    uint32_t takes;                           /* entries of the wave that a work-item of it takes */
     uint64_t release;                         /* ec_cl.releases when they were set; 0: they are not */
     uint64_t arguments[EC_STAGE_ARGUMENTS];   /* scalars, and handles of buffers */
 } ec_bound_kernel;

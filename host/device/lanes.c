@@ -16,12 +16,14 @@ ec_result ec_pipeline_lanes(const ec_cl *cl, uint32_t wanted, uint32_t *lanes, e
 
 #define EC_CACHE_LARGE (UINT64_C(32) << 20) /* bytes; a larger one is shared by many cores, and slow: to wait for it costs as much */
 
-ec_traversal ec_traversal_of(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features)
+ec_traversal ec_traversal_of(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features, uint32_t packet)
 {
-    static const ec_traversal one = {"", 1}, runs = {" -DRUN=16u", 16}, turns = {" -DINTERLEAVE=8 -DRUN=64u", 64};
+    const uint32_t lanes = ec_accels[accel].lanes;
+    const ec_traversal packets = {"", packet, packet}, one = {"", lanes, 1}, runs = {" -DRUN=16u", lanes, 16}, turns = {" -DINTERLEAVE=8 -DRUN=64u", lanes, 64};
     const uint64_t cache = device->cache_bytes < EC_CACHE_LARGE ? device->cache_bytes : EC_CACHE_LARGE;
     bool is_large = bytes > cache / 8; /* the last cache: those of a core are so much smaller */
     bool is_known = !(features & (EC_FEATURE_PANES | EC_FEATURE_MOTION | EC_FEATURE_COPLANAR)); /* to trace_interleaved.h */
-    if (!ec_accels[accel].lanes || !(device->type & CL_DEVICE_TYPE_CPU)) return one;
+    if (lanes == EC_LANES_OF_PIPELINE) return packets;
+    if (!(device->type & CL_DEVICE_TYPE_CPU)) return one;
     return accel == ec_accel_find("bvh8") && is_large && is_known ? turns : runs;
 }

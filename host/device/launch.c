@@ -5,14 +5,10 @@
 
 /* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, PoCL need not compile again for a
  * smaller grid, and several devices of its never run one kernel at two sizes, which makes it abort (3.1, pocl_release_dlhandle_cache). */
-uint64_t ec_pipeline_items(const ec_pipeline *p, const ec_kernel_set *set, uint32_t wave, ec_stage_id id, uint32_t accel)
+uint64_t ec_pipeline_items(ec_stage_id id, uint32_t takes, uint32_t wave, uint32_t triangles)
 {
-    const uint32_t lanes = accel < EC_ACCEL_COUNT ? ec_accels[accel].lanes : ec_stages[id].lanes;
-    if (id == EC_RASTER_SETUP || id == EC_RASTER_FILL) return p->triangle_count > EC_SMALL_LAUNCH ? p->triangle_count : EC_SMALL_LAUNCH;
-    if (lanes == EC_LANES_OF_PIPELINE) return wave / set->lanes;
-    if (accel == EC_ACCEL_COUNT) return wave;
-    const uint64_t run = ec_traversal_of(&p->cl->info, accel, p->accels[accel].bytes, set->features).run;
-    return (wave / EC_PARTS + run - 1) / run * EC_PARTS;
+    if (id == EC_RASTER_SETUP || id == EC_RASTER_FILL) return triangles > EC_SMALL_LAUNCH ? triangles : EC_SMALL_LAUNCH;
+    return (uint64_t)EC_PARTS * ((wave / EC_PARTS + takes - 1) / takes);
 }
 
 uint32_t ec_local_size(const ec_device_info *device)
@@ -22,11 +18,11 @@ uint32_t ec_local_size(const ec_device_info *device)
 
 /* Cards go over as many entries of each part of the queue as any of them may hold: a million work-items without a path take as long as a late
  * bounce's few with one. 0: over all. */
-static uint64_t work_items_a_part(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t items, uint32_t local)
+static uint64_t work_items_a_part(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t takes, uint32_t local)
 {
     if (stage->busy < EC_ARG_SCALAR_COUNT || !p->held || p->cl->info.type & CL_DEVICE_TYPE_CPU) return 0;
-    const uint64_t lanes = p->wave / items, most = (p->held + lanes - 1) / lanes, rounded = (most + local - 1) / local * local;
-    return rounded * lanes <= p->params.part ? rounded : 0;
+    const uint64_t most = (p->held + takes - 1) / takes, rounded = (most + local - 1) / local * local;
+    return rounded * takes <= p->params.part ? rounded : 0;
 }
 
 /* That carry so many paths, pixels or triangles. */
@@ -59,26 +55,26 @@ static ec_result bind(ec_pipeline *p, const ec_stage_entry *stage, ec_bound_kern
     return EC_OK;
 }
 
-static ec_result launch(ec_pipeline *p, ec_stage_id id, ec_bound_kernel *bound, uint32_t accel, const uint32_t *scalars, ec_error *err)
+static ec_result launch(ec_pipeline *p, ec_stage_id id, ec_bound_kernel *bound, const uint32_t *scalars, ec_error *err)
 {
     const ec_stage_entry *stage = &ec_stages[id];
     const cl_kernel kernel = bound->kernel;
     EC_TRY(bind(p, stage, bound, scalars, err));
-    const uint64_t items = ec_pipeline_items(p, &p->kernels, p->wave, id, accel);
+    const uint64_t items = ec_pipeline_items(id, bound->takes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
     if (stage->busy < EC_ARG_SCALAR_COUNT) ec_cl_busy(p->cl, stage->label, work_items(p, stage, scalars[stage->busy]));
     const uint32_t local = ec_local_size(&p->cl->info);
-    const uint64_t of_part = work_items_a_part(p, stage, items, local);
+    const uint64_t of_part = work_items_a_part(p, stage, bound->takes, local);
     if (of_part) return ec_kernel_run_rows(p->cl, stage->label, kernel, of_part, EC_PARTS, local, err);
     return ec_kernel_run(p->cl, stage->label, kernel, items, local, err);
 }
 
 ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *scalars, ec_error *err)
 {
-    return launch(p, id, &p->kernels.stages[id], EC_ACCEL_COUNT, scalars, err);
+    return launch(p, id, &p->kernels.stages[id], scalars, err);
 }
 
 ec_result ec_pipeline_launch_trace(ec_pipeline *p, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err)
 {
     memcpy(&p->buffers[EC_ARG_ACCEL], p->accels[accel].buffers, sizeof p->accels[accel].buffers);
-    return launch(p, connect ? EC_CONNECT : EC_INTERSECT, &p->kernels.traverse[accel][connect], accel, scalars, err);
+    return launch(p, connect ? EC_CONNECT : EC_INTERSECT, &p->kernels.traverse[accel][connect], scalars, err);
 }

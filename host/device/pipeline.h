@@ -118,8 +118,8 @@ uint32_t ec_pipeline_narrow_wave(const ec_pipeline *pipeline, uint64_t features)
 ec_result ec_pipeline_use_wave(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
 /* Room for films of so many pixels and batches of so many positions, which ec_pipeline_run_wave wants; what was in them is lost where they grow. */
 ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, uint64_t positions, ec_error *err);
-/* launch.c; items: of a launch of this stage by kernels of a set, over a wave. accel: EC_ACCEL_COUNT where it goes through none */
-uint64_t ec_pipeline_items(const ec_pipeline *pipeline, const ec_kernel_set *set, uint32_t wave, ec_stage_id stage, uint32_t accel);
+/* launch.c; items: of a launch of this stage over a wave, or over triangles. takes: as in ec_bound_kernel */
+uint64_t ec_pipeline_items(ec_stage_id stage, uint32_t takes, uint32_t wave, uint32_t triangles);
 ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
 ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
 /* A launch of a stage had the entries of a queue, counted by parts. */

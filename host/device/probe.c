@@ -81,16 +81,15 @@ static ec_result make_buffers(ec_pipeline *p, const ec_scene *scene, ec_error *e
 static ec_result build(ec_pipeline *p, uint32_t which, bool count, ec_error *err)
 {
     char unit[64], options[64], name[64];
-    uint32_t lanes = ec_accels[which].lanes ? ec_accels[which].lanes : count ? 1 : p->lanes;
+    const ec_traversal way = ec_traversal_of(&p->cl->info, which, p->accels[which].bytes, 0, count ? 1 : p->lanes);
     ec_bound_kernel *kernel = &p->kernels.traverse[which][0];
     p->kernels.lanes = count ? 1 : p->lanes;
-    cl_program *program = &p->kernels.programs[count ? 0 : lanes];
+    cl_program *program = &p->kernels.programs[count ? 0 : way.lanes];
     if (kernel->kernel) clReleaseKernel(kernel->kernel);
-    *kernel = (ec_bound_kernel){0};
+    *kernel = (ec_bound_kernel){.takes = way.takes};
     snprintf(unit, sizeof unit, "traverse_%s", ec_accels[which].name);
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[which].name);
-    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u%s%s", lanes, ec_traversal_of(&p->cl->info, which, p->accels[which].bytes, 0).options,
-             count ? " -DPROBE" : "");
+    snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u%s%s", way.lanes, way.options, count ? " -DPROBE" : "");
     EC_TRY(ec_program_build(p->cl, unit, ec_kernel_source(unit), options, program, err));
     return ec_kernel_create(*program, name, &kernel->kernel, err);
 }

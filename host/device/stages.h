@@ -125,12 +125,13 @@ extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
 
 typedef struct ec_traversal {
     const char *options; /* that an accelerator's kernels are built with besides lanes and features; static text, "" for nothing */
-    uint32_t run;        /* rays that a work-item takes, unless it takes a packet */
+    uint32_t lanes;      /* of its kernels */
+    uint32_t takes;      /* rays that a work-item takes: a packet, a run, or one */
 } ec_traversal;
 
 /* On processors a work-item traces 16 rays, one after the other, or in bvh8 64 by turns (lib/trace_interleaved.h), where the accelerator's buffers, `bytes`
- * in all, are larger than the device's cache. features: those that are built. */
-ec_traversal ec_traversal_of(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features);
+ * in all, are larger than the device's cache. features: those that are built; packet: rays of those accelerators that send packets. */
+ec_traversal ec_traversal_of(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features, uint32_t packet);
 
 #define EC_LOCAL_SIZE 16 /* one fixed local size a kernel: PoCL compiles again for each new one */
 #define EC_LOCAL_SIZE_OF_CARDS 64 /* whose threads go in step by 32 or 64. On an H100 128 are as fast, 32 and 256 take 3 to 13 % longer */

@@ -14,7 +14,7 @@ static ec_render_options options(void)
 
 static bool is_interleaved(const case_image *image)
 {
-    return strstr(ec_traversal_of(&case_cl()->info, ec_accel_find("bvh8"), 1000, image->stats.effects.built).options, "INTERLEAVE") != NULL;
+    return strstr(ec_traversal_of(&case_cl()->info, ec_accel_find("bvh8"), 1000, image->stats.effects.built, 1).options, "INTERLEAVE") != NULL;
 }
 
 /* A cache of hundreds of megabytes is shared by many cores, and slow. */
@@ -27,7 +27,7 @@ static void large_bvhs_are_told_by_what_is_fast(void)
     ec_device_info info = {.type = CL_DEVICE_TYPE_CPU};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         info.cache_bytes = cases[i].cache;
-        CHECK(!strstr(ec_traversal_of(&info, ec_accel_find("bvh8"), cases[i].bytes, 0).options, "INTERLEAVE") == !cases[i].interleaved);
+        CHECK(!strstr(ec_traversal_of(&info, ec_accel_find("bvh8"), cases[i].bytes, 0, 1).options, "INTERLEAVE") == !cases[i].interleaved);
     }
 }
 

@@ -88,9 +88,8 @@ static char *read_source(const char *path)
 static ec_result build_accel(bench_device *d, bench_kernels *k, uint32_t accel, ec_error *err)
 {
     char options[4400], path[4200], name[64], unit[64];
-    uint32_t lanes = ec_accels[accel].lanes == EC_LANES_OF_PIPELINE ? d->lanes : ec_accels[accel].lanes;
-    int used = snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u%s", lanes,
-                        ec_traversal_of(&d->cl.info, accel, d->accel_stats[accel].bytes, 0).options);
+    const ec_traversal way = ec_traversal_of(&d->cl.info, accel, d->accel_stats[accel].bytes, 0, d->lanes);
+    int used = snprintf(options, sizeof options, "-DLANES=%u -DFEATURES=0x0u%s", way.lanes, way.options);
     snprintf(unit, sizeof unit, "traverse_%s", ec_accels[accel].name);
     const char *source = ec_kernel_source(unit);
     char *text = NULL;
@@ -173,9 +172,8 @@ static ec_result launch(bench_device *d, const bench_kernels *k, uint32_t accel,
                           : clSetKernelArg(kernel, i, sizeof(cl_mem), d->buffers[arg] ? &d->buffers[arg] : NULL);
         EC_TRY(ec_cl_check(code, "clSetKernelArg", stage->label, err));
     }
-    const bool is_packets = ec_accels[accel].lanes == EC_LANES_OF_PIPELINE;
-    const uint32_t rays = is_packets ? d->lanes : ec_traversal_of(&d->cl.info, accel, d->accel_stats[accel].bytes, 0).run;
-    const uint64_t items = (d->counts[kind] + rays - 1) / rays;
+    const uint32_t takes = ec_traversal_of(&d->cl.info, accel, d->accel_stats[accel].bytes, 0, d->lanes).takes;
+    const uint64_t items = (d->counts[kind] + takes - 1) / takes;
     return ec_kernel_run(&d->cl, stage->label, kernel, items, EC_LOCAL_SIZE, err);
 }
 
