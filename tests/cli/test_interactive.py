@@ -11,24 +11,27 @@ from polling import GUARD
 from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, png_size
 
 
+def on_terminal(*arguments, **settings):
+    """Runs with stderr on a pseudo-terminal; (exit code, stdout, stderr)."""
+    master, slave = pty.openpty()
+    process = subprocess.Popen([ECLAT, *arguments], stderr=slave, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, encoding="utf-8", **settings)
+    os.close(slave)
+    shown = b""
+    while True:
+        try:
+            piece = os.read(master, 4096)  # one read may give a part of what was written at once
+        except OSError:  # Linux's way to say that the other side is closed
+            break
+        if not piece:
+            break
+        shown += piece
+    os.close(master)
+    return process.wait(timeout=GUARD), process.communicate()[0], shown.decode()
+
+
 class Progress(Case):
     def on_terminal(self, *options):
-        """Runs with stderr on a pseudo-terminal; (exit code, stdout, stderr)."""
-        master, slave = pty.openpty()
-        process = subprocess.Popen([ECLAT, "render", CORNELL, *options], cwd=self.folder, env=ENVIRONMENT, stderr=slave,
-                                   stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, encoding="utf-8")
-        os.close(slave)
-        shown = b""
-        while True:
-            try:
-                piece = os.read(master, 4096)
-            except OSError:  # Linux's way to say that the other side is closed
-                break
-            if not piece:
-                break
-            shown += piece
-        os.close(master)
-        return process.wait(timeout=GUARD), process.communicate()[0], shown.decode()
+        return on_terminal("render", CORNELL, *options, cwd=self.folder, env=ENVIRONMENT)
 
     def test_bar_on_a_terminal_and_gone_at_the_end(self):
         code, out, shown = self.on_terminal("--size", "64x64", "--time", "2")
@@ -55,12 +58,8 @@ class Colour(Case):
     """The words error, warning and note alone, and only where a terminal shows them."""
 
     def on_terminal(self, *arguments, **env):
-        master, slave = pty.openpty()
         environment = {name: value for name, value in ENVIRONMENT.items() if name not in ("NO_COLOR", "TERM")}
-        code = subprocess.run([ECLAT, *arguments], env=dict(environment, **env), stderr=slave, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL).returncode
-        os.close(slave)
-        shown = os.read(master, 65536).decode()
-        os.close(master)
+        code, _, shown = on_terminal(*arguments, env=dict(environment, **env))
         return code, shown.replace("\r\n", "\n")
 
     def test_an_error_is_red_on_a_terminal(self):
