@@ -10,8 +10,8 @@
  * where M is camera paths' area at x_1 times light paths a camera path, and E light's density (emission_*). Weights need not know densities
  * to the digit as long as all three strategies take the same ones: a BSDF that is sampled by its value has |ns a| Q = |ns c| P, times 1 /
  * eta^2 where light is bent, since values are of basic radiance. So K stays what it is behind x_1, but for light_path_turn. It is 0 where no light path
- * comes by: where c is the only direction that leads to a at x_1, where rays start above their facet (terminator.h), and where one of both
- * is so low that the shading normal may have been bent (surface_seen_normal). */
+ * comes by: where c is the only direction that leads to a at x_1, where rays start above their facet (terminator.h), and where the shading
+ * normal is bent for one of both (surface_seen_normal). */
 #ifndef EC_LIB_LIGHT_PATH_H
 #define EC_LIB_LIGHT_PATH_H
 
@@ -19,7 +19,7 @@
 #include "light.h"
 
 #define EC_K_MOST 1e30f
-#define EC_K_LOW 0.01f /* cosines to ns; those over it are not bent */
+#define EC_K_LOW 1e-4f /* cosines to ns, under which few digits are left */
 
 /* Numbers of a light path: of number `path` of all those of one round of samples. seed: of the replicate's light paths. */
 EC_FN sampler light_path_sampler(uint seed, lane_u path, lane_u sample) { return sampler_make(seed, sample, path); }
@@ -152,11 +152,12 @@ EC_FN lane_f emission_sampled(const lights *l, const light_sample *s, lane_i m, 
     return e;
 }
 
-/* Is there no light path by this vertex, that goes from wo to wi (local: z) and starts lifted or not? A wall that is narrower than directions
+/* Is there no light path by this vertex, that is seen from wo, goes on along wi (local: z) and starts lifted or not? A wall that is narrower than directions
  * resolve from one side only is one; so is a mirroring coat that is tilted. */
-EC_FN lane_i light_path_misses(const surface *s, lane_f wo_z, lane_f wi_z, lane_i lifted)
+EC_FN lane_i light_path_misses(const surface *s, v3 wi, lane_f wo_z, lane_f wi_z, lane_i lifted)
 {
-    lane_i passes = wi_z < 0.0f, none = (fabs(wo_z) <= EC_K_LOW) | (fabs(wi_z) <= EC_K_LOW) | (lifted & !passes);
+    lane_i passes = wi_z < 0.0f, none = s->bent | (fabs(wi_z) < surface_least_cosine(fabs(v3_dot(s->ng, wi)))) | (lifted & !passes);
+    none = none | (fabs(wo_z) <= EC_K_LOW) | (fabs(wi_z) <= EC_K_LOW);
     if (HAS(SMOOTH) && HAS(TRANSMISSION)) {
         lane_f there = s->eta > 0.0f ? s->alpha_ggx * fabs(s->eta - 1.0f) / s->eta : F(0.0f);
         lane_i differs = s->smooth ? there >= EC_SMOOTH_ALPHA : there < EC_SMOOTH_ALPHA;
@@ -190,7 +191,7 @@ EC_FN lane_f light_path_k(constant ec_params *params, const surface *s, lane_f k
     lane_f first = -k * (params->orthographic ? F(1.0f) : way2) * fabs(v3_dot(s->ng, wi)) / (fabs(v3_dot(s->ng, wo)) * pdf);
     first = pdf > 0.0f ? k_mark_direct(min(first, F(EC_K_MOST))) : F(0.0f);
     lane_f later = k_unmark(min(k * light_path_turn(s, wo, wi, wo_z, wi_z), F(EC_K_MOST)));
-    lane_f next = light_path_misses(s, wo_z, wi_z, lifted) ? F(0.0f) : k < 0.0f ? first : later;
+    lane_f next = light_path_misses(s, wi, wo_z, wi_z, lifted) ? F(0.0f) : k < 0.0f ? first : later;
     return straight ? k : next;
 }
 

@@ -10,6 +10,7 @@ typedef struct surface {
     v3 p_error;    /* bound of its rounding, per axis */
     v3 ng;         /* geometric normal, unit, on the side of wo */
     v3 ns, s, t;   /* shading frame, ns on the side of ng */
+    lane_i bent;   /* is ns turned, since wo would see its back? */
     lane_i front;  /* is wo on the front? */
     v3 base;       /* base colour, linear */
     lane_f metallic;
@@ -126,20 +127,25 @@ EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, 
     return v3_select(m, v3_scale(r, 1.0f / sqrt(r2)), n);
 }
 
+/* The least cosine between a shading normal and a direction that has this one to ng: under it the normal is bent. */
+EC_FN lane_f surface_least_cosine(lane_f to_ng) { return min(to_ng, F(0.01f)); }
+
 /* The normal on wo's side, and never turned so far that wo sees its back. */
-EC_FN v3 surface_seen_normal(const surface *s, v3 wo, v3 n)
+EC_FN v3 surface_seen_normal(const surface *s, v3 wo, v3 n, lane_i *is_bent)
 {
     /* Files whose normals oppose their winding exist: the side is the geometric normal's. */
     n = v3_select(v3_dot(n, s->ng) < 0.0f, v3_negate(n), n);
-    lane_f cosine = v3_dot(n, wo), least = min(v3_dot(s->ng, wo), F(0.01f));
+    lane_f cosine = v3_dot(n, wo), least = surface_least_cosine(v3_dot(s->ng, wo));
     v3 bent = v3_normalize(v3_fma(wo, least - cosine, n));
-    return v3_select(cosine < least, bent, n);
+    *is_bent = cosine < least;
+    return v3_select(*is_bent, bent, n);
 }
 
 /* Shading normal and frame. */
 EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo, surface *s)
 {
     s->ns = s->coat_ns = s->ng;
+    s->bent = !TRUE_MASK;
     if (HAS(SMOOTH_NORMALS) || HAS(NORMAL_TEXTURE) || HAS(CLEARCOAT_NORMAL_TEXTURE)) {
         v3 n = v3_select(s->front, s->ng, v3_negate(s->ng));
         if (HAS(SMOOTH_NORMALS) && g->normals) {
@@ -149,9 +155,10 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
         }
         v3 coat = n;
         if (HAS(NORMAL_TEXTURE)) n = surface_mapped_normal(g, h, m, n, EC_SLOT_NORMAL, EC_WORD_metallic);
-        s->ns = s->coat_ns = surface_seen_normal(s, wo, n);
+        s->ns = s->coat_ns = surface_seen_normal(s, wo, n, &s->bent);
         if (HAS(CLEARCOAT_NORMAL_TEXTURE)) coat = surface_mapped_normal(g, h, m, coat, EC_SLOT_CLEARCOAT_NORMAL, EC_WORD_coat);
-        if (HAS(CLEARCOAT) && HAS_BENDING) s->coat_ns = surface_seen_normal(s, wo, coat);
+        lane_i unused;
+        if (HAS(CLEARCOAT) && HAS_BENDING) s->coat_ns = surface_seen_normal(s, wo, coat, &unused);
     }
     v3_frame(s->ns, &s->s, &s->t);
 }

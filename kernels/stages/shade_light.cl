@@ -145,7 +145,7 @@ EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
         }
         lane_i lifted = !TRUE_MASK;
         if (HAS(TERMINATOR) && params->terminator && normals) (void)terminator_origin(&g, &h, &s, &lifted);
-        lane_i misses = light_path_misses(&s, c_local.z, a_local.z, lifted) & (alone ? !TRUE_MASK : TRUE_MASK);
+        lane_i misses = light_path_misses(&s, a, c_local.z, a_local.z, lifted) & (alone ? !TRUE_MASK : TRUE_MASK);
         lane_i good = agrees(&s, a, a_local) & agrees(&s, c, c_local);
         lane_f turn_cosines = fabs(v3_dot(s.ng, c)) / fabs(v3_dot(s.ng, a));
         lane_f n_over_p = min(n_joined / pdf, F(EC_K_MOST));
