@@ -1,4 +1,4 @@
-# tier: quick
+# tiers: quick, long
 """Caustics of bodies of few triangles with smooth normals, which are bent where the camera path would see their back: light paths lose no light there and
 count none twice."""
 import os
@@ -9,8 +9,23 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from hard_scene import Scene
 from other_way import OtherWay
 from test_caustic_forms import GLASS, LAMP, MATT, ball, square
+from tiers import long
 
-MIRROR = {"pbrMetallicRoughness": {"roughnessFactor": 0}}
+
+def material(roughness, metallic=0, **extensions):
+    return {"pbrMetallicRoughness": {"roughnessFactor": roughness, "metallicFactor": metallic},
+            "extensions": {"KHR_materials_" + name: extension for name, extension in extensions.items()}}
+
+
+CLEAR, BODY = {"transmissionFactor": 1}, {"thicknessFactor": 1}
+MIRROR = material(0, 1)
+OTHERS = {
+    "rough glass": material(0.3, transmission=CLEAR, volume=BODY), "a thin wall": material(0, transmission=CLEAR), "a rough wall": material(0.3, transmission=CLEAR),
+    "half clear": material(0, transmission={"transmissionFactor": 0.5}, volume=BODY), "dispersion": material(0, transmission=CLEAR, volume=BODY, dispersion={"dispersion": 3}),
+    "water": material(0, transmission=CLEAR, volume={"thicknessFactor": 1, "attenuationDistance": 0.3, "attenuationColor": [0.9, 0.4, 0.2]}, ior={"ior": 1.33}),
+    "rough metal": material(0.2, 1), "brushed metal": material(0.3, 1, anisotropy={"anisotropyStrength": 0.8}), "plastic": material(0),
+    "film": material(0, 1, iridescence={"iridescenceFactor": 1}),
+    "coated metal": material(0.5, 1, clearcoat={"clearcoatFactor": 1}), "coated glass": material(0.3, transmission=CLEAR, volume=BODY, clearcoat={"clearcoatFactor": 1})}
 SEEN = ["--size", "24x24", "--eye", "0.2,3,2.6", "--look-at=-0.4,0.1,0"]
 
 
@@ -20,8 +35,8 @@ class CoarseBodies(OtherWay):
     def check(self, body, fewer):
         positions, normals, indices = ball(3, 0.55, 0.5)
         scene = Scene(MATT, body, LAMP)
-        for name in ("ior", "transmission", "volume", "specular", "emissive_strength"):
-            scene.extend("KHR_materials_" + name)
+        for name in {name for one in (MATT, body, LAMP) for name in one.get("extensions", ())}:
+            scene.extend(name)
         scene.add(square(3, 0), 0).add(positions, 1, indices=indices, streams=[("NORMAL", 3, normals)]).add(square(1, 3, up=False), 2)
         self.assert_same_picture([scene.write(self.path("coarse.gltf")), *SEEN], 2048, fewer)
 
@@ -30,6 +45,12 @@ class CoarseBodies(OtherWay):
 
     def test_mirror(self):
         self.check(MIRROR, 0.5)
+
+    @long
+    def test_others(self):
+        for name, body in OTHERS.items():
+            with self.subTest(name):
+                self.check(body, 0.1)
 
 
 if __name__ == "__main__":

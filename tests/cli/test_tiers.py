@@ -36,7 +36,7 @@ class Rules(unittest.TestCase):
             with open(path, encoding="utf-8") as file:
                 text = file.read()
             named = tiers.of_file(path)
-            parts = re.search(r"^ *@full$|\btest_tier\(", text, re.M) or ("quick" in named and WIDTHS.search(text))
+            parts = re.search(r"^ *@(?:full|long)$|\btest_tier\(", text, re.M) or ("quick" in named and WIDTHS.search(text))
             with self.subTest(path):
                 self.assertEqual(bool(parts), len(named) > 1)
 
