@@ -199,8 +199,9 @@ class Odd(ViewCase):
         self.assertEqual((run.returncode, run.stderr, run.stdout.count("\n")), (0, "", 1))
         self.assertNotIn("--eye", run.stdout)
         self.assertNotIn("--exposure", run.stdout)
-        run = self.script(self.scene, ["key Save", "turn 40 0 0", "settle", "quit"], "--size", "200x150", "--spp", "64")
-        self.assertIn("moved", self.assert_one_error(run, 1))  # before it was there
+        # So large that its first sample takes more than the frame between the two steps.
+        run = self.script(self.scene, ["key Save", "turn 40 0 0", "settle", "quit"], "--size", "2400x1800", "--spp", "1")
+        self.assertIn("moved", self.assert_one_error(run, 1))
         self.assertEqual(run.stdout, "")
 
     def test_a_picture_that_is_asked_for_as_one_leaves_is_waited_for(self):
