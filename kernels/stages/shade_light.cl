@@ -179,6 +179,7 @@ EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
             lane_f cosines = turn_cosines * fabs(a_local.z) / fabs(c_local.z) * ((s.refracts & below) ? s.eta * s.eta : F(1.0f));
             factor = v3_select(single, v3_scale(alone, cosines), factor);
             if (HAS(TRANSMISSION)) good = good & (!single | !below | (b.facets.smooth != 0));
+            good = good & (straight | !single | !(s.bent | sa.bent)); /* mirrored at two normals: c does not lead to a */
         }
         v3 before = beta_c;
         beta_c = v3_mul(beta_c, factor);

@@ -27,24 +27,32 @@ OTHERS = {
     "film": material(0, 1, iridescence={"iridescenceFactor": 1}),
     "coated metal": material(0.5, 1, clearcoat={"clearcoatFactor": 1}), "coated glass": material(0.3, transmission=CLEAR, volume=BODY, clearcoat={"clearcoatFactor": 1})}
 SEEN = ["--size", "24x24", "--eye", "0.2,3,2.6", "--look-at=-0.4,0.1,0"]
+BESIDE = ["--size", "16x16", "--eye", "1.9,1,0", "--look-at", "1.3,0,0", "--fov", "40"]
 
 
 class CoarseBodies(OtherWay):
     WAY = ["--light-paths", "1"]
 
-    def check(self, body, fewer):
+    def scene(self, body):
         positions, normals, indices = ball(3, 0.55, 0.5)
         scene = Scene(MATT, body, LAMP)
         for name in {name for one in (MATT, body, LAMP) for name in one.get("extensions", ())}:
             scene.extend(name)
         scene.add(square(3, 0), 0).add(positions, 1, indices=indices, streams=[("NORMAL", 3, normals)]).add(square(1, 3, up=False), 2)
-        self.assert_same_picture([scene.write(self.path("coarse.gltf")), *SEEN], 2048, fewer)
+        return scene.write(self.path("coarse.gltf"))
+
+    def check(self, body, fewer):
+        self.assert_same_picture([self.scene(body), *SEEN], 2048, fewer)
 
     def test_glass(self):
         self.check(GLASS, 0.5)
 
     def test_mirror(self):
         self.check(MIRROR, 0.5)
+
+    def test_light_alone(self):
+        """The floor beside a mirror, by light paths alone."""
+        self.assert_same_picture([self.scene(MIRROR), *BESIDE], 1024, 0, ["--integrator", "light"])
 
     @long
     def test_others(self):
