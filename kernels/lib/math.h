@@ -51,11 +51,11 @@ EC_FN bool is_finite_one(float x) { return (as_uint(x) & 0x7f800000u) != 0x7f800
 EC_FN lane_i is_finite_bits(lane_f x) { return (as_lane_u(x) & 0x7f800000u) != 0x7f800000u; }
 EC_FN lane_i v3_is_finite(v3 a) { return is_finite_bits(a.x) & is_finite_bits(a.y) & is_finite_bits(a.z); }
 
-/* Orthonormal frame around the unit vector n (Duff et al. 2017, listing 3, but for -0, which counts as 0: compilers differ about the
- * signs of zeros, and an axis-parallel n would turn its frame by them). */
+/* Orthonormal frame around the unit vector n (Duff et al. 2017, listing 3, but that it turns at -0.125 and not at 0: there an ulp of a vertex would turn the
+ * frame of an axis-parallel wall, and of all paths that leave it). */
 EC_FN void v3_frame(v3 n, v3 *s, v3 *t)
 {
-    lane_f sign = n.z < 0.0f ? F(-1.0f) : F(1.0f);
+    lane_f sign = n.z < -0.125f ? F(-1.0f) : F(1.0f);
     lane_f a = -1.0f / (sign + n.z);
     lane_f b = n.x * n.y * a;
     *s = v3_make(fma(sign * n.x * n.x, a, F(1.0f)), sign * b, -sign * n.x);
