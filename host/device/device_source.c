@@ -7,6 +7,7 @@
 #include "device/adaptive.h"
 #include "device/fold.h"
 #include "device/help.h"
+#include "device/lamp_edges.h"
 #include "device/light_batch.h"
 #include "device/tiers.h"
 
@@ -191,6 +192,7 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
         uint32_t count = p->wave / p->params.batch;
         if (!s->has_begun && p->wave > FIRST_PATHS) count = (count + FIRST_SHARE - 1) / FIRST_SHARE;
         if (count > order->count - reached) count = order->count - reached;
+        EC_TRY(ec_lamp_edges_prepare(p, order->list, before + reached, &count, err));
         EC_TRY(run_wave(s, order, before + reached, count, seed, err));
         if (order->matte) EC_TRY(ec_mattes_read(&s->mattes, p, order->list != NULL, reached, count, err));
         reached += count;
@@ -230,5 +232,6 @@ ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spen
     *s = (ec_device_source){.base = {.take = take, .look = look, .turn_to = turn_to, .end_features = end_features, .close = close_device},
                             .seed = seed,
                             .replicates = cargo->head.replicates};
-    return ec_pipeline_create(cl, cargo, spent, &s->pipeline, stats, err);
+    EC_TRY(ec_pipeline_create(cl, cargo, spent, &s->pipeline, stats, err));
+    return ec_lamp_edges_find(&s->pipeline, err);
 }

@@ -62,5 +62,7 @@ void ec_pipeline_destroy(ec_pipeline *p)
     for (int i = 0; i < EC_ARG_COUNT; i++) ec_buffer_release(p->cl, &p->buffers[i]);
     for (int i = 0; i < 2; i++) ec_buffer_release(p->cl, &p->path_queues[i]);
     free(p->guide);
+    free(p->edges.marks);
+    free(p->edges.list);
     memset(p, 0, sizeof *p);
 }

@@ -49,6 +49,11 @@ typedef struct ec_pipeline {
             uint32_t trials;
         } tuning[2][2][EC_TUNED_BOUNCES][2]; /* paths from the camera, and from lights; intersect and connect; rays as they come, and sorted */
     } accels[EC_ACCEL_COUNT];
+    struct {
+        uint32_t *marks;     /* what EC_ARG_EDGES holds; owned; NULL: nothing */
+        uint32_t *list;      /* what EC_ARG_EDGE_LIST holds, and room for how many entries; owned */
+        uint32_t room, positions; /* of the next wave, beside its pixels */
+    } edges;                 /* device/lamp_edges.h */
     float *guide;                 /* what EC_ARG_GUIDE holds; owned; NULL: nothing */
     uint64_t rays;                /* traced so far, shadow rays included */
     double clocked_seconds, clocked_rays; /* of trials (trace.c) */
@@ -65,6 +70,8 @@ ec_result ec_pipeline_show_light(ec_pipeline *pipeline, uint32_t first_pixel, ui
 /* One wave: `pixel_count` pixels from `first_pixel`, params.batch samples each, into the batch film. */
 ec_result ec_pipeline_run_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first_pixel, uint32_t pixel_count,
                                bool with_features, ec_error *err);
+/* One camera ray for each of so many entries of EC_ARG_EDGE_LIST, which ends at the first hit: what it sees of lamps is the slots' radiance. params.batch is 1. */
+ec_result ec_pipeline_run_edge_rays(ec_pipeline *pipeline, uint32_t seed, uint32_t count, ec_error *err);
 /* Light paths first … first + count - 1 of each round of params.batch samples, into the splats; seed: of the replicate's light paths. */
 ec_result ec_pipeline_run_light_wave(ec_pipeline *pipeline, uint32_t seed, uint32_t first, uint32_t count, ec_error *err);
 /* train.c: makes the table that guides directions, where that is called for; before the first wave. *seconds: that it took. */
@@ -90,6 +97,12 @@ void ec_raster_forget(ec_pipeline *pipeline);
 static inline uint64_t ec_whitted_stack_words(uint32_t max_depth)
 {
     return 1 + (uint64_t)((max_depth ? max_depth : EC_WHITTED_DEPTH) - 1) * EC_BRANCH_FIELDS;
+}
+
+/* Can pixels have rays to lamps' edges (lamp_edges.h)? */
+static inline bool ec_pipeline_edges_can_be(const ec_pipeline *p)
+{
+    return (p->integrator == EC_INTEGRATOR_PATH || p->integrator == EC_INTEGRATOR_LIGHT) && p->effects.called.bits & EC_FEATURE_EMISSION;
 }
 
 /* camera.c: without a lens, and with one */

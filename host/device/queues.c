@@ -34,13 +34,19 @@ static uint64_t fit_wave(const ec_pipeline *p)
     return wave;
 }
 
+/* Samples that a wave has room for at least: a pixel's, and the rays to lamps' edges that they may have. */
+static uint64_t least_samples(const ec_pipeline *p)
+{
+    return p->params.batch * (ec_pipeline_edges_can_be(p) ? 1 + EC_EDGE_RAYS : 1ull);
+}
+
 /* No more than the picture has samples, or than a small one takes; no fewer than a pixel's; every part of a queue holds whole packets. */
 static void set_wave(ec_pipeline *p, uint64_t wave)
 {
     const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, samples = (uint64_t)p->params.width * p->params.height * p->params.batch;
     const uint64_t least = LEAST_UNITS * unit, most = samples > least ? samples : least;
     if (wave > most) wave = most;
-    if (wave < p->params.batch) wave = p->params.batch;
+    if (wave < least_samples(p)) wave = least_samples(p);
     p->wave = (uint32_t)((wave + unit - 1) / unit * unit);
     p->params.wave = p->wave;
     p->params.part = p->wave / EC_PARTS;
@@ -137,7 +143,7 @@ uint32_t ec_pipeline_narrow_wave(const ec_pipeline *p, uint64_t features)
     const uint64_t paths = (uint64_t)p->room * path_fields_of(built) / path_fields_of(features);
     const uint64_t shadows = (uint64_t)p->room * shadow_fields_of(built) / shadow_fields_of(features), fits = paths < shadows ? paths : shadows;
     const uint64_t wave = (fits < EC_NARROW_WAVE ? fits : EC_NARROW_WAVE) / unit * unit;
-    return wave < p->params.batch ? 0 : (uint32_t)wave;
+    return wave < least_samples(p) ? 0 : (uint32_t)wave;
 }
 
 ec_result ec_pipeline_use_wave(ec_pipeline *p, uint32_t wave, ec_error *err)

@@ -14,7 +14,7 @@
 
 static const ec_arg generate[] = {EC_ARG_PARAMS,       EC_ARG_SEED,       EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
                                   EC_ARG_PIXEL_FILTER, EC_ARG_PATH_COUNT, EC_ARG_PATHS,       EC_ARG_RADIANCE,
-                                  EC_ARG_CAMERA_KEYS,  EC_ARG_MOTION,     EC_ARG_TIMES};
+                                  EC_ARG_CAMERA_KEYS,  EC_ARG_MOTION,     EC_ARG_TIMES,       EC_ARG_EDGES};
 static const ec_arg intersect[] = {WAVE_ARGS, EC_ARG_SORTS, EC_ARG_PATHS, EC_ARG_HITS, ACCEL_ARGS, FILTER_ARGS};
 static const ec_arg shade[] = {WAVE_ARGS,
                                EC_ARG_INVALID,
@@ -62,6 +62,7 @@ static const ec_arg whitted[] = {WAVE_ARGS,       EC_ARG_INVALID,  EC_ARG_PATHS,
                                  EC_ARG_BRANCHES, EC_ARG_RADIANCE, EC_ARG_AOV,   SURFACE_ARGS, EC_ARG_ENVIRONMENT_TEXELS, EC_ARG_PARTS};
 static const ec_arg whitted_light[] = {EC_ARG_PARAMS, EC_ARG_LIGHT, EC_ARG_STEP,    EC_ARG_COUNTERS, EC_ARG_INVALID,
                                        EC_ARG_PATHS,  EC_ARG_HITS,  EC_ARG_SHADOWS, SURFACE_ARGS,    EC_ARG_LIGHT_TABLE};
+static const ec_arg lamp_edges[] = {EC_ARG_PARAMS, EC_ARG_PIXEL_LIST, EC_ARG_PATH_COUNT, EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE};
 static const ec_arg accumulate[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
                                     EC_ARG_PIXEL_COUNT, EC_ARG_RADIANCE,    EC_ARG_BATCH_FILM, EC_ARG_SPLATS};
 static const ec_arg store_features[] = {EC_ARG_PARAMS,      EC_ARG_FIRST_PIXEL, EC_ARG_PIXEL_LIST,
@@ -112,6 +113,7 @@ const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT] = {
     [EC_WHITTED] = {"whitted", "grow ray trees", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES, EC_ARG_COUNTERS, ARGS(whitted)},
     [EC_WHITTED_LIGHT] = {"whitted_light", "shade one light", EC_OF(WHITTED), EC_LANES_OF_PIPELINE, 0, SHADING_FEATURES | EC_FEATURE_MATCHED,
                           EC_ARG_COUNTERS, ARGS(whitted_light)},
+    [EC_LAMP_EDGES] = {"lamp_edges", "add what is seen of lamps' edges", EC_OF_PATHS, 1, EC_FEATURE_EMISSION, EC_FEATURE_LAYERS, EC_ARG_PIXEL_COUNT, ARGS(lamp_edges)},
     [EC_ACCUMULATE] = {"accumulate", "accumulate", EC_OF_ALL, EC_LANES_OF_PIPELINE, 0, 0, EC_ARG_PIXEL_COUNT, ARGS(accumulate)},
     [EC_STORE_FEATURES] = {"features", "accumulate first-hit features", EC_OF_ALL, EC_LANES_OF_PIPELINE, 0, 0, EC_ARG_PIXEL_COUNT, ARGS(store_features)},
     [EC_SLOT_LAYERS] = {"slot_layers", "accumulate layers", EC_OF_ALL, EC_LANES_OF_PIPELINE, EC_FEATURE_LAYERS, 0, EC_ARG_PIXEL_COUNT, ARGS(slot_layers)},

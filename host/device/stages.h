@@ -24,6 +24,8 @@ typedef enum ec_arg {
     EC_ARG_SCALAR_COUNT,
     EC_ARG_PARAMS = EC_ARG_SCALAR_COUNT,
     EC_ARG_PIXEL_LIST, /* of a pass over some of the pixels; else NULL */
+    EC_ARG_EDGES,      /* which pixels lamps' edges go through, a bit each; NULL: none */
+    EC_ARG_EDGE_LIST,  /* a wave's pixel list, with their rays (device/lamp_edges.c) */
     EC_ARG_PIXEL_FILTER, /* NULL: a box */
     EC_ARG_COUNTERS,
     EC_ARG_INVALID,
@@ -89,6 +91,7 @@ typedef enum ec_stage_id {
     EC_SHADE_RASTER,
     EC_WHITTED,
     EC_WHITTED_LIGHT,
+    EC_LAMP_EDGES,
     EC_ACCUMULATE,
     EC_STORE_FEATURES,
     EC_SLOT_LAYERS,

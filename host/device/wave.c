@@ -80,6 +80,22 @@ ec_result ec_pipeline_run_light_wave(ec_pipeline *p, uint32_t seed, uint32_t fir
     return result;
 }
 
+ec_result ec_pipeline_run_edge_rays(ec_pipeline *p, uint32_t seed, uint32_t count, ec_error *err)
+{
+    const uint32_t depth = p->params.max_depth;
+    uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_SEED] = seed, [EC_ARG_PATH_COUNT] = count};
+    cl_mem list = p->buffers[EC_ARG_PIXEL_LIST];
+    p->buffers[EC_ARG_PIXEL_LIST] = p->buffers[EC_ARG_EDGE_LIST];
+    ec_pipeline_swap_queues(p, 0);
+    ec_pipeline_fill_parts(p, count);
+    p->params.max_depth = 1; /* of the host alone: no ray goes on */
+    ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
+    if (result == EC_OK) result = run_segment(p, scalars, 0, 0, err);
+    p->params.max_depth = depth;
+    p->buffers[EC_ARG_PIXEL_LIST] = list;
+    return result;
+}
+
 ec_result ec_pipeline_show_light(ec_pipeline *p, uint32_t first_pixel, uint32_t pixel_count, ec_error *err)
 {
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_FIRST_PIXEL] = first_pixel, [EC_ARG_PATH_COUNT] = pixel_count * p->params.batch, [EC_ARG_PIXEL_COUNT] = pixel_count};
@@ -103,15 +119,22 @@ ec_result ec_pipeline_run_wave(ec_pipeline *p, uint32_t seed, uint32_t first_pix
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {0};
     scalars[EC_ARG_SEED] = seed;
     scalars[EC_ARG_FIRST_PIXEL] = first_pixel;
-    scalars[EC_ARG_PATH_COUNT] = pixel_count * p->params.batch;
+    scalars[EC_ARG_PATH_COUNT] = (pixel_count + p->edges.positions) * p->params.batch;
     scalars[EC_ARG_PIXEL_COUNT] = pixel_count;
     scalars[EC_ARG_TRIANGLE_COUNT] = p->triangle_count;
     ec_pipeline_swap_queues(p, 0);
-    cl_mem aov = p->buffers[EC_ARG_AOV];
+    cl_mem aov = p->buffers[EC_ARG_AOV], list = p->buffers[EC_ARG_PIXEL_LIST], edges = p->buffers[EC_ARG_EDGES];
     if (!with_features) p->buffers[EC_ARG_AOV] = NULL;
-
+    if (p->edges.positions) {
+        p->buffers[EC_ARG_PIXEL_LIST] = p->buffers[EC_ARG_EDGE_LIST];
+        scalars[EC_ARG_FIRST_PIXEL] = 0;
+    } else p->buffers[EC_ARG_EDGES] = NULL;
     ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
     if (result == EC_OK) result = integrate[p->integrator](p, scalars, err);
+    if (result == EC_OK && p->edges.positions) result = ec_pipeline_launch(p, EC_LAMP_EDGES, scalars, err);
+    scalars[EC_ARG_FIRST_PIXEL] = first_pixel;
+    p->buffers[EC_ARG_EDGES] = edges;
+    p->buffers[EC_ARG_PIXEL_LIST] = list;
     p->buffers[EC_ARG_AOV] = aov;
     if (result == EC_OK) result = ec_pipeline_launch(p, EC_ACCUMULATE, scalars, err);
     if (result == EC_OK && p->params.layer_count) result = ec_pipeline_launch(p, EC_SLOT_LAYERS, scalars, err);

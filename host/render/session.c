@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/random.h"
+#include "device/lamp_edges.h"
 #include "device/light_batch.h"
 #include "device/tiers.h"
 #include "rare/light_share.h"
@@ -43,6 +44,7 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     s->environment.turned = params->environment_turned;
     for (int k = 0; k < 9; k++) s->environment.turn[k] = params->environment_turn[k / 3 * 4 + k % 3];
     if (result == EC_OK && !(options->far_share > 0)) result = ec_light_share_choose(&s->pipeline, &share, err);
+    if (result == EC_OK) result = ec_lamp_edges_find(&s->pipeline, err);
     stats->device_bytes = cl->peak_allocated_bytes;
     if (result == EC_OK) return EC_OK;
     ec_session_close(s);
@@ -80,7 +82,8 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
     ec_raster_forget(p);
     const uint64_t pixels = (uint64_t)view->width * view->height;
     EC_TRY(ec_pipeline_fit_films(p, pixels, pixels, err));
-    return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err);
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof *params, params, err));
+    return ec_lamp_edges_find(p, err);
 }
 
 ec_result ec_session_foretell(ec_session *s, ec_rare *rare, ec_error *err)
@@ -169,6 +172,7 @@ ec_result ec_session_take(ec_session *session, ec_session_batch *batch, ec_error
         EC_TRY(ec_tiers_step(p, err));
         count = pixels_a_wave(session, batch);
         if (count > pixels - first) count = pixels - first;
+        EC_TRY(ec_lamp_edges_prepare(p, NULL, batch->replicate * pixels + first, &count, err));
         EC_TRY(take_wave(session, batch, first, count, err));
     }
     EC_TRY(read_results(session, batch, pixels, err));

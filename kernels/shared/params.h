@@ -83,8 +83,11 @@ typedef struct ec_params {
     ec_uint layer_of[EC_LAYER_KINDS];
     ec_uint layer_groups;         /* the first light group's; the others follow */
     ec_uint layer_ids;            /* behind them: which node and material a sample meets (lib/features.h) */
+    ec_uint edge_numbers;         /* pixel numbers from this one on are of rays to lamps' edges (stages/lamp_edges.cl); 0: there are none */
 } ec_params;
-EC_ASSERT_SIZE(ec_params, 592);
+EC_ASSERT_SIZE(ec_params, 596);
+
+#define EC_EDGE_RAYS 8u /* for each sample of a pixel that a lamp's edge goes through */
 
 /* Light is indirect where its path has more segments. */
 #define EC_DIRECT_SEGMENTS 2u

@@ -2,6 +2,10 @@
 #ifndef EC_SHARED_PATH_STATE_H
 #define EC_SHARED_PATH_STATE_H
 
+/* EC_PATH_PDF of camera rays is -1, or one of these where a lamp's edge goes through the pixel (stages/lamp_edges.cl). */
+#define EC_PDF_BESIDE (-2.0f) /* a path that leaves out what it sees of lamps at first sight … */
+#define EC_PDF_ENDS (-3.0f)   /* … and a ray that adds that, and nothing else */
+
 enum ec_path_field {
     EC_PATH_OX, EC_PATH_OY, EC_PATH_OZ,    /* ray origin, recentred frame */
     EC_PATH_DX, EC_PATH_DY, EC_PATH_DZ,    /* ray direction, unit */

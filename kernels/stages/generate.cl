@@ -10,7 +10,19 @@
 #define GENERATE_PARAMETERS(DO)                                                                                                                       \
     DO(uint, seed) DO(uint, first_pixel) DO(global const uint *, pixel_list) DO(global const float *, filter) DO(uint, path_count)                    \
     DO(global float *, paths) DO(global float *, radiance) DO(global const float *, camera_keys) DO(global const float *, motion)                     \
-    DO(global float *, times)
+    DO(global float *, times) DO(global const uint *, edges)
+
+/* No light sampling could find a camera ray's direction; and what it sees of lamps at first sight is what the picture has, or not (lamp_edges.cl). */
+EC_FN lane_f first_pdf(constant ec_params *params, uint first_pixel, global const uint *pixel_list, global const uint *edges, lane_u slot)
+{
+    uint count = params->width * params->height;
+    if (!edges) return F(-1.0f);
+    lane_u pixel, sample;
+    slot_to_pixel(params, first_pixel, pixel_list, slot, &pixel, &sample);
+    lane_u number = pixel - divide(pixel, count) * count;
+    lane_i ends = pixel >= params->edge_numbers, is_edge = ((gather_u(edges, number / 32u) >> (number % 32u)) & 1u) != 0u;
+    return ends ? F(EC_PDF_ENDS) : is_edge ? F(EC_PDF_BESIDE) : F(-1.0f);
+}
 
 EC_KERNEL(ec_generate, LANES, GENERATE_PARAMETERS, slot_entries(path_count, i))
 {
@@ -41,7 +53,7 @@ EC_KERNEL(ec_generate, LANES, GENERATE_PARAMETERS, slot_entries(path_count, i))
     queue_store_v3(paths, wave, EC_PATH_OX, i, o);
     queue_store_v3(paths, wave, EC_PATH_DX, i, d);
     queue_store_v3(paths, wave, EC_PATH_BR, i, v3_splat(F(1.0f)));
-    queue_store_f(paths, wave, EC_PATH_PDF, i, F(-1.0f));
+    queue_store_f(paths, wave, EC_PATH_PDF, i, first_pdf(params, first_pixel, pixel_list, edges, slot));
     queue_store_f(paths, wave, EC_PATH_SLOT, i, as_lane_f(slot));
     queue_store_f(paths, wave, EC_PATH_PRIM, i, as_lane_f(U(0xffffffffu)));
     if (HAS_MEDIUM) queue_store_f(paths, wave, EC_PATH_MEDIUM, i, as_lane_f(U(params->camera_medium)));

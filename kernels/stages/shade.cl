@@ -87,6 +87,12 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     slot = active ? slot : U(0);
     if (HAS(MOTION) && motion) g.time = gather_f(times, slot);
     g.parts = lamp_parts;
+    lane_i ends = !TRUE_MASK, beside = !TRUE_MASK; /* rays to lamps' edges, and paths that have such rays */
+    if (HAS(EMISSION) && bounce == 0u && params->edge_numbers) {
+        ends = path_pdf == F(EC_PDF_ENDS);
+        beside = path_pdf == F(EC_PDF_BESIDE);
+        path_pdf = F(-1.0f);
+    }
     lane_i found = active & (prim != EC_NO_ID);
     v3 wo = v3_negate(d);
     lane_f k = F(0.0f);
@@ -102,7 +108,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
             lane_f share = F(0.0f);
             if (by_light && any_lane(missed & k_is_joined(k))) share = k_is_joined(k) ? k * emission_environment(&light, pdf, o, wo) : F(0.0f);
             emitted = v3_scale(Le, found_weight(params->sample, path_pdf, pdf, share));
-            emits = missed;
+            emits = missed & !ends;
         }
     }
 
@@ -141,7 +147,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     v3 source = o; /* where light was last looked for */
     if (HAS(PANES) && bounce) source = queue_load_v3(paths, wave, EC_PATH_SX, i);
     if (HAS(EMISSION)) {
-        lane_i m = met & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
+        lane_i m = met & !beside & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
         if (any_lane(m)) {
             v3 way = v3_sub(s.p, source);
@@ -167,9 +173,10 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
             emits = emits | m;
         }
     }
-    lane_i scatters = met;
+    lane_i scatters = met & !ends;
+    strewn = strewn & !ends;
     if (HAS(UNLIT)) {
-        lane_i m = met & ((flags & EC_MATERIAL_UNLIT) != 0u);
+        lane_i m = scatters & ((flags & EC_MATERIAL_UNLIT) != 0u);
         emitted = v3_select(m, s.base, emitted);
         emits = emits | m;
         scatters = scatters & !m;
