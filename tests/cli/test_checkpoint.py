@@ -165,7 +165,7 @@ class Checkpoint(Case):
     def test_until_an_error(self):
         """Also where samples go where noise is, which --resume keeps as it was: on by itself with --error, off without."""
         self.assert_same(["--spp", "12"], ["--error", "60%", "--adaptive=off"], ["--error", "60%"])
-        self.assert_same(["--error", "25%", "--spp", "40"], ["--error", "25%"], ["--error", "25%"])
+        self.assert_same(["--error", "10%", "--spp", "40"], ["--error", "10%"], ["--error", "10%"])
         self.assert_same(["--error", "60%"], ["--spp", "150", "--adaptive"], ["--spp", "150"])
 
     def test_a_slice(self):

@@ -45,16 +45,16 @@ WAYS = [(), ("--accel", "bvh2"), ("--accel", "grid"), ("--accel", "kdtree"), ("-
 
 class Coplanar(Case):
     def picture(self, faces, *options, camera=None):
-        """Pixels of faces, each (material, what Scene.add() takes)."""
+        """Pixels of faces, each (material, what Scene.add() takes); (0, 0) before the environment, which no face is brighter than: none has lamps' edges."""
         scene = Scene(*(material for material, _ in faces))
         scene.camera.update(camera or {})
         for k, (_, mesh) in enumerate(faces):
             scene.add(material=k, **mesh)
         out = self.path("out.exr")
         self.assert_ok(eclat("render", scene.write(self.path("scene.gltf")), "-q", *NARROW, "--size", f"{SIZE}x{SIZE}", "--spp", "1",
-                             "--replicates", "1", "-o", out, *options))
+                             "--replicates", "1", "--env", "1,1,1", "-o", out, *options))
         channels = read_exr(out)[1]
-        return list(zip(channels["R"], channels["G"]))
+        return [(r, g) if b == 0 else (0, 0) for r, g, b in zip(*(channels[c] for c in "RGB"))]
 
     def check(self, faces, winner, *options, **where):
         """The first and the second of two faces by themselves, the other one being there unseen; then both."""

@@ -12,7 +12,7 @@ from tiers import full
 TOOL = os.path.join(SOURCE, "tools", "gpu_compile")
 BUILD = os.path.dirname(os.path.abspath(ECLAT))
 NVIDIA, AMD, INTEL = ("sm_75", "sm_90"), ("gfx906", "gfx1030", "gfx1100"), ("tgllp", "dg2")
-NAMES = {"ec_generate", "ec_intersect_bvh2", "ec_shade", "ec_connect_bvh2", "ec_accumulate", "ec_features"}
+NAMES = {"ec_generate", "ec_intersect_bvh2", "ec_shade", "ec_connect_bvh2", "ec_lamp_edges", "ec_accumulate", "ec_features"}
 
 # Most registers of a work-item on NVIDIA's and on AMD's cards.
 SHADE = {"cornell-box": (96, 96), "showcase": (128, 120), "lamps": (168, 168)}
