@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "base/luminance.h"
 #include "device/adaptive.h"
 #include "device/lamp_tiles.h"
 #include "film/schedule.h"
@@ -13,7 +14,10 @@
 #define DARK 16.0f       /* lamps that are so many times darker than the brightest in sight have no edges … */
 #define LIT 4.0f         /* … nor have those that are not so many times brighter than the environment, which surfaces may be as bright as */
 
-static float luminance(float r, float g, float b) { return 0.2126f * r + 0.7152f * g + 0.0722f * b; }
+/* Luminance of the lamps that each pixel's ray meets, in row order; and the most of all. */
+typedef struct sight {
+    float *seen, most;
+} sight;
 
 static ec_result send_params(ec_pipeline *p, ec_error *err)
 {
@@ -39,21 +43,23 @@ static ec_result send_list(ec_pipeline *p, uint32_t entries, ec_error *err)
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_EDGE_LIST], 0, 4ull * EC_LIST_WORDS * entries, p->edges.list, err);
 }
 
-/* Luminance of the lamps that the rays of a list's first entries meet. */
-static ec_result look(ec_pipeline *p, uint32_t count, float *rgb, float *seen, ec_error *err)
+/* Traces the rays of the list's first entries. rgb: room for what they see. */
+static ec_result look(ec_pipeline *p, uint32_t count, float *rgb, sight *of, ec_error *err)
 {
     EC_TRY(send_list(p, count, err));
     EC_TRY(ec_pipeline_run_edge_rays(p, SEED, count, err));
     for (uint64_t c = 0; c < 3; c++) EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_RADIANCE], 4 * c * p->wave, 4ull * count, rgb + c * count, err));
     for (uint32_t i = 0; i < count; i++) {
-        const float y = luminance(rgb[i], rgb[count + i], rgb[2 * (size_t)count + i]);
-        seen[ec_pixel_place(&p->params, p->edges.list[EC_LIST_WORDS * (size_t)i] - p->params.edge_numbers)] = isfinite(y) ? y : 0;
+        const float y = (float)ec_luminance_of_floats((float[3]){rgb[i], rgb[count + i], rgb[2 * (size_t)count + i]});
+        if (!isfinite(y)) continue;
+        of->seen[ec_pixel_place(&p->params, p->edges.list[EC_LIST_WORDS * (size_t)i] - p->params.edge_numbers)] = y;
+        of->most = fmaxf(of->most, y);
     }
     return EC_OK;
 }
 
-/* The same of one camera ray for each pixel of the tiles. */
-static ec_result look_at_tiles(ec_pipeline *p, const ec_lamp_tiles *tiles, float *seen, ec_error *err)
+/* Traces one camera ray through each pixel of the tiles. */
+static ec_result look_at_tiles(ec_pipeline *p, const ec_lamp_tiles *tiles, sight *of, ec_error *err)
 {
     EC_FREED float *rgb = malloc(3 * (size_t)p->wave * sizeof *rgb);
     uint32_t count = 0, first;
@@ -62,17 +68,19 @@ static ec_result look_at_tiles(ec_pipeline *p, const ec_lamp_tiles *tiles, float
     for (uint32_t tile = 0; tile < tiles->columns * tiles->rows; tile++) {
         if (!tiles->may[tile]) continue;
         const uint32_t pixels = ec_lamp_tile_numbers(&p->params, tiles, tile, &first);
-        if (count + pixels > p->wave) EC_TRY(look(p, count, rgb, seen, err));
-        if (count + pixels > p->wave) count = 0;
+        if (count + pixels > p->wave) {
+            EC_TRY(look(p, count, rgb, of, err));
+            count = 0;
+        }
         for (uint32_t i = 0; i < pixels; i++, count++) {
             p->edges.list[EC_LIST_WORDS * (size_t)count] = p->params.edge_numbers + first + i;
             p->edges.list[EC_LIST_WORDS * (size_t)count + 1] = 0;
         }
     }
-    return count ? look(p, count, rgb, seen, err) : EC_OK;
+    return count ? look(p, count, rgb, of, err) : EC_OK;
 }
 
-/* Do the pixels around one differ? */
+/* Do lamps differ among the 3 x 3 pixels around one? */
 static bool is_edge(const ec_params *params, const float *seen, uint32_t place, float least)
 {
     const uint32_t width = params->width, x = place % width, y = place / width;
@@ -85,18 +93,7 @@ static bool is_edge(const ec_params *params, const float *seen, uint32_t place, 
     return high - low > least && high > LIT * low;
 }
 
-static float brightest(const ec_params *params, const ec_lamp_tiles *tiles, const float *seen)
-{
-    const uint32_t count = tiles->columns * tiles->rows;
-    uint32_t first;
-    float most = 0;
-    for (uint32_t tile = 0; tile < count; tile++)
-        for (uint32_t i = 0, pixels = tiles->may[tile] ? ec_lamp_tile_numbers(params, tiles, tile, &first) : 0; i < pixels; i++)
-            most = fmaxf(most, seen[ec_pixel_place(params, first + i)]);
-    return most;
-}
-
-/* Is any? */
+/* Sets the bits of pixels with an edge; returns whether there is one. */
 static bool mark(const ec_params *params, const ec_lamp_tiles *tiles, const float *seen, float least, uint32_t *marks)
 {
     const uint32_t count = tiles->columns * tiles->rows;
@@ -117,6 +114,7 @@ static ec_result find(ec_pipeline *p, const ec_lamp_tiles *tiles, float least, b
     const uint32_t pixels = p->params.width * p->params.height, batch = p->params.batch, first_sample = p->params.first_sample;
     const uint64_t rays = p->rays, words = pixels / 32 + 1;
     EC_FREED float *seen = calloc(pixels, sizeof *seen);
+    sight all = {seen, 0};
     p->edges.marks = calloc(words, sizeof *p->edges.marks);
     if (!seen || !p->edges.marks) return ec_fail(err, "out of memory for the edges of lamps");
     EC_TRY(ec_buffer_create(p->cl, "edges of lamps", 4 * words, p->edges.marks, &p->buffers[EC_ARG_EDGES], err));
@@ -124,11 +122,11 @@ static ec_result find(ec_pipeline *p, const ec_lamp_tiles *tiles, float least, b
     p->params.batch = 1;
     p->params.first_sample = 0;
     EC_TRY(send_params(p, err));
-    EC_TRY(look_at_tiles(p, tiles, seen, err));
+    EC_TRY(look_at_tiles(p, tiles, &all, err));
     p->params.batch = batch;
     p->params.first_sample = first_sample;
     p->rays = rays;
-    *any = mark(&p->params, tiles, seen, fmaxf(least, brightest(&p->params, tiles, seen) / DARK), p->edges.marks);
+    *any = mark(&p->params, tiles, seen, fmaxf(least, all.most / DARK), p->edges.marks);
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_EDGES], 0, 4 * words, p->edges.marks, err);
 }
 
@@ -143,7 +141,7 @@ static void forget(ec_pipeline *p)
 ec_result ec_lamp_edges_find(ec_pipeline *p, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->params.width * p->params.height;
-    const float *mean = p->params.environment_mean, least = LIT * luminance(mean[0], mean[1], mean[2]);
+    const float least = LIT * (float)ec_luminance_of_floats(p->params.environment_mean);
     ec_lamp_tiles tiles = {.may = NULL};
     bool any = false;
     forget(p);
@@ -161,7 +159,7 @@ static bool is_marked(const ec_pipeline *p, uint32_t number)
     return p->edges.marks[at / 32] >> at % 32 & 1;
 }
 
-/* Of pixel i from `first` on: its number, and samples that it has beyond those that the batch begins with. */
+/* The list's entry for pixel i after `first`; without a list `own`, filled in: the pixel's number, and 0. */
 static const uint32_t *entry_of(const uint32_t *list, uint32_t first, uint32_t i, uint32_t own[EC_LIST_WORDS])
 {
     if (list) return list + EC_LIST_WORDS * (size_t)(first + i);
@@ -170,7 +168,7 @@ static const uint32_t *entry_of(const uint32_t *list, uint32_t first, uint32_t i
     return own;
 }
 
-/* Of at most `most` pixels those that there is room for with their rays; *marked: how many of them have such. */
+/* Returns how many of the next `most` pixels a wave has room for, with their rays; *marked: how many of these have rays. */
 static uint32_t fit(const ec_pipeline *p, const uint32_t *list, uint32_t first, uint32_t most, uint32_t *marked)
 {
     const uint32_t room = p->wave / p->params.batch;

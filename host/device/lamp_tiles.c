@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/freed.h"
+#include "base/luminance.h"
 #include "device/batch_source.h"
 #include "shared/scene_buffers.h"
 
@@ -12,7 +13,7 @@
 #define TILE ((int64_t)EC_TILE_ROWS)
 #define MARGIN 2.0 /* pixels: of the filter, and of a neighbour's */
 
-/* What is seen of a lamp, in pixels; and how many of its corners are not behind the camera. */
+/* Bounds of a lamp in the picture, in pixels; in_front: how many of its corners are before the camera. */
 typedef struct extent {
     double low[2], high[2];
     uint32_t in_front;
@@ -56,8 +57,7 @@ static void mark(ec_lamp_tiles *t, const extent *e)
 
 static bool is_seen(const ec_light_data *light, float least)
 {
-    const float *e = light->emission;
-    return (light->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && 0.2126f * e[0] + 0.7152f * e[1] + 0.0722f * e[2] > least;
+    return (light->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && ec_luminance_of_floats(light->emission) > least;
 }
 
 ec_result ec_lamp_tiles_find(ec_pipeline *p, float least, ec_lamp_tiles *t, ec_error *err)

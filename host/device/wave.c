@@ -82,16 +82,16 @@ ec_result ec_pipeline_run_light_wave(ec_pipeline *p, uint32_t seed, uint32_t fir
 
 ec_result ec_pipeline_run_edge_rays(ec_pipeline *p, uint32_t seed, uint32_t count, ec_error *err)
 {
-    const uint32_t depth = p->params.max_depth;
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_SEED] = seed, [EC_ARG_PATH_COUNT] = count};
     cl_mem list = p->buffers[EC_ARG_PIXEL_LIST];
     p->buffers[EC_ARG_PIXEL_LIST] = p->buffers[EC_ARG_EDGE_LIST];
     ec_pipeline_swap_queues(p, 0);
     ec_pipeline_fill_parts(p, count);
-    p->params.max_depth = 1; /* of the host alone: no ray goes on */
     ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
-    if (result == EC_OK) result = run_segment(p, scalars, 0, 0, err);
-    p->params.max_depth = depth;
+    if (result == EC_OK) result = begin_segment(p, err);
+    if (result == EC_OK) result = ec_pipeline_trace(p, 0, 0, scalars, err);
+    if (result == EC_OK) result = ec_pipeline_launch(p, EC_SHADE, scalars, err);
+    if (result == EC_OK) result = end_segment(p, EC_SHADE, err);
     p->buffers[EC_ARG_PIXEL_LIST] = list;
     return result;
 }

@@ -12,7 +12,7 @@
     DO(global float *, paths) DO(global float *, radiance) DO(global const float *, camera_keys) DO(global const float *, motion)                     \
     DO(global float *, times) DO(global const uint *, edges)
 
-/* No light sampling could find a camera ray's direction; and what it sees of lamps at first sight is what the picture has, or not (lamp_edges.cl). */
+/* EC_PATH_PDF of a camera ray: it says what becomes of the lamps that the ray sees at first sight (shared/path_state.h). */
 EC_FN lane_f first_pdf(constant ec_params *params, uint first_pixel, global const uint *pixel_list, global const uint *edges, lane_u slot)
 {
     uint count = params->width * params->height;

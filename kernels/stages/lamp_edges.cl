@@ -1,5 +1,5 @@
-/* What samples see of lamps at first sight, where a lamp's edge goes through their pixel: the mean of EC_EDGE_RAYS camera rays of their own, which end
- * there (host/device/lamp_edges.h). Reads: params, the list of the wave. Changes: the radiance of the samples' slots, which their paths leave that out of. */
+/* Adds to each sample of a pixel that a lamp's edge goes through what it sees of lamps at first sight: the mean of EC_EDGE_RAYS camera rays of its own, which
+ * end there (host/device/lamp_edges.h). Reads: params, the list of the wave. Changes: the radiance of the samples' slots, which their paths leave that out of. */
 #include "../lib/kernel.h"
 #include "../lib/slot_layers.h"
 #include "../lib/sum.h"
