@@ -95,6 +95,29 @@ static uint32_t leaf_of(const plan *p, const wide *from, uint32_t k)
     return EC_LEAF_BIT | (p->bvh->leaf_most == 1 ? EC_INSTANCE_BIT | instance : from->first_leaf + k - from->node_count);
 }
 
+/* By how far the children's centres lie along each octant's diagonal. */
+static void order_children(ec_bvh8_node *node)
+{
+    for (uint32_t octant = 0; octant < 4; octant++) { /* the others go the opposite ways */
+        float along[8];
+        uint32_t slots[8];
+        for (uint32_t k = 0; k < 8; k++) {
+            along[k] = 0.0f;
+            for (int axis = 0; axis < 3 && node->child[k] != EC_NO_CHILD; axis++) {
+                float centre = 0.5f * node->bound[2 * axis][k] + 0.5f * node->bound[2 * axis + 1][k];
+                along[k] += octant >> axis & 1 ? -centre : centre;
+            }
+            uint32_t to = k; /* the farthest first */
+            for (; to > 0 && along[slots[to - 1]] < along[k]; to--) slots[to] = slots[to - 1];
+            slots[to] = k;
+        }
+        for (uint32_t k = 0; k < 8; k++) {
+            node->order[octant] |= slots[k] << 3 * k;
+            node->order[7 - octant] |= slots[k] << 3 * (7 - k);
+        }
+    }
+}
+
 static void fill_node(const plan *p, const wide *from, ec_bvh8_node *node)
 {
     memset(node, 0, sizeof *node);
@@ -107,6 +130,7 @@ static void fill_node(const plan *p, const wide *from, ec_bvh8_node *node)
         }
         node->child[k] = !used ? EC_NO_CHILD : k < from->node_count ? from->first_node + k : leaf_of(p, from, k);
     }
+    order_children(node);
 }
 
 static void fill_block(const plan *p, uint32_t index, const float *positions, const uint32_t *indices, ec_tri8 *block, ec_box8 *boxes)

@@ -14,7 +14,8 @@
 
 typedef struct ray8 {
     ray r;                      /* splat */
-    uint near_x, near_y, near_z; /* rows of ec_bvh8_node.bound */
+    uint near_x, near_y, near_z, far_x, far_y, far_z; /* where rows of ec_bvh8_node.bound begin, in bytes */
+    uint octant;                                      /* for ec_bvh8_node.order */
     float8 near_offset_x, near_offset_y, near_offset_z, far_offset_x, far_offset_y, far_offset_z;
     uint axis_x, axis_y, axis_z;
 } ray8;
@@ -26,14 +27,25 @@ typedef struct hit8 {
     TALLIES
 } hit8;
 
+/* Where rows of nodes begin, from q->r.inverse. */
+EC_INLINED void ray8_rows(ray8 *q)
+{
+    uint x = q->r.inverse.x.s0 < 0.0f, y = q->r.inverse.y.s0 < 0.0f, z = q->r.inverse.z.s0 < 0.0f;
+    q->octant = x | y << 1 | z << 2;
+    q->near_x = x << 5;
+    q->near_y = 64u | y << 5;
+    q->near_z = 128u | z << 5;
+    q->far_x = q->near_x ^ 32u;
+    q->far_y = q->near_y ^ 32u;
+    q->far_z = q->near_z ^ 32u;
+}
+
 /* Fills in the rest from q->r. */
 EC_INLINED void ray8_signs(ray8 *q)
 {
+    ray8_rows(q);
     /* Selects, not branches: nobody can predict the signs of a bounced ray. */
     lane_i nx = q->r.inverse.x < 0.0f, ny = q->r.inverse.y < 0.0f, nz = q->r.inverse.z < 0.0f;
-    q->near_x = 0 | (nx.s0 & 1);
-    q->near_y = 2 | (ny.s0 & 1);
-    q->near_z = 4 | (nz.s0 & 1);
     q->near_offset_x = nx ? q->r.hi_offset.x : q->r.lo_offset.x;
     q->near_offset_y = ny ? q->r.hi_offset.y : q->r.lo_offset.y;
     q->near_offset_z = nz ? q->r.hi_offset.z : q->r.lo_offset.z;

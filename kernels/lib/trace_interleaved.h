@@ -1,7 +1,7 @@
 /* The two kernels of bvh8 for structures larger than caches: a work-item has INTERLEAVE rays on their way, takes one step of each in
  * turn, and asks for what a ray's next step reads before it turns to the next ray, so that memory answers while others are served
- * (as group prefetching does in databases: Chen, Ailamaki, Gibbons, Mowry 2004). The steps of one ray are those of bvh8_closest and
- * bvh8_any, so the hits are the same. What moves, panes, and faces in one plane are left to trace_rays.h. */
+ * (as group prefetching does in databases: Chen, Ailamaki, Gibbons, Mowry 2004). Steps take few branches: one that was foretold wrongly costs
+ * all rays. They test the boxes and triangles that bvh8_closest and bvh8_any test, so the hits are the same. What moves, panes, and faces in one plane are left to trace_rays.h. */
 #ifndef EC_LIB_TRACE_INTERLEAVED_H
 #define EC_LIB_TRACE_INTERLEAVED_H
 
@@ -15,11 +15,9 @@ typedef struct walk {
     uint i;               /* its place in the queue */
     uint skip0, skip1;    /* triangles that are passed through */
     uint current, depth;  /* what is visited next; entries of the stack */
+    struct walk *next;    /* in the ring of those on their way */
     lane_u key;           /* as in hit_filter */
-    union {
-        ulong far[EC_BVH8_STACK];  /* closest: as in bvh8_enter */
-        uint child[EC_BVH8_STACK]; /* any */
-    } stack;
+    stack8 stack;         /* of any: children alone */
 } walk;
 
 /* All cache lines of a node or a block: here it is memory that is waited for. */
@@ -49,29 +47,34 @@ EC_INLINED void walk_begin(walk *w, uint i, uint skip0, uint skip1, float t_max)
 /* One visit on the way to the closest hit; true once that is known. */
 EC_INLINED bool walk_closest(const accel *a, hit_filter *filter, walk *w)
 {
-    uint current = w->current;
-    if (current & EC_LEAF_BIT) {
+    if (w->current & EC_LEAF_BIT) {
         if (HAS(ALPHA)) filter->key = w->key;
-        leaf8(a, &w->q, filter, current, w->skip0, w->skip1, false, &w->h);
+        leaf8(a, &w->q, filter, w->current, w->skip0, w->skip1, false, &w->h);
+    } else {
+        TALLY_NODE(&w->h);
+        w->depth = node8_push_near(&w->q, (global const ec_bvh8_node *)a->at[0] + w->current, w->h.t, &w->stack, w->depth);
     }
-    bool enters = !(current & EC_LEAF_BIT) && bvh8_enter(a, &w->q, &w->h, w->stack.far, &w->depth, &current);
-    if (!enters && !bvh8_return(&w->h, w->stack.far, &w->depth, &current)) return true;
-    walk_prefetch(a, current);
-    w->current = current;
+    uint depth = w->depth;
+    do {
+        if (depth == 0) return true;
+        depth--;
+    } while (w->stack.near[depth] > w->h.t);
+    w->depth = depth;
+    w->current = w->stack.child[depth];
+    walk_prefetch(a, w->current);
     return false;
 }
 
 /* One visit on the way to any hit; true once there is one, or none is left. */
 EC_INLINED bool walk_any(const accel *a, hit_filter *filter, walk *w)
 {
-    global const ec_bvh8_node *nodes = a->at[0];
     if (w->current & EC_LEAF_BIT) {
         if (HAS(ALPHA)) filter->key = w->key;
         leaf8(a, &w->q, filter, w->current, w->skip0, w->skip1, true, &w->h);
         if (w->h.prim != EC_NO_ID) return true;
     } else {
         TALLY_NODE(&w->h);
-        w->depth += node8_push(&w->q, nodes + w->current, w->h.t, w->stack.child + w->depth);
+        w->depth += node8_push(&w->q, (global const ec_bvh8_node *)a->at[0] + w->current, w->h.t, w->stack.child + w->depth);
     }
     if (w->depth == 0) return true;
     w->current = w->stack.child[--w->depth];
@@ -79,19 +82,11 @@ EC_INLINED bool walk_any(const accel *a, hit_filter *filter, walk *w)
     return false;
 }
 
-/* The rays that a work-item takes, up to RUN (at the end fewer than INTERLEAVE are on their way): `left` from its own place on, of which `next` have
- * begun. order[0 .. count) are those on their way. */
-typedef struct turns {
-    uint left, next, count;
-    uint order[INTERLEAVE];
-} turns;
-
-EC_INLINED turns turns_of(uint left)
+/* Makes a ring of the first `count` walks, at least one, and returns the last of them. */
+EC_INLINED walk *walk_ring(walk *walks, uint count)
 {
-    turns t;
-    t.left = min(left, RUN);
-    t.next = t.count = 0;
-    return t;
+    for (uint k = 0; k < count; k++) walks[k].next = walks + (k + 1 < count ? k + 1 : 0);
+    return walks + count - 1;
 }
 
 EC_INLINED void walk_path(walk *w, constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
@@ -156,62 +151,72 @@ EC_INLINED void camera_rays(uint i, uint left, constant ec_params *params INTERS
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
 EC_KERNEL_AT(ec_intersect_bvh8, queue_run(params->part), INTERSECT_PARAMETERS, QUEUED(rays[step]))
 {
-    uint wave = params->wave;
-    turns t = turns_of(left);
+    uint wave = params->wave, next = 0;
+    left = min(left, RUN);
+    if (bounce == 0) {
+        for (; next < left; next += 8u) camera_rays(i + next, left - next, params INTERSECT_PARAMETERS(EC_ARGUMENT));
+        return;
+    }
     const accel a = ACCEL_ARGUMENTS;
     hit_filter filter = {FILTER_GEOMETRY, U(0), false, 0};
-    walk walks[INTERLEAVE];
-    for (; bounce == 0 && t.next < t.left; t.next += 8u) camera_rays(i + t.next, t.left - t.next, params INTERSECT_PARAMETERS(EC_ARGUMENT));
-    for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {
-        bool is_new = t.count < INTERLEAVE && t.next < t.left;
-        if (is_new) k = t.order[t.count] = t.count, t.count++;
-        walk *w = walks + t.order[k];
-        if (!is_new) {
-            if (!walk_closest(&a, &filter, w)) continue;
-            walk_store(w, wave, hits);
-            if (t.next == t.left) {
-                t.order[k] = t.order[--t.count];
-                continue;
-            }
+    walk walks[INTERLEAVE], *w = walks, *before = walk_ring(walks, min(left, (uint)INTERLEAVE));
+    for (; next < left && next < INTERLEAVE; next++) walk_path(walks + next, params, seed, first_pixel, pixel_list, bounce, paths, i + next);
+    for (;; before = w, w = w->next) {
+        if (!walk_closest(&a, &filter, w)) continue;
+        walk_store(w, wave, hits);
+        if (next < left) {
+            walk_path(w, params, seed, first_pixel, pixel_list, bounce, paths, i + next++);
+            continue;
         }
-        walk_path(w, params, seed, first_pixel, pixel_list, bounce, paths, i + t.next++);
+        if (w == before) return;
+        before->next = w->next;
+        w = before;
     }
+}
+
+EC_INLINED void walk_shadow(walk *w, constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
+                            uint bounce, global const float *shadows, uint i)
+{
+    uint wave = params->wave;
+    global const float *p = shadows + i;
+    w->q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
+                     p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
+    walk_begin(w, i, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), 1.0f);
+    if (HAS(ALPHA)) {
+        lane_u pixel, sample;
+        slot_to_pixel(params, first_pixel, pixel_list, U(slot_alone_one(as_uint(p[EC_SHADOW_SLOT * wave]))), &pixel, &sample);
+        w->key = filter_key(seed, pixel, sample, bounce, true);
+    }
+}
+
+EC_INLINED void walk_light(const walk *w, constant ec_params *params, uint bounce, global const float *shadows, global float *radiance)
+{
+    uint wave = params->wave;
+    global const float *p = shadows + w->i;
+    if (w->h.prim == EC_NO_ID)
+        light_add_one(params, radiance, bounce + 2, as_uint(p[EC_SHADOW_SLOT * wave]), p[EC_SHADOW_LR * wave], p[EC_SHADOW_LG * wave],
+                      p[EC_SHADOW_LB * wave]);
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
 EC_KERNEL_AT(ec_connect_bvh8, queue_run(params->part), CONNECT_PARAMETERS, QUEUED(shadows[step]))
 {
-    uint wave = params->wave;
-    turns t = turns_of(left);
+    uint next = 0;
+    left = min(left, RUN);
     const accel a = ACCEL_ARGUMENTS;
     hit_filter filter = {FILTER_GEOMETRY, U(0), CAMERA_SHADOWS(bounce), 0};
-    walk walks[INTERLEAVE];
-    for (uint k = 0; t.next < t.left || t.count; k = k + 1 < t.count ? k + 1 : 0) {
-        bool is_new = t.count < INTERLEAVE && t.next < t.left;
-        if (is_new) k = t.order[t.count] = t.count, t.count++;
-        walk *w = walks + t.order[k];
-        if (!is_new) {
-            if (!walk_any(&a, &filter, w)) continue;
-            if (w->h.prim == EC_NO_ID) {
-                global const float *p = shadows + w->i;
-                light_add_one(params, radiance, bounce + 2, as_uint(p[EC_SHADOW_SLOT * wave]), p[EC_SHADOW_LR * wave], p[EC_SHADOW_LG * wave],
-                              p[EC_SHADOW_LB * wave]);
-            }
-            if (t.next == t.left) {
-                t.order[k] = t.order[--t.count];
-                continue;
-            }
+    walk walks[INTERLEAVE], *w = walks, *before = walk_ring(walks, min(left, (uint)INTERLEAVE));
+    for (; next < left && next < INTERLEAVE; next++) walk_shadow(walks + next, params, seed, first_pixel, pixel_list, bounce, shadows, i + next);
+    for (;; before = w, w = w->next) {
+        if (!walk_any(&a, &filter, w)) continue;
+        walk_light(w, params, bounce, shadows, radiance);
+        if (next < left) {
+            walk_shadow(w, params, seed, first_pixel, pixel_list, bounce, shadows, i + next++);
+            continue;
         }
-        uint at = i + t.next++;
-        global const float *p = shadows + at;
-        w->q = ray8_make(p[EC_SHADOW_OX * wave], p[EC_SHADOW_OY * wave], p[EC_SHADOW_OZ * wave], p[EC_SHADOW_DX * wave],
-                         p[EC_SHADOW_DY * wave], p[EC_SHADOW_DZ * wave], params->scene_max);
-        walk_begin(w, at, as_uint(p[EC_SHADOW_PRIM * wave]), as_uint(p[EC_SHADOW_TARGET * wave]), 1.0f);
-        if (HAS(ALPHA)) {
-            lane_u pixel, sample;
-            slot_to_pixel(params, first_pixel, pixel_list, U(slot_alone_one(as_uint(p[EC_SHADOW_SLOT * wave]))), &pixel, &sample);
-            w->key = filter_key(seed, pixel, sample, bounce, true);
-        }
+        if (w == before) return;
+        before->next = w->next;
+        w = before;
     }
 }
 

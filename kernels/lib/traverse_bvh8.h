@@ -37,10 +37,10 @@ EC_INLINED bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack,
 {
     global const ec_bvh8_node *n = (global const ec_bvh8_node *)a->at[0] + *current;
     TALLY_NODE(h);
-    uint mask;
+    int8 meets;
     uint8 child = *(global const uint8 *)n->child; /* now, and not only once the distances are known */
-    float8 near = node8_near(q, (global const float8 *)n->bound, h->t, &mask);
-    return bvh8_sort(near, mask, child, stack, depth, current);
+    float8 near = node8_near(q, n, h->t, &meets);
+    return bvh8_sort(near, mask_bits8(meets), child, stack, depth, current);
 }
 
 /* Goes on to what the stack has that the ray enters before its best hit. False: nothing. */

@@ -55,9 +55,7 @@ EC_FN void visit_enter(visit *v, global const ec_instance *n, const ray8 *q)
                &v->q.near_offset_y, &v->q.far_offset_y);
     visit_axis(visit_row(n->inverse[2], x, y, z), iz, d_min, reach * n->inverse[2][3], &v->q.r.inverse.z,
                &v->q.near_offset_z, &v->q.far_offset_z);
-    v->q.near_x = 0 | (v->q.r.inverse.x.s0 < 0.0f);
-    v->q.near_y = 2 | (v->q.r.inverse.y.s0 < 0.0f);
-    v->q.near_z = 4 | (v->q.r.inverse.z.s0 < 0.0f);
+    ray8_rows(&v->q);
     v->late = (n->longest + reach * (40.0f * EC_ULP)) / d_most;
 }
 
@@ -126,9 +124,10 @@ EC_FN void twolevel_closest(const accel *a, const ray8 *q, const hit_filter *fil
         } else {
             global const ec_bvh8_node *n = nodes + current;
             TALLY_NODE(h);
-            uint mask;
+            int8 meets;
             ulong entry[8];
-            float8 near = node8_near(v.at ? &v.q : q, (global const float8 *)n->bound, h->t + v.late, &mask);
+            float8 near = node8_near(v.at ? &v.q : q, n, h->t + v.late, &meets);
+            uint mask = mask_bits8(meets);
             vstore8(entries8(near, *(global const uint8 *)n->child), 0, entry);
             if (mask) {
                 ulong nearest = entry[lowest_bit(mask)];

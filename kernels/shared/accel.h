@@ -36,11 +36,12 @@ EC_ASSERT_SIZE(ec_tri, 48);
 
 /* Eight children in structure-of-arrays form. bound[0..5] = lo.x, hi.x, lo.y, hi.y, lo.z, hi.z. child: inner = node
  * index; leaf = EC_LEAF_BIT | index of one ec_tri8 block; unused = EC_NO_CHILD with an empty box. A leaf child holds
- * exactly one block. */
+ * exactly one block. order: by octant of the ray's direction (bit k: its component k is negative) the slots from the farthest child to
+ * the nearest, an octal digit each, from the last digit on. */
 typedef struct ec_bvh8_node {
     ec_float bound[6][8];
     ec_uint child[8];
-    ec_uint pad[8];      /* keeps nodes on cache-line boundaries */
+    ec_uint order[8];
 } ec_bvh8_node;
 EC_ASSERT_SIZE(ec_bvh8_node, 256);
 

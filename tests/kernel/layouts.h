@@ -6,7 +6,7 @@
     S(ec_bvh2_node) F(ec_bvh2_node, lo) F(ec_bvh2_node, lo[1]) F(ec_bvh2_node, hi) F(ec_bvh2_node, hi[1][2])   \
     F(ec_bvh2_node, child) F(ec_bvh2_node, child[1])                                               \
     S(ec_tri) F(ec_tri, v0) F(ec_tri, id) F(ec_tri, v1) F(ec_tri, v2[2])                           \
-    S(ec_bvh8_node) F(ec_bvh8_node, bound) F(ec_bvh8_node, bound[5][7]) F(ec_bvh8_node, child) F(ec_bvh8_node, child[7]) \
+    S(ec_bvh8_node) F(ec_bvh8_node, bound) F(ec_bvh8_node, bound[5][7]) F(ec_bvh8_node, child) F(ec_bvh8_node, child[7]) F(ec_bvh8_node, order) \
     S(ec_tri8) F(ec_tri8, v) F(ec_tri8, v[1]) F(ec_tri8, v[2][2][7]) F(ec_tri8, id)                \
     S(ec_box) F(ec_box, lo) F(ec_box, hi[2]) S(ec_box8) F(ec_box8, lo[1]) F(ec_box8, hi[2][7])     \
     S(ec_instance) F(ec_instance, inverse) F(ec_instance, id) F(ec_instance, root) F(ec_instance, turned) F(ec_instance, longest) F(ec_instance, reach) \
