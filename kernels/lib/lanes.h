@@ -7,6 +7,7 @@
 #define EC_LIB_LANES_H
 
 #include "../shared/types.h"
+#include "packed_lanes.h"
 
 #ifndef LANES
 #define LANES 1
@@ -69,9 +70,6 @@ EC_FN lane_u int_to_lane_u(lane_i v) { return LANE_AS(uint, v); }
 EC_FN lane_i uint_to_lane_i(lane_u v) { return LANE_AS(int, v); }
 
 /* One bit a lane. The sign-bit instruction is worth a name: everything that branches goes through it. */
-#ifndef __has_builtin
-#define __has_builtin(x) 0
-#endif
 EC_FN uint mask_bits8(int8 m)
 {
 #if defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
@@ -268,6 +266,9 @@ EC_FN void store_compact(global float *restrict p, lane_f v, uint bits)
     __has_builtin(__builtin_ia32_storeups512_mask)
     lane_f packed = __builtin_ia32_compresssf512_mask(v, F(0.0f), (ushort)bits);
     __builtin_ia32_storeups512_mask((global void *)p, packed, (ushort)((1u << popcount(bits)) - 1u));
+#elif LANES == 8 && PERMUTES_LANES && __has_builtin(__builtin_ia32_maskstoreps256)
+    int8 first = (int8)(0, 1, 2, 3, 4, 5, 6, 7) < (int8)((int)popcount(bits));
+    __builtin_ia32_maskstoreps256((global void *)p, first, permute8_f(v, lanes8_packed(bits)));
 #else
     uint bit = 1;
 #define STORE_ONE(k)                                                                               \
