@@ -1,7 +1,6 @@
 /* Lane-wide loads, stores, gathers, scatters, compaction; masks. */
 #include "kernel_test.h"
 #include "lib/lanes.h"
-#include "lib/packed_lanes.h"
 
 #define ALL ((uint)((1ul << LANES) - 1ul))
 #define MASKS (LANES == 16 ? 2048u : 1u << LANES)
@@ -40,25 +39,6 @@ kernel void eight_lanes_have_their_bits(global test_result *result)
         int8 m = (((uint8)(bits) >> (uint8)(0, 1, 2, 3, 4, 5, 6, 7)) & 1u) != 0u;
         CHECK_EQUAL(mask_bits8(m), bits);
     }
-}
-
-kernel void eight_lanes_move_together(global test_result *result)
-{
-#if PERMUTES_LANES
-    const int8 v = (int8)(10, 11, 12, 13, 14, 15, 16, 17);
-    for (uint bits = 0; bits < 256; bits++) {
-        int found[8];
-        float found_f[8];
-        vstore8(permute8(v, lanes8_packed(bits)), 0, found);
-        vstore8(permute8_f(convert_float8(v), lanes8_packed(bits)), 0, found_f);
-        for (uint k = 0, count = 0; k < 8; k++) {
-            if (!(bits >> k & 1)) continue;
-            CHECK_EQUAL(found[count], 10 + (int)k);
-            CHECK_EQUAL(found_f[count], 10.0f + (float)k);
-            count++;
-        }
-    }
-#endif
 }
 
 kernel void comparisons_are_masks(global test_result *result)
