@@ -13,7 +13,7 @@
 #endif
 
 typedef struct ray8 {
-    ray r;                      /* splat */
+    ray r;                                            /* splat */
     uint near_x, near_y, near_z, far_x, far_y, far_z; /* where rows of ec_bvh8_node.bound begin, in bytes */
     uint octant;                                      /* for ec_bvh8_node.order */
     float8 near_offset_x, near_offset_y, near_offset_z, far_offset_x, far_offset_y, far_offset_z;

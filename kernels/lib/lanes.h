@@ -268,7 +268,7 @@ EC_FN void store_compact(global float *restrict p, lane_f v, uint bits)
     __builtin_ia32_storeups512_mask((global void *)p, packed, (ushort)((1u << popcount(bits)) - 1u));
 #elif LANES == 8 && PERMUTES_LANES && __has_builtin(__builtin_ia32_maskstoreps256)
     int8 first = (int8)(0, 1, 2, 3, 4, 5, 6, 7) < (int8)((int)popcount(bits));
-    __builtin_ia32_maskstoreps256((global void *)p, first, permute8_f(v, lanes8_packed(bits)));
+    __builtin_ia32_maskstoreps256((global void *)p, first, as_float8(pack8(as_int8(v), bits)));
 #else
     uint bit = 1;
 #define STORE_ONE(k)                                                                               \

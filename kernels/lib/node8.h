@@ -40,17 +40,11 @@ EC_INLINED void prefetch8(global const ec_bvh8_node *nodes, global const ec_tri8
 EC_INLINED uint node8_push(const ray8 *q, global const ec_bvh8_node *n, float t_max, uint *stack)
 {
     int8 meets;
-#if defined(__AVX512VL__) && __has_builtin(__builtin_ia32_compresssi256_mask)
+#if PERMUTES_LANES
     int8 child = *(global const int8 *)n->child; /* now, and not only once the mask is known */
     node8_near(q, n, t_max, &meets);
     uint mask = mask_bits8(meets);
-    vstore8(as_uint8(__builtin_ia32_compresssi256_mask(child, (int8)(0), (uchar)mask)), 0, stack);
-    return popcount(mask);
-#elif PERMUTES_LANES
-    int8 child = *(global const int8 *)n->child;
-    node8_near(q, n, t_max, &meets);
-    uint mask = mask_bits8(meets);
-    vstore8(as_uint8(permute8(child, lanes8_packed(mask))), 0, stack);
+    vstore8(as_uint8(pack8(child, mask)), 0, stack);
     return popcount(mask);
 #else
     uint count = 0;
@@ -77,8 +71,8 @@ EC_INLINED uint node8_push_near(const ray8 *q, global const ec_bvh8_node *n, flo
     int8 slots = lanes8_spread(order);
     float8 near = node8_near(q, n, t_max, &meets);
     uint mask = mask_bits8(permute8(meets, slots));
-    int8 lanes = permute8(slots, lanes8_packed(mask));
-    vstore8(permute8_f(near, lanes), 0, stack->near + depth);
+    int8 lanes = pack8(slots, mask);
+    vstore8(as_float8(permute8(as_int8(near), lanes)), 0, stack->near + depth);
     vstore8(as_uint8(permute8(*(global const int8 *)n->child, lanes)), 0, stack->child + depth);
     return depth + popcount(mask);
 #else

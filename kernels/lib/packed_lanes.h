@@ -8,9 +8,15 @@
 #define __has_builtin(x) 0
 #endif
 
-#if defined(__AVX2__) && __has_builtin(__builtin_ia32_permvarsi256) && __has_builtin(__builtin_ia32_permvarsf256)
+#ifndef PERMUTES_LANES /* tests of processors that do not are built with 0 */
+#if defined(__AVX2__) && __has_builtin(__builtin_ia32_permvarsi256)
 #define PERMUTES_LANES 1
+#else
+#define PERMUTES_LANES 0
+#endif
+#endif
 
+#if PERMUTES_LANES
 /* By mask: the numbers of the lanes that are on, in their order, an octal digit each, from the last digit on. */
 constant uint packed_lanes[256] = {
     0, 0, 01, 010, 02, 020, 021, 0210, 03, 030, 031, 0310, 032, 0320, 0321, 03210,
@@ -31,15 +37,21 @@ constant uint packed_lanes[256] = {
     07654, 076540, 076541, 0765410, 076542, 0765420, 0765421, 07654210, 076543, 0765430, 0765431, 07654310, 0765432, 07654320, 07654321, 076543210,
 };
 
-/* Eight numbers of lanes, three bits each; permute8 looks at no others. */
+/* Eight numbers of lanes, an octal digit each; permute8 looks at no other bits. */
 EC_INLINED int8 lanes8_spread(uint digits) { return as_int8((uint8)(digits) >> (uint8)(0, 3, 6, 9, 12, 15, 18, 21)); }
-EC_INLINED int8 lanes8_packed(uint mask) { return lanes8_spread(packed_lanes[mask]); }
 
 /* Lane k of the result is lane `lanes[k] & 7` of v. */
 EC_INLINED int8 permute8(int8 v, int8 lanes) { return __builtin_ia32_permvarsi256(v, lanes); }
-EC_INLINED float8 permute8_f(float8 v, int8 lanes) { return __builtin_ia32_permvarsf256(v, lanes); }
+
+/* The lanes of `mask`, close together. */
+EC_INLINED int8 pack8(int8 v, uint mask)
+{
+#if defined(__AVX512VL__) && __has_builtin(__builtin_ia32_compresssi256_mask)
+    return __builtin_ia32_compresssi256_mask(v, (int8)(0), (uchar)mask);
 #else
-#define PERMUTES_LANES 0
+    return permute8(v, lanes8_spread(packed_lanes[mask]));
+#endif
+}
 #endif
 
 #endif

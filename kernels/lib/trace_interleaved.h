@@ -1,7 +1,8 @@
 /* The two kernels of bvh8 for structures larger than caches: a work-item has INTERLEAVE rays on their way, takes one step of each in
  * turn, and asks for what a ray's next step reads before it turns to the next ray, so that memory answers while others are served
- * (as group prefetching does in databases: Chen, Ailamaki, Gibbons, Mowry 2004). Steps take few branches: one that was foretold wrongly costs
- * all rays. They test the boxes and triangles that bvh8_closest and bvh8_any test, so the hits are the same. What moves, panes, and faces in one plane are left to trace_rays.h. */
+ * (as group prefetching does in databases: Chen, Ailamaki, Gibbons, Mowry 2004). Steps take few branches: one that was foretold
+ * wrongly costs all rays. Boxes and triangles are tested as by bvh8_closest and bvh8_any, so the hits are the same. What moves, panes,
+ * and faces in one plane are left to trace_rays.h. */
 #ifndef EC_LIB_TRACE_INTERLEAVED_H
 #define EC_LIB_TRACE_INTERLEAVED_H
 
@@ -89,6 +90,15 @@ EC_INLINED walk *walk_ring(walk *walks, uint count)
     return walks + count - 1;
 }
 
+/* Takes *w, which has ended, out of the ring; *w becomes the one before it. False: there is none. */
+EC_INLINED bool walk_drop(walk **w, walk *before)
+{
+    if (*w == before) return false;
+    before->next = (*w)->next;
+    *w = before;
+    return true;
+}
+
 EC_INLINED void walk_path(walk *w, constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
                           uint bounce, global const float *paths, uint i)
 {
@@ -164,13 +174,8 @@ EC_KERNEL_AT(ec_intersect_bvh8, queue_run(params->part), INTERSECT_PARAMETERS, Q
     for (;; before = w, w = w->next) {
         if (!walk_closest(&a, &filter, w)) continue;
         walk_store(w, wave, hits);
-        if (next < left) {
-            walk_path(w, params, seed, first_pixel, pixel_list, bounce, paths, i + next++);
-            continue;
-        }
-        if (w == before) return;
-        before->next = w->next;
-        w = before;
+        if (next < left) walk_path(w, params, seed, first_pixel, pixel_list, bounce, paths, i + next++);
+        else if (!walk_drop(&w, before)) return;
     }
 }
 
@@ -210,13 +215,8 @@ EC_KERNEL_AT(ec_connect_bvh8, queue_run(params->part), CONNECT_PARAMETERS, QUEUE
     for (;; before = w, w = w->next) {
         if (!walk_any(&a, &filter, w)) continue;
         walk_light(w, params, bounce, shadows, radiance);
-        if (next < left) {
-            walk_shadow(w, params, seed, first_pixel, pixel_list, bounce, shadows, i + next++);
-            continue;
-        }
-        if (w == before) return;
-        before->next = w->next;
-        w = before;
+        if (next < left) walk_shadow(w, params, seed, first_pixel, pixel_list, bounce, shadows, i + next++);
+        else if (!walk_drop(&w, before)) return;
     }
 }
 

@@ -117,38 +117,12 @@ static uint32_t walk2(walk *w, uint32_t index, const float lo[3], const float hi
     return height;
 }
 
-/* Orders that leave a child out or hold it twice, or take a farther one after a nearer one. */
-static uint32_t bad_orders(const ec_bvh8_node *node)
-{
-    uint32_t bad = 0;
-    for (uint32_t octant = 0; octant < 8; octant++) {
-        uint32_t missed = 0;
-        double last = INFINITY;
-        for (uint32_t k = 0; k < 8; k++) {
-            const uint32_t slot = node->order[octant] >> 3 * k & 7;
-            double along = 0.0;
-            if (node->child[slot] == EC_NO_CHILD) continue;
-            missed ^= 1u << slot;
-            for (int axis = 0; axis < 3; axis++) {
-                double centre = 0.5 * ((double)node->bound[2 * axis][slot] + node->bound[2 * axis + 1][slot]);
-                along += octant >> axis & 1 ? -centre : centre;
-            }
-            bad += along > last + 1e-5 * (1.0 + fabs(last));
-            last = along;
-        }
-        for (uint32_t k = 0; k < 8; k++) missed ^= (node->child[k] != EC_NO_CHILD) << k;
-        bad += missed != 0;
-    }
-    return bad;
-}
-
 /* Returns the most entries a traversal keeps when it takes the worst child first. */
 static uint32_t walk8(walk *w, uint32_t index, const float lo[3], const float hi[3])
 {
     const ec_bvh8_node *node = &w->l->nodes8[index];
     uint32_t children = 0, deepest = 0;
     w->visited++;
-    w->bad += bad_orders(node);
     for (int k = 0; k < 8; k++) {
         float a_lo[3], a_hi[3];
         for (int axis = 0; axis < 3; axis++) a_lo[axis] = node->bound[2 * axis][k];

@@ -12,17 +12,17 @@ static ec_cl cl;
 /* An accelerator's kernels at one lane width. */
 typedef struct tracer {
     uint32_t accel, lanes; /* lanes: rays a work-item */
-    char label[32];
+    char label[48];
     cl_program program;
 } tracer;
-#define TRACERS_MOST (EC_ACCEL_COUNT + LANE_WIDTHS + 2)
+#define TRACERS_MOST (EC_ACCEL_COUNT + LANE_WIDTHS + 3)
 static tracer tracers[TRACERS_MOST];
 static uint32_t tracer_count;
 
 /* more: of the compiler's options; shown in the label. */
 static inline void add_tracer(uint32_t accel, uint32_t lanes, const char *more)
 {
-    char name[64], options[64];
+    char name[64], options[96];
     ec_error err = {0};
     tracer *t = &tracers[tracer_count++];
     uint32_t width = ec_accels[accel].lanes ? ec_accels[accel].lanes : lanes;
@@ -34,7 +34,7 @@ static inline void add_tracer(uint32_t accel, uint32_t lanes, const char *more)
     CHECK_OK(ec_program_build(&cl, name, ec_kernel_source(name), options, &t->program, &err), err);
 }
 
-/* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved and bvh2 without a stack too. Returns main's exit code, or 0. */
+/* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved, with and without AVX2, and bvh2 without a stack too. Returns main's exit code, or 0. */
 static inline int open_tracers(bool all_widths)
 {
     int open = kernel_open(&cl);
@@ -45,6 +45,7 @@ static inline int open_tracers(bool all_widths)
             if (all_widths || lane_widths[i] == 8) add_tracer(a, (uint32_t)lane_widths[i], "");
     }
     add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8"); /* as in large scenes */
+    add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8 -DPERMUTES_LANES=0"); /* and on processors without AVX2 */
     add_tracer(ec_accel_find("bvh2"), 1, " -DSTACK_ENTRIES=1"); /* as in trees that are deeper than its stack */
     return test_failures != 0;
 }
