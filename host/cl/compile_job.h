@@ -15,11 +15,11 @@ typedef struct ec_compile_program {
     char *source;                 /* owned */
 } ec_compile_program;
 
-/* Launched once over `global` items with arguments by which every item leaves at once: scalars and buffers hold zeros, but for the constants. */
+/* Launched once over `rows` of `global` items with arguments by which every item leaves at once: scalars and buffers hold zeros, but for the constants. */
 typedef struct ec_compile_kernel {
     char name[64];
-    uint32_t program, local, argument_count;
-    uint64_t global;
+    uint32_t program, local, rows, argument_count;
+    uint64_t global; /* more than rows */
     uint8_t arguments[EC_COMPILE_ARGUMENTS]; /* ec_compile_argument */
 } ec_compile_kernel;
 

@@ -20,7 +20,7 @@ static ec_result compile(ec_cl *cl, const ec_compile_kernel *k, cl_program progr
     cl_kernel kernel = NULL;
     EC_TRY(ec_kernel_create(program, k->name, &kernel, err));
     ec_result result = set_arguments(k, kernel, buffers, err);
-    if (result == EC_OK) result = ec_kernel_run(cl, k->name, kernel, k->global, k->local, err);
+    if (result == EC_OK) result = ec_kernel_run_rows(cl, k->name, kernel, k->global, k->rows, k->local, err);
     if (result == EC_OK) result = ec_cl_finish(cl, err);
     clReleaseKernel(kernel);
     return result;

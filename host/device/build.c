@@ -118,7 +118,7 @@ static ec_result add_kernel(const ec_pipeline *p, const ec_kernel_set *set, cons
     ec_compile_kernel *k = &job->kernels[job->kernel_count++];
     *k = (ec_compile_kernel){.program = program, .local = ec_local_size(&p->cl->info), .argument_count = stage->argument_count};
     snprintf(k->name, sizeof k->name, "%s", e->name);
-    k->global = ec_pipeline_items(e->stage, e->takes, set->wave, p->triangle_count);
+    k->global = ec_pipeline_items(e->stage, e->takes, set->wave, p->triangle_count, &k->rows);
     for (uint32_t i = 0; i < stage->argument_count; i++)
         k->arguments[i] = stage->arguments[i] < EC_ARG_SCALAR_COUNT ? EC_COMPILE_SCALAR
                           : stage->arguments[i] == EC_ARG_PARAMS  ? EC_COMPILE_CONSTANTS : EC_COMPILE_BUFFER;

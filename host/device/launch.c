@@ -5,10 +5,12 @@
 
 /* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, PoCL need not compile again for a
  * smaller grid, and several devices of its never run one kernel at two sizes, which makes it abort (3.1, pocl_release_dlhandle_cache). */
-uint64_t ec_pipeline_items(ec_stage_id id, uint32_t takes, uint32_t wave, uint32_t triangles)
+uint64_t ec_pipeline_items(ec_stage_id id, uint32_t takes, uint32_t wave, uint32_t triangles, uint32_t *rows)
 {
-    if (id == EC_RASTER_SETUP || id == EC_RASTER_FILL) return triangles > EC_SMALL_LAUNCH ? triangles : EC_SMALL_LAUNCH;
-    return (uint64_t)EC_PARTS * ((wave / EC_PARTS + takes - 1) / takes);
+    const bool is_of_triangles = id == EC_RASTER_SETUP || id == EC_RASTER_FILL;
+    *rows = is_of_triangles ? 1 : EC_PARTS;
+    if (is_of_triangles) return triangles > EC_SMALL_LAUNCH ? triangles : EC_SMALL_LAUNCH;
+    return (wave / EC_PARTS + takes - 1) / takes;
 }
 
 uint32_t ec_local_size(const ec_device_info *device)
@@ -17,12 +19,12 @@ uint32_t ec_local_size(const ec_device_info *device)
 }
 
 /* Cards go over as many entries of each part of the queue as any of them may hold: a million work-items without a path take as long as a late
- * bounce's few with one. 0: over all. */
-static uint64_t work_items_a_part(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t takes, uint32_t local)
+ * bounce's few with one. */
+static uint64_t held_items(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t takes, uint64_t items)
 {
-    if (stage->busy < EC_ARG_SCALAR_COUNT || !p->held || p->cl->info.type & CL_DEVICE_TYPE_CPU) return 0;
-    const uint64_t most = (p->held + takes - 1) / takes, rounded = (most + local - 1) / local * local;
-    return rounded * takes <= p->params.part ? rounded : 0;
+    if (stage->busy < EC_ARG_SCALAR_COUNT || !p->held || p->cl->info.type & CL_DEVICE_TYPE_CPU) return items;
+    const uint64_t most = (p->held + takes - 1) / takes;
+    return most < items ? most : items;
 }
 
 /* That carry so many paths, pixels or triangles. */
@@ -60,12 +62,10 @@ static ec_result launch(ec_pipeline *p, ec_stage_id id, ec_bound_kernel *bound, 
     const ec_stage_entry *stage = &ec_stages[id];
     const cl_kernel kernel = bound->kernel;
     EC_TRY(bind(p, stage, bound, scalars, err));
-    const uint64_t items = ec_pipeline_items(id, bound->takes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT]);
+    uint32_t rows;
+    const uint64_t items = ec_pipeline_items(id, bound->takes, p->wave, scalars[EC_ARG_TRIANGLE_COUNT], &rows);
     if (stage->busy < EC_ARG_SCALAR_COUNT) ec_cl_busy(p->cl, stage->label, work_items(p, stage, scalars[stage->busy]));
-    const uint32_t local = ec_local_size(&p->cl->info);
-    const uint64_t of_part = work_items_a_part(p, stage, bound->takes, local);
-    if (of_part) return ec_kernel_run_rows(p->cl, stage->label, kernel, of_part, EC_PARTS, local, err);
-    return ec_kernel_run(p->cl, stage->label, kernel, items, local, err);
+    return ec_kernel_run_rows(p->cl, stage->label, kernel, held_items(p, stage, bound->takes, items), rows, ec_local_size(&p->cl->info), err);
 }
 
 ec_result ec_pipeline_launch(ec_pipeline *p, ec_stage_id id, const uint32_t *scalars, ec_error *err)

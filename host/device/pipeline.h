@@ -131,8 +131,8 @@ uint32_t ec_pipeline_narrow_wave(const ec_pipeline *pipeline, uint64_t features)
 ec_result ec_pipeline_use_wave(ec_pipeline *pipeline, uint32_t wave, ec_error *err);
 /* Room for films of so many pixels and batches of so many positions, which ec_pipeline_run_wave wants; what was in them is lost where they grow. */
 ec_result ec_pipeline_fit_films(ec_pipeline *pipeline, uint64_t pixels, uint64_t positions, ec_error *err);
-/* launch.c; items: of a launch of this stage over a wave, or over triangles. takes: as in ec_bound_kernel */
-uint64_t ec_pipeline_items(ec_stage_id stage, uint32_t takes, uint32_t wave, uint32_t triangles);
+/* launch.c; work-items of a launch of this stage over each part of a wave, of which *rows is the number, or over triangles. takes: as in ec_bound_kernel */
+uint64_t ec_pipeline_items(ec_stage_id stage, uint32_t takes, uint32_t wave, uint32_t triangles, uint32_t *rows);
 ec_result ec_pipeline_launch(ec_pipeline *pipeline, ec_stage_id stage, const uint32_t *scalars, ec_error *err);
 ec_result ec_pipeline_launch_trace(ec_pipeline *pipeline, int connect, uint32_t accel, const uint32_t *scalars, ec_error *err);
 /* A launch of a stage had the entries of a queue, counted by parts. */

@@ -6,31 +6,31 @@
 #include "../shared/path_state.h"
 #include "math.h"
 
-/* The entry that a work-item begins at. A launch goes over all entries, or has a second dimension, the parts, and goes over the first of each. */
-EC_INLINED uint queue_entry(uint part, uint lanes) { return get_global_id(0) * lanes + get_global_id(1) * part; }
-/* With RUN entries a work-item, all in one part: the last one of a part has as many as are left there. */
+/* Entries that a work-item has of kernels that take one at a time. */
 #ifndef RUN
 #define RUN 1u
 #endif
-EC_INLINED uint queue_run(uint part)
+/* A launch's second dimension are the parts of a queue. A group has one, so compilers of cards see that its work-items count up one counter, and
+ * make one atomic operation of those of all that go in step. */
+EC_INLINED uint queue_part(void) { return (uint)get_group_id(1); }
+/* The entry that a work-item begins at, of `takes` that it has; past all where the part ends before. */
+EC_INLINED uint queue_entry(uint part, uint takes)
 {
-    if (RUN == 1u) return queue_entry(part, 1u);
-    uint id = get_global_id(0), runs = (part + RUN - 1u) / RUN;
-    return id / runs * part + id % runs * RUN;
+    uint before = (uint)get_global_id(0) * takes;
+    return before < part ? queue_part() * part + before : EC_NO_ID;
 }
-/* How many entries stand at i or after it: of a queue in i's part, and of all slots. */
-EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, uint i)
+/* How many entries stand at i or after it: of a queue in part k, i's own, and of all slots. */
+EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, uint k, uint i)
 {
     if (i >= wave) return 0u;
-    uint k = i / part, before = i - k * part, count = counts[k * EC_PART_STRIDE];
+    uint before = i - k * part, count = counts[k * EC_PART_STRIDE];
     return count > before ? count - before : 0u;
 }
 EC_INLINED uint slot_entries(uint count, uint i) { return i < count ? count - i : 0u; }
-/* Room for n entries in i's part. */
-EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint i, uint n)
+/* Room in part k for the lanes of `bits`, of which there is one at least. */
+EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint k, uint bits)
 {
-    uint k = i / part;
-    return k * part + atomic_add(&counts[k * EC_PART_STRIDE], n);
+    return k * part + atomic_add(&counts[k * EC_PART_STRIDE], LANES == 1 ? 1u : popcount(bits));
 }
 
 EC_FN lane_f queue_load_f(global const float *queue, uint wave, uint field, uint i)

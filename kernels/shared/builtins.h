@@ -86,6 +86,7 @@ EC_BUILTINS_MEMORY(uint, 16)
 EC_BUILTINS_MEMORY(ulong, 8)
 
 size_t EC_BUILTIN_CONST get_global_id(uint);
+size_t EC_BUILTIN_CONST get_group_id(uint);
 uint EC_BUILTIN atomic_add(volatile __global uint *, uint);
 uint EC_BUILTIN atomic_inc(volatile __global uint *);
 uint EC_BUILTIN atomic_max(volatile __global uint *, uint);

@@ -62,6 +62,7 @@ class Budgets(Case):
             with self.subTest(target=row["target"], kernel=row["kernel"]):
                 shade, is_trace = row["kernel"] == "ec_shade", row["kernel"].endswith("bvh2")
                 self.assertEqual(row["spill_bytes"], 0)
+                self.assertFalse(row["lane_atomics"])  # None where that is not known
                 self.assertLessEqual(row["private_bytes"], STACK if is_trace else 0)
                 most = SHADE[name] if shade else TRACE if is_trace else (64, 64)
                 if row["target"] not in INTEL:  # whose threads have 128, and hold more work-items or fewer

@@ -58,9 +58,9 @@ kernel void work_items_share_a_part(global test_result *result, global uint *scr
     fill(queue);
     ends[0] = 77;
     ends[EC_PART_STRIDE] = PART;
-    CHECK_EQUAL(queue_entries(ends, WAVE, PART, WAVE), 0u);
+    CHECK_EQUAL(queue_entries(ends, WAVE, PART, 0, WAVE), 0u);
     for (uint i = 0; i < WAVE; i += LANES) {
-        uint left = queue_entries(ends, WAVE, PART, i);
+        uint left = queue_entries(ends, WAVE, PART, i / PART, i);
         plain += left ? item_rays(left, queue, WAVE, PART, 0, 3, i, false, order) : 0;
         uint count = left ? item_rays(left, queue, WAVE, PART, 0, 3, i, true, order) : 0;
         CHECK(count == 0 || i % PART == 0);

@@ -4,11 +4,12 @@ HEADS = ["target", "kernel", "registers", "spilled", "private", "occupancy", "co
 
 
 class Row:
-    """Registers and bytes are of one work-item. occupancy: from 0 to 1, None where it is not known."""
+    """Registers and bytes are of one work-item. occupancy: from 0 to 1. lane_atomics: places of atomic operations that each lane does for itself.
+    None: not known."""
 
     def __init__(self, target, kernel, source, **numbers):
         self.target, self.kernel, self.source = target, kernel, source
-        self.numbers = dict.fromkeys(["registers", "spill_bytes", "private_bytes", "occupancy", "code_bytes", "compile_seconds"], None)
+        self.numbers = dict.fromkeys(["registers", "spill_bytes", "private_bytes", "occupancy", "code_bytes", "lane_atomics", "compile_seconds"], None)
         self.numbers.update(numbers)
 
     def as_json(self):

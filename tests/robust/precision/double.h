@@ -27,6 +27,7 @@ typedef uint32_t uint;
 
 /* One work-item a call: the caller points at its words. */
 #define get_global_id(dimension) 0u
+#define get_group_id(dimension) 0u
 
 #define LANES 1
 #define LANE_NUMBERS 0u
