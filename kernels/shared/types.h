@@ -3,6 +3,9 @@
 #define EC_SHARED_TYPES_H
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wpsabi" /* of vectors wider than the processor's, which no function from elsewhere takes */
+#endif
 #include "builtins.h"
 #define EC_DEVICE_CODE
 #define EC_INLINED static inline __attribute__((always_inline))

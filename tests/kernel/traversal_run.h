@@ -3,6 +3,7 @@
 #define EC_TESTS_KERNEL_TRAVERSAL_RUN_H
 
 #include "accel/accel.h"
+#include "cl/build_log.h"
 #include "kernel/kernel_run.h"
 #include "kernel/traversal_sets.h"
 #include "shared/params.h"
@@ -32,6 +33,9 @@ static inline void add_tracer(uint32_t accel, uint32_t lanes, const char *more)
     snprintf(name, sizeof name, "traverse_%s", ec_accels[accel].name);
     snprintf(options, sizeof options, "-DFEATURES=0 -DPROBE -DLANES=%u%s", width, more);
     CHECK_OK(ec_program_build(&cl, name, ec_kernel_source(name), options, &t->program, &err), err);
+    char *log = ec_build_log(&cl, t->program); /* PoCL counts warnings on a user's stderr */
+    CHECK_MSG(!log || !strstr(log, "warning:"), "%s: %s", t->label, log);
+    free(log);
 }
 
 /* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved, with and without AVX2, and bvh2 without a stack too. Returns main's exit code, or 0. */
