@@ -66,9 +66,17 @@ static void add_camera(gltf_writer *w, double angle)
     gltf_camera(w, (double[3]){20 * sin(angle), 0, 20 * cos(angle)}, (double[3]){0, 0, 0}, 1e-5);
 }
 
+/* All scenes share one program. */
+static ec_render_options shared(ec_render_options options)
+{
+    options.more_effects = EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH |
+                           EC_FEATURE_CULLING | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION | EC_FEATURE_MATCHED | EC_FEATURE_PANES | EC_FEATURE_NESTED;
+    return case_quick(options);
+}
+
 static ec_render_options options_for(int sample, uint32_t spp)
 {
-    ec_render_options o = case_quick(case_options(16, 16, spp));
+    ec_render_options o = shared(case_options(16, 16, spp));
     o.sample = (ec_sample)sample;
     return o;
 }
@@ -163,7 +171,7 @@ static void deep(void)
         for (int c = 0; c < 3; c++) add_up(stack, 2 * BODIES - 1, sin(0.5), c, &other, &want[c]);
         add_sheet(w, gltf_lambert(w, 0, 1), -1);
         add_camera(w, 0.5);
-        ec_render_options o = options_for(EC_SAMPLE_MIS, bare ? 4 : 1024);
+        ec_render_options o = options_for(EC_SAMPLE_MIS, bare ? 4 : 512);
         o.survival = 1;
         o.max_depth = 400;
         expect(w, bare ? "64-walls-of-index-1" : "64-walls", NULL, &o, want, bare ? 1e-4 : 2e-5);
@@ -265,7 +273,7 @@ static void not_seen(void)
         gltf_box(w, gltf_add_glass(w, &glass), (double[3]){-1, -1, -1}, (double[3]){1, 1, 1});
         if (i) add_ball(w, gltf_add_glass(w, &same), 0.8);
         gltf_camera(w, (double[3]){0, 0.7, 4}, (double[3]){0, 0, 0}, 0.8);
-        ec_render_options o = case_quick(case_random(16, 4096, EC_SAMPLE_MIS, (uint64_t)i));
+        ec_render_options o = shared(case_random(16, 4096, EC_SAMPLE_MIS, (uint64_t)i));
         image[i] = case_render_file(gltf_write(w, "nested-not-seen"), NULL, &o);
         free(w);
     }
