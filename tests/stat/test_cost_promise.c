@@ -5,7 +5,7 @@
  * line between two points of the curve. */
 #include "support/cost_reference.h"
 
-enum { PICTURES = 12, MOST = 256, REFERENCE = 8192 };
+enum { PICTURES = 12, MOST = 256, REFERENCE = 2048 };
 
 typedef struct promise_case {
     const char *name, *path;
