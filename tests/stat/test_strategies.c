@@ -1,8 +1,9 @@
-/* tier: full */
+/* tiers: full, long */
 /* Light sampling, BSDF sampling, both together and uniform directions must converge to one picture, whatever emits and
  * whatever stands in the way: they share no code for finding light. Small pictures with many samples, every pair compared by
  * ztest.h with no allowance for a common bias. BSDF sampling and uniform directions meet a lamp seldom, so that 32 batches of
- * a single dark pixel say little of their variance: they are compared in squares of 4 x 4 pixels. Nor must it matter how
+ * a single dark pixel say little of their variance: they are compared in squares of 4 x 4 pixels. (In the full
+ * tier there is a quarter of the samples, and squares are of twice the side: they have as many.) Nor must it matter how
  * roulette is played. Each comparison fails by chance once in a hundred seeds at most; the seeds are fixed. */
 #include "report/names.h"
 #include "support/gltf_writer.h"
@@ -17,10 +18,11 @@ static void agree(const char *name, const char *path, const char *environment, u
 {
     enum { COUNT = EC_SAMPLE_HEMISPHERE + 1 };
     static const uint32_t more[COUNT] = {[EC_SAMPLE_MIS] = 1, [EC_SAMPLE_LIGHT] = 1, [EC_SAMPLE_BSDF] = 4, [EC_SAMPLE_HEMISPHERE] = 4};
+    const uint32_t samples = test_tier("long") ? 4096 : 1024, side = test_tier("long") ? 1 : 2;
     ec_scene *scene = case_load(path, environment);
     case_image image[COUNT];
     for (int s = 0; s < COUNT; s++) {
-        ec_render_options o = case_random(16, more[s] * 4096, (ec_sample)s, (uint64_t)s + 11);
+        ec_render_options o = case_random(16, more[s] * samples, (ec_sample)s, (uint64_t)s + 11);
         o.lanes = 8; /* for that, too */
         o.more_effects = effects;
         o.max_depth = 5;
@@ -31,7 +33,7 @@ static void agree(const char *name, const char *path, const char *environment, u
     for (int s = 1; s < COUNT; s++)
         for (int t = 0; t < s; t++) {
             snprintf(what, sizeof what, "%s, %s and %s", name, ec_sample_names[s], ec_sample_names[t]);
-            case_check_same(&image[s], &image[t], more[s] > more[t] ? more[s] : more[t], what);
+            case_check_same(&image[s], &image[t], side * (more[s] > more[t] ? more[s] : more[t]), what);
         }
     for (int s = 0; s < COUNT; s++) case_free(&image[s]);
     ec_scene_free(scene);
