@@ -12,10 +12,10 @@ import struct
 import unittest
 
 from dim_rooms import lamp_room, sun_room, texel_room
-from support import CORNELL, SOURCE, Case, eclat, read_exr, write_exr
+from support import CORNELL, NARROW, SOURCE, Case, eclat, read_exr, write_exr
 from tiers import full
 
-SEEDS = range(10)
+SEEDS = range(5)  # test_bounds_long.py has 200
 SIZE = 12
 PINLAMP, UNFOLDED = (os.path.join(SOURCE, "scenes", "pinlamp", name + ".gltf") for name in ("pinlamp", "unfolded"))
 VASE = os.path.join(SOURCE, "scenes", "vase", "vase.gltf")
@@ -51,15 +51,15 @@ def sky(path):
 class Bounds(Case):
     def render(self, scene, *options):
         """(bound or None, luminance)"""
-        # 4 lanes are compiled soonest, and of four scenes each its own kernels sooner than those for all effects
+        # of four scenes each its own kernels are compiled sooner than those for all effects
         out = self.path("out.exr")
-        run = self.assert_ok(eclat("render", "-q", "--lanes", "4", "--size", f"{SIZE}x{SIZE}", "--json", "-o", out, *options, scene))
+        run = self.assert_ok(eclat("render", "-q", *NARROW, "--size", f"{SIZE}x{SIZE}", "--json", "-o", out, *options, scene))
         bound = json.loads(run.stdout).get("error_bound")
         return bound if isinstance(bound, (int, float)) and math.isfinite(bound) else None, luminance(out)
 
     def unmet(self, scene):
         """Light that 16 samples a pixel may miss, relative to the picture's."""
-        return json.loads(self.assert_ok(eclat("render", "-q", "--lanes", "4", "--size", f"{SIZE}x{SIZE}", "--spp", "16", "--max-depth", "5", "--json",
+        return json.loads(self.assert_ok(eclat("render", "-q", *NARROW, "--size", f"{SIZE}x{SIZE}", "--spp", "16", "--max-depth", "5", "--json",
                                                "-o", self.path("out.exr"), scene)).stdout)["error_unmet"]
 
     def assert_bounds_hold(self, reference, scene, *options):
