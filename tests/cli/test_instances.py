@@ -9,7 +9,7 @@ import random
 import shutil
 import unittest
 
-from support import SOURCE, Case, eclat, quad_scene, read_exr, write_gltf
+from support import NARROW, SOURCE, Case, eclat, quad_scene, read_exr, write_gltf
 from tiers import full
 
 LAMPS = os.path.join(SOURCE, "scenes", "lamps")  # every effect of core glTF: textures, normal maps, alpha, vertex colours
@@ -46,7 +46,7 @@ class Instances(Case):
             json.dump(document, file)
 
     def render(self, *options):
-        run = self.assert_ok(eclat("render", self.scene, "--lanes", "1", "--json", "--quiet", "--size", "40x30", "--spp", "8", "--env", "0.3,0.4,0.5", *options,
+        run = self.assert_ok(eclat("render", self.scene, *NARROW, "--json", "--quiet", "--size", "40x30", "--spp", "8", "--env", "0.3,0.4,0.5", *options,
                                    cwd=self.folder))
         return json.loads(run.stdout)
 
