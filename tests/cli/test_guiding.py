@@ -10,7 +10,6 @@ from tiers import full, long
 
 LADDER = scene("ladder")
 JOB = [RING, "--size", "24x18", "--guiding", "--light-paths", "0"]
-WIDER = [*JOB, "--lanes", "4"]
 SUN = os.path.join(SHARED, "assets", "env", "polyhaven", "qwantani_afternoon_puresky_1k.hdr")
 
 
@@ -28,17 +27,13 @@ class Guiding(OtherWay):
 
     @full
     def test_bits(self):
-        """Whatever order, width, structure or share."""
-        whole = self.assert_same_bits(WIDER, [["--lanes", "1"], ["--wave", "4096"]])
+        """Whatever order, width, structure or share; narrow kernels have one lane."""
+        whole = self.assert_same_bits(JOB, [["--lanes", "8"], ["--wave", "4096"], ["--accel", "kdtree"]])
         self.assertGreater(whole["guide_seconds"], 0)
 
-    @full
-    def test_more_bits(self):
-        self.assert_same_bits(WIDER, [["--lanes", "8"], ["--accel", "kdtree"], ["--compile", "beside"]])
-
     @long
-    def test_bits_with_all_effects(self):
-        self.assert_same_bits(WIDER, [["--effects", "all"]])
+    def test_bits_with_all_effects_and_other_lanes(self):
+        self.assert_same_bits(JOB, [["--effects", "all", "--lanes", "4"], ["--lanes", "4"]])
 
     @full
     def test_slices_and_resume(self):

@@ -94,8 +94,8 @@ class LightTracing(OtherWay):
 
     @full
     def test_bits(self):
-        job = [scene("ring"), "--size", "24x18", *self.WAY, "--lanes", "4"]
-        self.assert_same_bits(job, [["--lanes", "1"], ["--wave", "4096"], ["--accel", "kdtree"]])
+        job = [scene("ring"), "--size", "24x18", *self.WAY]
+        self.assert_same_bits(job, [["--lanes", "8"], ["--wave", "4096"], ["--accel", "kdtree"]])
 
     @full
     def test_slices_and_resume(self):
