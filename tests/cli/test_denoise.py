@@ -16,6 +16,7 @@ from tiers import full, long
 JOB = [CORNELL, "--size", "48x40", *QUICK]
 # A caustic-free room with texture and gloss, where denoising pays.
 SMOOTH = [os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf"), "--size", "64x48", *QUICK]
+WIDER = ["--effects", "needed", "--lanes", "8"]  # QUICK is of one lane
 LAYERS = [*(f"{layer}.{c}" for layer in ("denoised", "best") for c in "RGB"), "denoised.stderr"]
 
 
@@ -77,7 +78,7 @@ class Denoise(Case):
     def test_same_bits(self):
         """Again, by one thread, by other lanes and in other waves."""
         _, _, whole = self.render("--spp", "32")
-        for options, env in (([], {}), ([], {"OMP_NUM_THREADS": "1"}), (["--wave", "500", "--lanes", "1"], {})):
+        for options, env in (([], {}), ([], {"OMP_NUM_THREADS": "1"}), (["--wave", "500", *WIDER], {})):
             with self.subTest(options=options, env=env):
                 self.assertEqual(self.render("--spp", "32", *options, name="b.exr", env=env)[2], whole)
 
@@ -89,7 +90,7 @@ class Denoise(Case):
         self.assertEqual(report["denoise"], "atrous")
         self.assertEqual(attributes["eclat.denoised.library"], "a-trous filter")
         self.assertLess(report["best"]["error"], report["error"])
-        for options, env in ((["--lanes", "1"], nothing), ([], {**nothing, "POCL_MAX_PTHREAD_COUNT": "1"})):
+        for options, env in ((WIDER, nothing), ([], {**nothing, "POCL_MAX_PTHREAD_COUNT": "1"})):
             _, _, other = self.render("--spp", "16", *options, job=SMOOTH, denoise=("--denoise=atrous",), env=env)
             for layer in LAYERS:
                 self.assertEqual(planes[layer], other[layer])

@@ -9,7 +9,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
 from hard_scene import Scene
-from support import NARROW, Case, eclat, read_exr
+from support import NARROW, QUICK, Case, eclat, read_exr
 from test_caustic_forms import ball
 from tiers import full, long
 
@@ -182,7 +182,7 @@ class VolumeScatter(Case):
     def test_same_bits(self):
         positions, normals, indices = ball(12, 0, 0.5)
         path = self.scene_of(body(ALBEDO, [9, 4, 2], 0.5, 1.4, 0.3)).add(positions, indices=indices, streams=[("NORMAL", 3, normals)]).write(self.path("a.gltf"))
-        ways = [], ["--lanes", "1"], ["--lanes", "8"], ["--effects", "all"], ["--accel", "kdtree"], ["--wave", "4096"]
+        ways = [], ["--lanes", "1"], ["--lanes", "8"], QUICK, ["--accel", "kdtree"], ["--wave", "4096"]
         self.assertEqual(len({self.render(path, "--size", "32x24", "--spp", "8", *way)["image_sha256"] for way in ways}), 1)
 
     @long
