@@ -24,7 +24,7 @@ def bytes_of_each(report):
 
 
 class RankBlocks(Case):
-    render = test_ranks.Ranks.render
+    rendered, render = test_ranks.Ranks.rendered, test_ranks.Ranks.render
     render_with = test_ranks.Ranks.render_with
     start = test_ranks.Ranks.start
     wait_for = test_ranks.Ranks.wait_for

@@ -56,9 +56,14 @@ class Ranks(Case):
         if why := without_mpi():
             raise unittest.SkipTest(why)
 
-    def render(self, *options, name="a.exr"):
-        run = self.assert_ok(eclat("render", *options, "--json", "-q", "-o", self.path(name)))
-        return json.loads(run.stdout), read_exr(self.path(name))[1]
+    rendered = {}
+
+    def render(self, *options):
+        """One process's report and planes; what several tests ask for is rendered once."""
+        if options not in self.rendered:
+            run = self.assert_ok(eclat("render", *options, "--json", "-q", "-o", self.path("a.exr")))
+            self.rendered[options] = json.loads(run.stdout), read_exr(self.path("a.exr"))[1]
+        return self.rendered[options]
 
     def assert_same(self, job, ranks, env=None, more=()):
         whole, planes = self.render(*job)
