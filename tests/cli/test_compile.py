@@ -157,7 +157,7 @@ class Compile(Case):
 
     def test_packets_are_not_waited_for(self):
         """Of two accelerators, the one that sends a ray at a time is enough for the fast kernels to take over."""
-        job = dict(scene=os.path.join(SOURCE, "scenes", "stadium", "stadium.gltf"), spp=4000)
+        job = dict(scene=os.path.join(SOURCE, "scenes", "stadium", "stadium.gltf"), spp=8000)
         report, _ = self.render(eclat_is=self.idle_compiler(), **job)
         self.skip_unless_late(report)
         self.assertGreater(report["fast_kernels_after_seconds"], 0)
