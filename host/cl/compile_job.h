@@ -19,7 +19,7 @@ typedef struct ec_compile_program {
 typedef struct ec_compile_kernel {
     char name[64];
     uint32_t program, local, rows, argument_count;
-    uint64_t global; /* more than rows */
+    uint64_t global;
     uint8_t arguments[EC_COMPILE_ARGUMENTS]; /* ec_compile_argument */
 } ec_compile_kernel;
 

@@ -5,7 +5,7 @@
 #define EC_SMALLEST_WAVE 4096
 #define LEAST_UNITS 4        /* of a queue: in the room of so many, kernels of all effects, whose paths are larger, have one at least */
 #define EC_UNIT_PATHS 32768  /* of a CPU's wave, for each of its cores: 2^16 to 2^18 in all */
-#define EC_NARROW_WAVE 32768 /* of which PoCL compiles every kernel once: see ec_kernel_run */
+#define EC_NARROW_WAVE 32768 /* at most, of narrow kernels */
 
 /* A slot has R, G, B, and again of indirect light where it is kept apart, or of each layer. */
 static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3 + 3 * p->params.layer_count + (p->params.layer_ids ? 3 : 0); }

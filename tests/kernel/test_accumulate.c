@@ -57,7 +57,7 @@ static void check_wave(ec_cl *cl, cl_program program, uint32_t batch, uint32_t f
     static uint32_t list[EC_LIST_WORDS * PIXELS];
     static bool is_of_wave[PIXELS];
     const uint32_t wave = count * batch + 13; /* with room to spare */
-    const ec_params params = {.width = WIDTH, .height = HEIGHT, .batch = batch, .wave = wave};
+    const ec_params params = {.width = WIDTH, .height = HEIGHT, .batch = batch, .wave = wave, .part = wave};
     for (uint32_t i = 0; i < count * batch; i++) {
         const float x = sample_of(i / batch, i % batch);
         for (uint32_t c = 0; c < 3; c++) radiance[c * wave + i] = (c && i / batch % 7 != 6 ? 0.5f : 1) * x;

@@ -40,7 +40,7 @@ static void add_sample(const float *first, float limit, sums *s)
 
 static bool run_batch(ec_cl *cl, cl_program program, float limit, sums *expected)
 {
-    const ec_params params = {.width = PIXELS, .height = 1, .batch = BATCH, .wave = WAVE, .apart = 1, .limit = limit};
+    const ec_params params = {.width = PIXELS, .height = 1, .batch = BATCH, .wave = WAVE, .part = WAVE, .apart = 1, .limit = limit};
     const uint32_t first = 0, count = PIXELS;
     static uint32_t list[EC_LIST_WORDS * PIXELS];
     for (uint32_t i = 0; i < SETS * WAVE; i++) radiance[i] = sample_of(i % WAVE / BATCH, i / WAVE >= 3);

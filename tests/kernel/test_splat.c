@@ -37,7 +37,7 @@ static void fill(double sums[PIXELS], float largest[PIXELS])
 
 static bool run(ec_cl *cl, cl_program program, uint32_t lanes, uint32_t count, uint32_t *out)
 {
-    const ec_params params = {.batch = 4, .wave = PATHS, .splat_unit = unit};
+    const ec_params params = {.batch = 4, .wave = PATHS, .part = PATHS, .splat_unit = unit};
     const uint32_t seed = 7, first = 0, bounce = EC_LIGHT_BOUNCE;
     memset(out, 0, sizeof splats);
     const kernel_array arrays[] = {IN(&params, 1), SCALAR(seed), SCALAR(first), SCALAR(bounce), SCALAR(count), OUT(radiance, 3 * PATHS),
