@@ -21,7 +21,7 @@
 /* One whose body is for a single entry i: a work-item has RUN of them, one after the other. */
 #define EC_RUN_KERNEL(name, LIST, entries)                                                                                                            \
     EC_INLINED void EC_CAT(name, _entry)(uint i, constant ec_params *params LIST(EC_PARAMETER));                                                      \
-    EC_KERNEL_AT(name, queue_entry(params->part, RUN), LIST, entries)                                                                                        \
+    EC_KERNEL_AT(name, queue_entry(params->part, RUN), LIST, entries)                                                                                 \
     {                                                                                                                                                 \
         for (uint end = i + min(left, RUN); i < end; i++) EC_CAT(name, _entry)(i, params LIST(EC_ARGUMENT));                                          \
     }                                                                                                                                                 \
