@@ -5,18 +5,19 @@
 
 #include "queue.h"
 
-/* Kernel `name`, whose body follows: for the entry i that a work-item begins at, of `lanes` entries each, and how many there are from it on. LIST(DO):
- * DO(type, name) of its parameters, but for params, in the order of host/device/stages.c. entries: how many, by i and the parameters; none, and the body
- * is not called. EC_KERNEL_AT: a work-item begins at entry `first`, by the parameters. */
+/* Kernel `name`, whose body follows: for the entry i that a work-item begins at, of `lanes` entries each, in part `row` of the queue, and how many
+ * there are from it on. LIST(DO): DO(type, name) of its parameters, but for params, in the order of host/device/stages.c. entries: how many, by i and
+ * the parameters; none, and the body is not called. EC_KERNEL_AT: a work-item begins at entry `first`, by the parameters. A body does not ask where its
+ * work-item is: PoCL would inline it. */
 #define EC_KERNEL(name, lanes, LIST, entries) EC_KERNEL_AT(name, queue_entry(params->part, lanes), LIST, entries)
 #define EC_KERNEL_AT(name, first, LIST, entries)                                                                                                      \
-    EC_CALLED void EC_CAT(name, _item)(uint i, uint left, constant ec_params *params LIST(EC_PARAMETER));                                             \
+    EC_CALLED void EC_CAT(name, _item)(uint row, uint i, uint left, constant ec_params *params LIST(EC_PARAMETER));                                   \
     kernel void name(constant ec_params *params LIST(EC_PARAMETER))                                                                                   \
     {                                                                                                                                                 \
-        uint i = first, left = entries;                                                                                                               \
-        if (left) EC_CAT(name, _item)(i, left, params LIST(EC_ARGUMENT));                                                                             \
+        uint row = queue_part(), i = first, left = entries;                                                                                           \
+        if (left) EC_CAT(name, _item)(row, i, left, params LIST(EC_ARGUMENT));                                                                        \
     }                                                                                                                                                 \
-    EC_CALLED void EC_CAT(name, _item)(uint i, uint left, constant ec_params *params LIST(EC_PARAMETER))
+    EC_CALLED void EC_CAT(name, _item)(uint row, uint i, uint left, constant ec_params *params LIST(EC_PARAMETER))
 
 /* One whose body is for a single entry i: a work-item has RUN of them, one after the other. */
 #define EC_RUN_KERNEL(name, LIST, entries)                                                                                                            \
@@ -27,7 +28,7 @@
     }                                                                                                                                                 \
     EC_INLINED void EC_CAT(name, _entry)(uint i, constant ec_params *params LIST(EC_PARAMETER))
 /* What counters say of entry i, for `entries`. */
-#define QUEUED(count) queue_entries((global const uint *)counters->count, params->wave, params->part, queue_part(), i)
+#define QUEUED(count) queue_entries((global const uint *)counters->count, params->wave, params->part, row, i)
 #define EC_PARAMETER(type, name) , type name
 #define EC_ARGUMENT(type, name) , name
 

@@ -19,18 +19,18 @@ EC_INLINED uint queue_entry(uint part, uint takes)
     uint before = (uint)get_global_id(0) * takes;
     return before < part ? queue_part() * part + before : EC_NO_ID;
 }
-/* How many entries stand at i or after it: of a queue in part k, i's own, and of all slots. */
-EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, uint k, uint i)
+/* How many entries stand at i or after it: of a queue in part `row`, i's own, and of all slots. */
+EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, uint row, uint i)
 {
     if (i >= wave) return 0u;
-    uint before = i - k * part, count = counts[k * EC_PART_STRIDE];
+    uint before = i - row * part, count = counts[row * EC_PART_STRIDE];
     return count > before ? count - before : 0u;
 }
 EC_INLINED uint slot_entries(uint count, uint i) { return i < count ? count - i : 0u; }
-/* Room in part k for the lanes of `bits`, of which there is one at least. */
-EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint k, uint bits)
+/* Room in part `row` for the lanes of `bits`, of which there is one at least. */
+EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint row, uint bits)
 {
-    return k * part + atomic_add(&counts[k * EC_PART_STRIDE], LANES == 1 ? 1u : popcount(bits));
+    return row * part + atomic_add(&counts[row * EC_PART_STRIDE], LANES == 1 ? 1u : popcount(bits));
 }
 
 EC_FN lane_f queue_load_f(global const float *queue, uint wave, uint field, uint i)

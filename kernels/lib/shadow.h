@@ -21,9 +21,9 @@ EC_FN shadow_way shadow_way_make(constant ec_params *params, const geometry *g, 
     return w;
 }
 
-/* Appends a ray from `from` to `end` to the work-item's part of the queue, which counts counts; what is not finite is dropped and counted. It passes
+/* Appends a ray from `from` to `end` to part `row` of the queue, which counts counts; what is not finite is dropped and counted. It passes
  * through triangles prim and target. */
-EC_FN void shadow_push(constant ec_params *params, global float *shadows, volatile global uint *counts, v3 from, v3 end, v3 arriving,
+EC_FN void shadow_push(constant ec_params *params, global float *shadows, volatile global uint *counts, uint row, v3 from, v3 end, v3 arriving,
                        lane_u slot, lane_u prim, lane_u target, const shadow_way *way, lane_i m, volatile global uint *invalid)
 {
     if (!HAS_SHADOW_MEDIUM) arriving = v3_mul(arriving, way->left);
@@ -32,7 +32,7 @@ EC_FN void shadow_push(constant ec_params *params, global float *shadows, volati
     uint bad = mask_bits(m & !finite), bits = mask_bits(m & finite), wave = params->wave;
     if (bad) atomic_add(invalid, popcount(bad));
     if (!bits) return;
-    uint at = queue_reserve(counts, params->part, queue_part(), bits);
+    uint at = queue_reserve(counts, params->part, row, bits);
     queue_push_v3(shadows, wave, EC_SHADOW_OX, at, from, bits);
     queue_push_v3(shadows, wave, EC_SHADOW_DX, at, v3_sub(end, from), bits);
     queue_push_v3(shadows, wave, EC_SHADOW_LR, at, arriving, bits);

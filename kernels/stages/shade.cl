@@ -258,7 +258,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
         lane_u group = U(0);
         if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
         lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted);
-        shadow_push(params, shadows, counters->shadows[step], leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
+        shadow_push(params, shadows, counters->shadows[step], row, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
                     left_behind(&s, l.wi, lifted, prim), l.target, &way, m, invalid + EC_STAGE_SHADE);
     }
 
@@ -302,7 +302,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     if (only_seen) alive = alive & straight;
     uint bits = mask_bits(alive);
     if (!bits) return;
-    uint at = queue_reserve(counters->rays[step + 1], params->part, queue_part(), bits);
+    uint at = queue_reserve(counters->rays[step + 1], params->part, row, bits);
     v3 origin = leave(&s, above, wi, next_way.wi);
     queue_push_v3(next, wave, EC_PATH_OX, at, origin, bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);

@@ -167,7 +167,7 @@ EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
                 way.left = medium_transmittance(&g, medium_material(&g, near, nested), sqrt(film.way2));
             }
             scatter_f(light_slots + EC_LIGHT_SLOT_PIXEL * wave, slot, as_lane_f(film.place), mask_bits(m));
-            shadow_push(params, shadows, counters->shadows[step], film.o, surface_offset(s.p, s.p_error, s.ng, c), arriving, slot,
+            shadow_push(params, shadows, counters->shadows[step], row, film.o, surface_offset(s.p, s.p_error, s.ng, c), arriving, slot,
                         U(EC_NO_ID), prim, &way, m, invalid + EC_STAGE_SHADE);
             continue;
         }
@@ -199,7 +199,7 @@ EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
         np = is_delta ? -max(np, F(EC_RATIO_LEAST)) : np;
         np = (is_first & !straight) ? np : ratio;
         v3 origin = surface_offset(s.p, s.p_error, s.ng, c);
-        uint at = queue_reserve(counters->rays[step + 1], params->part, queue_part(), bits);
+        uint at = queue_reserve(counters->rays[step + 1], params->part, row, bits);
         queue_push_v3(next, wave, EC_PATH_OX, at, origin, bits);
         queue_push_v3(next, wave, EC_PATH_DX, at, c, bits);
         queue_push_v3(next, wave, EC_PATH_BR, at, beta_c, bits);

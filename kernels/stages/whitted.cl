@@ -144,7 +144,7 @@ EC_KERNEL(ec_whitted, LANES, WHITTED_PARAMETERS, QUEUED(rays[step]))
     }
     uint bits = mask_bits(goes);
     if (!bits) return;
-    uint at = queue_reserve(counters->rays[step + 1], params->part, queue_part(), bits);
+    uint at = queue_reserve(counters->rays[step + 1], params->part, row, bits);
     queue_push_v3(next, wave, EC_PATH_OX, at, go.o, bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, go.d, bits);
     queue_push_v3(next, wave, EC_PATH_BR, at, go.beta, bits);

@@ -40,5 +40,5 @@ EC_KERNEL(ec_whitted_light, LANES, WHITTED_LIGHT_PARAMETERS, QUEUED(rays[0]))
     }
     shadow_way way = shadow_way_make(params, &g, &l, medium, nested, s.p);
     v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
-    shadow_push(params, shadows, counters->shadows[step], from, shadow_end(s.p, &l), arriving, slot, prim, l.target, &way, lit, invalid + EC_STAGE_SHADE);
+    shadow_push(params, shadows, counters->shadows[step], row, from, shadow_end(s.p, &l), arriving, slot, prim, l.target, &way, lit, invalid + EC_STAGE_SHADE);
 }
