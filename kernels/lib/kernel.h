@@ -5,16 +5,16 @@
 
 #include "queue.h"
 
-/* Kernel `name`, whose body follows: for the entry i that a work-item begins at, of `lanes` entries each, in part `row` of the queue, and how many
- * there are from it on. LIST(DO): DO(type, name) of its parameters, but for params, in the order of host/device/stages.c. entries: how many, by i and
- * the parameters; none, and the body is not called. EC_KERNEL_AT: a work-item begins at entry `first`, by the parameters. A body does not ask where its
- * work-item is: PoCL would inline it. */
-#define EC_KERNEL(name, lanes, LIST, entries) EC_KERNEL_AT(name, queue_entry(params->part, lanes), LIST, entries)
-#define EC_KERNEL_AT(name, first, LIST, entries)                                                                                                      \
+/* Kernel `name`, whose body follows: for the entry i that a work-item begins at, of the `takes` that it has, in part `row` of the queue, and how many
+ * there are from it on. LIST(DO): DO(type, name) of its parameters, but for params, in the order of host/device/stages.c. entries: how many, by i, row
+ * and the parameters; none, and the body is not called.
+ * A launch's second dimension are the parts. A group has one, so compilers of cards see that its work-items count up one counter, and make one atomic
+ * operation of those of all that go in step. A body does not ask where its work-item is: PoCL would inline it. */
+#define EC_KERNEL(name, takes, LIST, entries)                                                                                                         \
     EC_CALLED void EC_CAT(name, _item)(uint row, uint i, uint left, constant ec_params *params LIST(EC_PARAMETER));                                   \
     kernel void name(constant ec_params *params LIST(EC_PARAMETER))                                                                                   \
     {                                                                                                                                                 \
-        uint row = queue_part(), i = first, left = entries;                                                                                           \
+        uint row = (uint)get_group_id(1), i = queue_entry(params->part, row, (uint)get_global_id(0), takes), left = entries;                          \
         if (left) EC_CAT(name, _item)(row, i, left, params LIST(EC_ARGUMENT));                                                                        \
     }                                                                                                                                                 \
     EC_CALLED void EC_CAT(name, _item)(uint row, uint i, uint left, constant ec_params *params LIST(EC_PARAMETER))
@@ -22,7 +22,7 @@
 /* One whose body is for a single entry i: a work-item has RUN of them, one after the other. */
 #define EC_RUN_KERNEL(name, LIST, entries)                                                                                                            \
     EC_INLINED void EC_CAT(name, _entry)(uint i, constant ec_params *params LIST(EC_PARAMETER));                                                      \
-    EC_KERNEL_AT(name, queue_entry(params->part, RUN), LIST, entries)                                                                                 \
+    EC_KERNEL(name, RUN, LIST, entries)                                                                                                               \
     {                                                                                                                                                 \
         for (uint end = i + min(left, RUN); i < end; i++) EC_CAT(name, _entry)(i, params LIST(EC_ARGUMENT));                                          \
     }                                                                                                                                                 \

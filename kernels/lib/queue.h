@@ -10,14 +10,11 @@
 #ifndef RUN
 #define RUN 1u
 #endif
-/* A launch's second dimension are the parts of a queue. A group has one, so compilers of cards see that its work-items count up one counter, and
- * make one atomic operation of those of all that go in step. */
-EC_INLINED uint queue_part(void) { return (uint)get_group_id(1); }
-/* The entry that a work-item begins at, of `takes` that it has; past all where the part ends before. */
-EC_INLINED uint queue_entry(uint part, uint takes)
+/* The entry that work-item `item` of part `row` begins at, of `takes` that it has; past all where the part ends before. */
+EC_INLINED uint queue_entry(uint part, uint row, uint item, uint takes)
 {
-    uint before = (uint)get_global_id(0) * takes;
-    return before < part ? queue_part() * part + before : EC_NO_ID;
+    uint before = item * takes;
+    return before < part ? row * part + before : EC_NO_ID;
 }
 /* How many entries stand at i or after it: of a queue in part `row`, i's own, and of all slots. */
 EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, uint row, uint i)

@@ -159,7 +159,7 @@ EC_INLINED void camera_rays(uint i, uint left, constant ec_params *params INTERS
 }
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-EC_KERNEL_AT(ec_intersect_bvh8, queue_entry(params->part, RUN), INTERSECT_PARAMETERS, QUEUED(rays[step]))
+EC_KERNEL(ec_intersect_bvh8, RUN, INTERSECT_PARAMETERS, QUEUED(rays[step]))
 {
     uint wave = params->wave, next = 0;
     left = min(left, RUN);
@@ -204,7 +204,7 @@ EC_INLINED void walk_light(const walk *w, constant ec_params *params, uint bounc
 }
 
 /* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-EC_KERNEL_AT(ec_connect_bvh8, queue_entry(params->part, RUN), CONNECT_PARAMETERS, QUEUED(shadows[step]))
+EC_KERNEL(ec_connect_bvh8, RUN, CONNECT_PARAMETERS, QUEUED(shadows[step]))
 {
     uint next = 0;
     left = min(left, RUN);

@@ -15,7 +15,7 @@ from dim_rooms import lamp_room, sun_room, texel_room
 from support import CORNELL, NARROW, SOURCE, Case, eclat, read_exr, write_exr
 from tiers import full
 
-SEEDS = range(5)  # test_bounds_long.py has 200
+SEEDS = range(10)
 SIZE = 12
 PINLAMP, UNFOLDED = (os.path.join(SOURCE, "scenes", "pinlamp", name + ".gltf") for name in ("pinlamp", "unfolded"))
 VASE = os.path.join(SOURCE, "scenes", "vase", "vase.gltf")

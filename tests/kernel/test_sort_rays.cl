@@ -69,3 +69,22 @@ kernel void work_items_share_a_part(global test_result *result, global uint *scr
     CHECK_EQUAL(plain, 77u + PART);
     CHECK_EQUAL(sorted, 77u + PART);
 }
+
+/* Launches have a few work-items more a part than it has entries for; those begin nowhere, neither in a queue nor among slots. */
+kernel void work_items_begin_at_every_entry_once(global test_result *result, global uint *scratch)
+{
+    global uint *ends = scratch;
+    ends[0] = ends[EC_PART_STRIDE] = PART;
+    for (uint takes = 1; takes <= 64; takes *= 4) {
+        uint next = 0;
+        for (uint row = 0; row < 2; row++)
+            for (uint item = 0; item < (PART + takes - 1) / takes + 3; item++) {
+                uint i = queue_entry(PART, row, item, takes), left = slot_entries(WAVE, i);
+                CHECK_EQUAL(min(queue_entries(ends, WAVE, PART, row, i), 1u), min(left, 1u));
+                if (!left) continue;
+                CHECK_EQUAL(i, next);
+                next = min(next + takes, (row + 1) * PART);
+            }
+        CHECK_EQUAL(next, WAVE);
+    }
+}

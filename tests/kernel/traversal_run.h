@@ -38,7 +38,8 @@ static inline void add_tracer(uint32_t accel, uint32_t lanes, const char *more)
     free(log);
 }
 
-/* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved, with and without AVX2, and bvh2 without a stack too. Returns main's exit code, or 0. */
+/* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved, with and without AVX2, and bvh2
+ * without a stack too. Returns main's exit code, or 0. */
 static inline int open_tracers(bool all_widths)
 {
     int open = kernel_open(&cl);
