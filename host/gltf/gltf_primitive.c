@@ -125,7 +125,7 @@ ec_result ec_gltf_primitive_prepare(ec_gltf *g, ec_gltf_primitive *p, const char
     if (p->indices >= 0) EC_TRY(open_indices(g, p, where, err));
     uint64_t corners = p->indices >= 0 ? g->accessors[p->indices].count : vertices;
     EC_TRY(scan_indices(g, p, corners, where, err));
-    if (p->mode < EC_GLTF_TRIANGLES) return EC_OK; /* thicken.c makes triangles of it, if it is to be shown */
+    if (p->mode < EC_GLTF_TRIANGLES) return EC_OK; /* thicken.c makes triangles of it */
     if (p->mode == EC_GLTF_TRIANGLES) p->triangle_count = corners / 3;
     else p->triangle_count = corners < 3 ? 0 : corners - 2;
     p->left_over = p->mode == EC_GLTF_TRIANGLES ? corners % 3 != 0 : corners < 3;
