@@ -88,7 +88,7 @@ void ec_live_close(ec_live *live);
 /* tell.c: post wakes the session's threads, tell the caller; both with the lock held. */
 void ec_live_post(ec_live *live);
 void ec_live_tell(ec_live *live);
-/* Without the lock held. text "": the trouble is over; is_final: there will never be a picture. */
+/* To be called without the lock. text "": the trouble is over; is_final: there will never be a picture. */
 void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text, bool is_final);
 
 /* setup.c: scenes are shared under the lock; a setup belongs to one thread at a time. NULL is fine. */

@@ -65,7 +65,7 @@ typedef struct ec_pack {
     float lamp_share;              /* share of the lamps in the power of all lights */
     bool lights_are_halved;        /* there are both lamps and lights at infinity, and each kind is chosen by half of the numbers */
     double lamp_power;             /* W of luminance, divided among lamps by their pmf */
-    uint32_t light_tree_numbers;   /* of 2^31 numbers, those with which light sampling uses the tree */
+    uint32_t light_tree_numbers;   /* how many of 2^31 numbers make light sampling use the tree */
     uint32_t caster_count;         /* 0: nothing to aim light paths at, or not asked for */
     ec_caster casters[EC_CASTERS_MOST];
     double caster_flux;            /* approximate W of luminance that lights send to casters; 0: there are none, or not asked for */

@@ -74,8 +74,8 @@ static void look_up(const multiple *m, double r, double mu_s, double l[3])
                v * ((1 - u) * m->radiance[i + 1][k][c] + u * m->radiance[i + 1][k + 1][c]);
 }
 
-/* Integrates along a ray: l: radiance scattered towards the eye; f: the share that a uniform radiance of 1 would have. With m NULL: light scattered
- * once, isotropically, and the ground's. */
+/* Integrates along a ray. l: radiance scattered towards the eye; f: how much of a uniform radiance of 1 would be scattered into the ray. With m NULL:
+ * light scattered once, isotropically, and the ground's. */
 static void march(double r, double mu, double mu_s, double nu, const multiple *m, double l[3], double f[3])
 {
     const bool ends = meets_ground(r, mu);
