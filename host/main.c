@@ -1,5 +1,5 @@
 /* argv in, exit code out; everything else is in cli/. */
-#define _GNU_SOURCE /* pthread_setattr_default_np */
+#define _GNU_SOURCE /* for pthread_setattr_default_np */
 #include <fcntl.h>
 #include <pthread.h>
 #include <stdbool.h>
@@ -14,19 +14,19 @@
 #include "cli/cli.h"
 #include "cli/stop.h"
 
-/* A picture must never be opened on a descriptor that the caller closed and that a message then goes to. The mode is
- * the wrong one on purpose, so that using the stream still fails. */
+/* Opens closed standard descriptors, so that no picture is opened on one to which a message then goes. They are opened in the wrong mode on purpose,
+ * so that using the stream still fails. */
 static void occupy_standard_descriptors(void)
 {
     for (int fd = 0; fd <= 2; fd++)
         if (fcntl(fd, F_GETFD) < 0) open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
 }
 
-/* PoCL's compiler allocates from several threads; with an arena each, what one frees the others cannot use (a million
- * triangles, cold start: 610 MB at the peak instead of 565). Blocks of up to 16 MB come from the heap, which keeps up to 64 MB that is free: given back
- * at once, as from 128 KiB on by default, most memory of a start is touched anew for each of its steps, at a page fault for each 4 KiB. Blocks of a launch,
- * which drivers allocate and free some hundred times a wave, join their neighbours when they are freed: to join them all at the next large block took a
- * tenth of the host's time. */
+/* Tunes malloc. PoCL's compiler allocates from several threads; with an arena for each, memory freed by one cannot be used by the others (a million
+ * triangles, cold start: 610 MB at the peak instead of 565). Blocks of up to 16 MB come from the heap, which keeps up to 64 MB of free memory: if it
+ * were returned at once, as by default from 128 KiB on, most memory of a start would be touched anew in each of its steps, at a page fault for each 4
+ * KiB. Small blocks of a launch, which drivers allocate and free some hundred times a wave, are joined with their neighbours when freed: joining them
+ * all at the next large block took a tenth of the host's time. */
 static void keep_memory(void)
 {
 #ifdef __GLIBC__
@@ -37,7 +37,7 @@ static void keep_memory(void)
 #endif
 }
 
-/* PoCL ends the process over an empty name. */
+/* Removes an empty POCL_CACHE_DIR, for which PoCL ends the process. */
 static void drop_empty_folder(void)
 {
     const char *folder = getenv("POCL_CACHE_DIR");
@@ -56,9 +56,9 @@ static void *run(void *unused)
     return NULL;
 }
 
-#define STACK_LEAST (8ul << 20) /* what systems give by default; drivers' compilers overrun much less without a word */
+#define STACK_LEAST (8ul << 20) /* the usual default; drivers' compilers silently overrun much smaller ones */
 
-/* Where the limit is smaller, all threads get that much, and the command has one of its own. */
+/* If the limit is smaller, gives all threads this much, and runs the command in a thread of its own. Returns false if nothing was run. */
 static bool run_with_room(void)
 {
     struct rlimit limit;

@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* O_TMPFILE */
+#define _GNU_SOURCE /* for O_TMPFILE */
 #include "base/atomic_file.h"
 
 #include <errno.h>
@@ -29,8 +29,8 @@ ec_result ec_write_failed(ec_error *err, const char *path, int error_number)
     return ec_fail(err, "cannot write '%s': %s; %s", path, strerror(error_number), remedy);
 }
 
-/* Whatever stands at `path` now must be a regular file that we may write: renaming over a device such as /dev/null
- * would destroy it, and renaming over a read-only file would get round its owner's wish. */
+/* Fails unless whatever is at `path` is a regular file that we may write: renaming over a device such as /dev/null would destroy it, and renaming
+ * over a read-only file would circumvent its owner's intention. */
 static ec_result check_replaceable(const char *path, ec_error *err)
 {
     struct stat info;
@@ -50,12 +50,12 @@ static int folder_length(const char *path)
 
 char *ec_link_end(const char *path)
 {
-    enum { LINKS_MOST = 40 }; /* as the kernel has it */
+    enum { LINKS_MOST = 40 }; /* as in the kernel */
     char *at = strdup(path);
     for (int i = 0; at && i < LINKS_MOST; i++) {
         char to[PATH_MAX], next[2 * PATH_MAX];
         ssize_t size = readlink(at, to, sizeof to);
-        if (size < 0) return at; /* no link, or nothing there */
+        if (size < 0) return at; /* not a link, or nothing there */
         int folder = to[0] == '/' ? 0 : folder_length(at);
         snprintf(next, sizeof next, "%.*s%.*s", folder, at, (int)size, to);
         free(at);
@@ -73,8 +73,8 @@ static int link_descriptor(int fd, const char *name)
     return linkat(AT_FDCWD, descriptor, AT_FDCWD, name, AT_SYMLINK_FOLLOW);
 }
 
-/* Makes up a name beside the target: for a new file if fd < 0, else for that one. Short and not derived from the target's, which may
- * be as long as names can be. open() rather than mkstemp(): the kernel applies the umask to 0666, which a library cannot read without
+/* Makes up a name beside the target: for a new file if fd < 0, else for that one. It is short and not derived from the target's name, which may have
+ * the maximal length. Uses open() rather than mkstemp(), so that the kernel applies the umask to 0666; a library cannot read the umask without
  * changing it for the whole process. */
 static int take_name(int fd, const char *target, char *name, size_t size)
 {
@@ -89,7 +89,7 @@ static int take_name(int fd, const char *target, char *name, size_t size)
     return -1;
 }
 
-/* Without a name, so that nothing is left of a process that is killed; where the file system or the lack of /proc forbids it, with one. */
+/* Creates the file without a name, so that a killed process leaves nothing behind; with a name if the file system or the lack of /proc prevents that. */
 static int create_beside(const char *target, char *name, size_t size)
 {
     name[0] = 0;
@@ -104,7 +104,8 @@ static int create_beside(const char *target, char *name, size_t size)
     return take_name(-1, target, name, size);
 }
 
-/* A nameless file that replaces another needs a name first: only there can a killed process leave one behind. */
+/* Gives the file its target name. A nameless file that replaces another needs a temporary name first: only here a killed process can leave one
+ * behind. */
 static int give_target_name(ec_atomic_file *file)
 {
     if (!file->temporary[0]) {
@@ -129,7 +130,7 @@ ec_result ec_atomic_open(ec_atomic_file *file, const char *path, ec_error *err)
         return ec_fail(err, "cannot write '%s': it names a folder; give a file name", path);
     EC_TRY(check_replaceable(path, err));
 
-    file->target = ec_link_end(path); /* so that a symbolic link stays one */
+    file->target = ec_link_end(path); /* so that a symbolic link remains one */
     size_t size = file->target ? strlen(file->target) + 64 : 0;
     file->temporary = size ? malloc(size) : NULL;
     file->temporary_size = size;
@@ -152,7 +153,7 @@ void ec_atomic_abort(ec_atomic_file *file)
     release(file);
 }
 
-/* The rename itself survives a power cut only once the folder is on disk too. Best effort: not every file system can. */
+/* Syncs the folder, without which the rename may not survive a power cut. Best effort: not every file system can. */
 static void sync_folder(char *target)
 {
     char *slash = strrchr(target, '/');
@@ -167,7 +168,7 @@ static void sync_folder(char *target)
 ec_result ec_atomic_commit(ec_atomic_file *file, ec_error *err)
 {
     struct stat old;
-    if (stat(file->target, &old) == 0) (void)fchmod(file->fd, old.st_mode & 0777); /* as writing in place would */
+    if (stat(file->target, &old) == 0) (void)fchmod(file->fd, old.st_mode & 0777); /* like writing in place */
 
     /* EINVAL: a file system without fsync. Closing a copy may report what a network file system refused late. */
     int failed = fsync(file->fd) != 0 && errno != EINVAL ? errno : 0;

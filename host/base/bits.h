@@ -1,4 +1,4 @@
-/* A float's 32 bits, and back. */
+/* Convert a float to its 32 bits, and back. */
 #ifndef EC_BASE_BITS_H
 #define EC_BASE_BITS_H
 

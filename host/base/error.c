@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A text that is too long ends with a whole character. Names of files are in it. */
+/* Formats a text, possibly with names of files, and cuts it at a whole character if it is too long. */
 static void format_whole(char *text, size_t size, const char *format, va_list args)
 {
     vsnprintf(text, size, format, args);

@@ -1,4 +1,4 @@
-/* Results and messages. Every function that can fail returns ec_result and takes an ec_error last. */
+/* Results and messages. Every function that can fail returns an ec_result and takes an ec_error last. */
 #ifndef EC_BASE_ERROR_H
 #define EC_BASE_ERROR_H
 
@@ -20,7 +20,7 @@ typedef struct ec_error {
 /* Formats the message into err (which may be NULL) and returns EC_FAILED. The kind becomes EC_ERROR_OTHER. */
 ec_result ec_fail(ec_error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Adds to the message what only the caller knows; the kind stays. */
+/* Appends to the message; the kind stays. */
 void ec_fail_more(ec_error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Forwards a failure; use where nothing needs to be released. */
@@ -37,12 +37,12 @@ void ec_fail_more(ec_error *err, const char *format, ...) __attribute__((format(
         if (result != EC_OK) goto cleanup;                                                         \
     } while (0)
 
-/* Where messages go; zero-initialised means nowhere. `text` has no newline. */
+/* The receiver of messages; zero-initialised: none. `text` has no newline. */
 typedef enum ec_severity {
     EC_STATUS,  /* what is being done */
     EC_NOTE,
     EC_WARNING,
-    EC_FAILURE  /* of a part, such as one frame of many; what ends the whole is an ec_error */
+    EC_FAILURE  /* of a part, such as one frame of many; failures of the whole are ec_errors */
 } ec_severity;
 typedef struct ec_log {
     void (*write)(void *user, ec_severity severity, const char *text);

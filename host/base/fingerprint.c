@@ -6,7 +6,7 @@
 
 enum { LANES = 4 };
 
-/* Mixes a word into a lane, one to one: what differs stays different. */
+/* Mixes a word into a lane, bijectively: different lanes stay different. */
 static uint64_t turn(uint64_t lane, uint64_t word)
 {
     lane = (lane ^ word) * UINT64_C(0x9fb21c651e98df25);

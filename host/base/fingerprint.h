@@ -1,4 +1,4 @@
-/* 128 bits that tell one run of bytes from another, at the speed of memory. No protection against people. */
+/* 128 bits that distinguish byte sequences, computed at the speed of memory. Not secure against manipulation. */
 #ifndef EC_BASE_FINGERPRINT_H
 #define EC_BASE_FINGERPRINT_H
 
@@ -9,7 +9,7 @@ typedef struct ec_fingerprint {
     uint64_t half[2];
 } ec_fingerprint;
 
-/* so_far: of what came before; {0} to begin with. */
+/* so_far: fingerprint of what came before; {0} at first. */
 ec_fingerprint ec_fingerprint_add(ec_fingerprint so_far, const void *bytes, uint64_t size);
 
 static inline bool ec_fingerprint_is(ec_fingerprint a, ec_fingerprint b)

@@ -1,4 +1,4 @@
-/* Memory that goes when its name does, however a function is left. */
+/* Memory that is freed when its variable goes out of scope, however a function is left. */
 #ifndef EC_BASE_FREED_H
 #define EC_BASE_FREED_H
 
@@ -12,7 +12,7 @@ static inline void ec_free_at(void *pointer)
     free(memory);
 }
 
-/* Before the declaration of a pointer, which must have a value from the beginning: EC_FREED float *rows = malloc(size); */
+/* Put before the declaration of a pointer, which must be initialised: EC_FREED float *rows = malloc(size); */
 #define EC_FREED __attribute__((cleanup(ec_free_at)))
 
 #endif

@@ -1,4 +1,4 @@
-/* What Cryptomatte tells apart, and by how many names in a pixel. */
+/* Kinds of things that Cryptomatte distinguishes, and the number of names per pixel. */
 #ifndef EC_BASE_MATTE_KINDS_H
 #define EC_BASE_MATTE_KINDS_H
 

@@ -13,7 +13,7 @@
 
 static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
-/* Fields of /proc/self/statm: all of the address space, what of it is resident. */
+/* Reads /proc/self/statm: the address space, and the resident part of it. */
 static void look_at_self(uint64_t *space, uint64_t *resident)
 {
     const uint64_t page = (uint64_t)sysconf(_SC_PAGESIZE);
@@ -46,7 +46,7 @@ static uint64_t available(void)
     return kib ? kib * 1024 : UINT64_MAX;
 }
 
-/* A number that a file holds; UINT64_MAX where there is none, or "max". */
+/* Reads a number from a file; UINT64_MAX if there is none, or it is "max". */
 static uint64_t number_in(const char *folder, const char *name)
 {
     char path[4400];
@@ -59,7 +59,7 @@ static uint64_t number_in(const char *folder, const char *name)
     return value;
 }
 
-/* The two versions of control groups. */
+/* Files of the two versions of control groups. */
 typedef struct group_files {
     const char *root, *limit, *used, *cached[2];
 } group_files;
@@ -67,7 +67,7 @@ static const group_files versions[] = {
     {"/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", {"total_inactive_file ", "total_active_file "}},
     {"/sys/fs/cgroup", "memory.max", "memory.current", {"inactive_file ", "active_file "}}};
 
-/* The page cache's share of a group's memory, which the kernel takes back before it ends a process. */
+/* Returns the page cache's share of a group's memory, which the kernel reclaims before it kills a process. */
 static uint64_t cached_in(const char *folder, const group_files *files)
 {
     char path[4400], line[128];
@@ -84,7 +84,7 @@ static uint64_t cached_in(const char *folder, const group_files *files)
     return sum;
 }
 
-/* Under the limits of a group and of all that it is in. */
+/* Returns the bytes left under the limits of a group and all groups above it. */
 static uint64_t left_in_group(const char *path, const group_files *files)
 {
     char folder[4200];
@@ -102,8 +102,8 @@ static uint64_t left_in_group(const char *path, const group_files *files)
     return left;
 }
 
-/* A line of /proc/self/cgroup is "0::/path", or "4:memory:/path" in the first version. In a container the path may be that of outside: what
- * is not there has no limit, and the root stands for the group. */
+/* Reads /proc/self/cgroup, whose lines are "0::/path", or "4:memory:/path" in version 1. In a container the path may be that of outside: a group that
+ * does not exist has no limit, and the root stands for it. */
 static uint64_t left_in_groups(void)
 {
     char line[4096];
@@ -135,7 +135,7 @@ void *ec_shared_alloc(uint64_t bytes)
     const uint64_t alignment = bytes < 2 * HUGE_PAGE ? EC_SHARED_ALIGNMENT : HUGE_PAGE, size = (bytes / alignment + 1) * alignment;
     void *memory = aligned_alloc(alignment, size);
 #ifdef MADV_HUGEPAGE
-    if (memory && alignment == HUGE_PAGE) (void)madvise(memory, size, MADV_HUGEPAGE); /* a wish: rays go all over it, and there are too few entries for small pages */
+    if (memory && alignment == HUGE_PAGE) (void)madvise(memory, size, MADV_HUGEPAGE); /* advice: rays go all over it, and a TLB holds few small pages */
 #endif
     return memory;
 }

@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* dladdr */
+#define _GNU_SOURCE /* for dladdr */
 #include "base/module.h"
 
 #include <dlfcn.h>
@@ -13,7 +13,7 @@
 #define TEXT_(x) #x
 #define TEXT(x) TEXT_(x)
 
-/* The folder of the library, or of the program that it is linked into, with a slash at its end. */
+/* Finds the folder of the library, or of the program that it is linked into, with a trailing slash. */
 static ec_result find_folder(char folder[PATH_MAX], ec_error *err)
 {
     Dl_info info;
@@ -25,7 +25,7 @@ static ec_result find_folder(char folder[PATH_MAX], ec_error *err)
 
 ec_result ec_module_find(const char *file, char *path, ec_error *err)
 {
-    static const char *const places[] = {"", "eclat/"}; /* built; installed */
+    static const char *const places[] = {"", "eclat/"}; /* when built; when installed */
     char folder[PATH_MAX];
     EC_TRY(find_folder(folder, err));
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
@@ -39,7 +39,7 @@ ec_result ec_module_load(const char *name, const char *remedy, const void **symb
     void *module = NULL;
     snprintf(file, sizeof file, "eclat-%s.so", name);
     if (ec_module_find(file, path, NULL) != EC_OK) return ec_fail(err, "%s", remedy);
-    module = dlopen(path, RTLD_NOW | RTLD_GLOBAL); /* Open MPI loads parts of its own, which look for it there */
+    module = dlopen(path, RTLD_NOW | RTLD_GLOBAL); /* Open MPI loads plugins, which look for symbols there */
     *symbol = module ? dlsym(module, TEXT(EC_MODULE_SYMBOL)) : NULL;
     return *symbol ? EC_OK : ec_fail(err, "cannot load '%s': %s", path, dlerror());
 }

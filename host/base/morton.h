@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* Every third bit from bit 0 on is one of the lowest 21 of x. */
+/* Spreads the lowest 21 bits of x to every third bit from bit 0 on. */
 static inline uint64_t ec_spread_bits(uint64_t x)
 {
     x &= 0x1fffff;
@@ -15,7 +15,7 @@ static inline uint64_t ec_spread_bits(uint64_t x)
     return (x | x << 2) & 0x1249249249249249;
 }
 
-/* Bits of three numbers under 2^21 by turns, the first one's the highest. */
+/* Interleaves the bits of three numbers below 2^21, the first one's being the highest. */
 static inline uint64_t ec_morton(const uint32_t at[3]) { return ec_spread_bits(at[0]) << 2 | ec_spread_bits(at[1]) << 1 | ec_spread_bits(at[2]); }
 
 #endif

@@ -4,7 +4,7 @@ static uint32_t turn(uint32_t x, int by) { return x << by | x >> (32 - by); }
 
 static uint32_t mixed(uint32_t block) { return turn(block * 0xcc9e2d51u, 15) * 0x1b873593u; }
 
-/* Little-endian on any machine. */
+/* Reads little-endian on any machine. */
 static uint32_t block_at(const uint8_t *from, size_t size)
 {
     uint32_t block = 0;

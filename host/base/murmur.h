@@ -1,4 +1,4 @@
-/* MurmurHash3_x86_32 (Appleby, public domain): the hash by which Cryptomatte knows names. Not for secrets, nor for fingerprints of files. */
+/* MurmurHash3_x86_32 (Appleby, public domain): the hash that Cryptomatte uses for names. Neither for secrets nor for fingerprints of files. */
 #ifndef EC_BASE_MURMUR_H
 #define EC_BASE_MURMUR_H
 

@@ -1,4 +1,4 @@
-/* SplitMix64 (Steele et al. 2014): numbers for the host's own draws, and seeds that differ in every bit. */
+/* SplitMix64 (Steele et al. 2014): random numbers for the host, and seeds that differ in every bit. */
 #ifndef EC_BASE_RANDOM_H
 #define EC_BASE_RANDOM_H
 
@@ -15,7 +15,7 @@ static inline uint64_t ec_random_mix(uint64_t x)
 
 static inline uint64_t ec_random_bits(uint64_t *state) { return ec_random_mix(*state += EC_RANDOM_STEP); }
 
-/* In [0, 1). */
+/* Returns a number in [0, 1). */
 static inline double ec_random_unit(uint64_t *state) { return (double)(ec_random_bits(state) >> 11) * 0x1p-53; }
 
 static inline double ec_random_between(uint64_t *state, double low, double high)

@@ -1,4 +1,4 @@
-/* All of a file at once. */
+/* Reads a whole file at once. */
 #ifndef EC_BASE_READ_FILE_H
 #define EC_BASE_READ_FILE_H
 
@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-/* *bytes is malloc'ed, also on failure: the caller frees it. EC_FAILED with "cannot open" or "cannot read", the path and why. */
+/* *bytes is malloc'ed, and must be freed on failure too. The error is "cannot open" or "cannot read", the path and the reason. */
 ec_result ec_read_file(const char *path, uint8_t **bytes, size_t *size, ec_error *err);
 
 #endif

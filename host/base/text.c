@@ -18,8 +18,8 @@ int ec_text_cut(const char *text, int most)
     return end && first + length_from((unsigned char)text[first]) > end ? first : end;
 }
 
-/* How many bytes of a character that no terminal should get; 0: it may. U+0080 to U+009F are controls; U+200E, U+200F, U+202A to U+202E and
- * U+2066 to U+2069 turn the direction of writing; U+2028 and U+2029 break lines. */
+/* Returns the bytes of a character that must not reach a terminal; 0: it may. U+0080 to U+009F are controls; U+200E, U+200F, U+202A to U+202E and
+ * U+2066 to U+2069 change the direction of writing; U+2028 and U+2029 break lines. */
 static int unsafe_length(const unsigned char *c)
 {
     if (*c < 32 || *c == 127) return *c == '\t' || (*c == '\n' && c[1] == ' ' && c[2] == ' ') ? 0 : 1;

@@ -1,11 +1,11 @@
-/* Vectors of three doubles. Host references repeat these bits: the order of operations is part of them. */
+/* Vectors of three doubles. Host references repeat their bits, so the order of operations must not change. */
 #ifndef EC_BASE_VEC3_H
 #define EC_BASE_VEC3_H
 
 #include <math.h>
 #include <stdbool.h>
 
-/* For numbers that are known not to be NaN. fmin and fmax pass over NaN, and are calls into the C library. */
+/* For numbers that are not NaN. fmin and fmax handle NaN, and are calls into the C library. */
 static inline double ec_lesser(double a, double b) { return b < a ? b : a; }
 static inline double ec_greater(double a, double b) { return b > a ? b : a; }
 
@@ -16,7 +16,7 @@ static inline void ec_cross(const double a[3], const double b[3], double out[3])
     for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* The normal of the triangle a, b, c, twice its area long. */
+/* Computes the normal of the triangle a, b, c, whose length is twice the area. */
 static inline void ec_triangle_normal(const float a[3], const float b[3], const float c[3], double out[3])
 {
     double u[3], v[3];
@@ -24,7 +24,7 @@ static inline void ec_triangle_normal(const float a[3], const float b[3], const 
     ec_cross(u, v, out);
 }
 
-/* False, and v as it was, where it has no length or no finite one. */
+/* Normalises v. Returns false, and leaves v unchanged, if its length is 0 or not finite. */
 static inline bool ec_normalize(double v[3])
 {
     double length = sqrt(ec_dot(v, v));

@@ -48,7 +48,7 @@ static const eclat_option *find_option(const eclat_option *options, int count, i
 
 static int by_name(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
 
-/* An argument getopt_long did not know: which option was meant? */
+/* Reports an argument that getopt_long did not know, and suggests the option that was meant. */
 static eclat_result unknown_option(const parser *p, const char *argument, const char *command, eclat_error *err)
 {
     const char *names[EC_OPTIONS_MOST + 2];
@@ -69,7 +69,7 @@ static eclat_result unknown_option(const parser *p, const char *argument, const 
     return ec_wrong(err, "unknown option '%s'; see 'eclat %s --help'", argument, command);
 }
 
-/* getopt_long said '?' or ':' (missing value); optopt says for which option where it knows. */
+/* Reports what getopt_long found: '?', or ':' for a missing value; optopt tells the option, if it is known. */
 static eclat_result complain(const parser *p, const eclat_option *options, int count, int code, char **argv, eclat_error *err)
 {
     const eclat_option *option = find_option(options, count, optopt);
@@ -87,7 +87,7 @@ eclat_result ec_arguments_read(const eclat_option *options, int count, int argc,
     parser p = make_parser(options, count);
     int code;
     eclat_result result = ECLAT_OK;
-    optind = 0; /* glibc: start afresh */
+    optind = 0; /* glibc: restart */
     opterr = 0;
     *asked = EC_ASKED_RUN;
     while (result == ECLAT_OK && (code = getopt_long(argc, argv, p.shorts, p.longs, NULL)) != -1) {

@@ -1,4 +1,4 @@
-/* Which command is meant, and how the program ends. */
+/* Finds the command that is meant, and ends the program. */
 #include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -14,8 +14,8 @@ typedef struct cli {
     ec_console console;
     int argc;
     char **argv;
-    int exit_code;       /* of a command that succeeded: 1 where the answer is no, as of compare and selftest */
-    eclat_ranks *ranks;  /* the other processes of an MPI job; NULL: there are none */
+    int exit_code;       /* of a command that succeeded: 1 if the answer is no, as from compare and selftest */
+    eclat_ranks *ranks;  /* the other processes of an MPI job; NULL: none */
     ec_asked asked;
 } cli;
 
@@ -91,7 +91,7 @@ static eclat_result run_job(cli *cli, eclat_job *job, int first, eclat_error *er
     return result;
 }
 
-/* One of the library's. */
+/* Takes a command of the library. */
 static eclat_result take_job(cli *cli, const eclat_command *page, const eclat_option *rows, int count, eclat_error *err)
 {
     setting s = {.cli = cli};
@@ -104,7 +104,7 @@ static eclat_result take_job(cli *cli, const eclat_command *page, const eclat_op
     return result;
 }
 
-/* One of the program's own. */
+/* Takes a command of the program itself. */
 static eclat_result take_own(cli *cli, const eclat_command *page, const eclat_option *rows, int count, eclat_error *err)
 {
     int argc = cli->argc - 1, first = 0;
@@ -143,7 +143,7 @@ static eclat_result run(cli *cli, eclat_error *err)
     return result;
 }
 
-/* A result that did not arrive is a failure, however well the render went. */
+/* Fails if the results could not be written, however well the render went. */
 static eclat_result flush_results(eclat_error *err)
 {
     errno = 0;
@@ -153,7 +153,7 @@ static eclat_result flush_results(eclat_error *err)
     return ECLAT_FAILED;
 }
 
-/* A process that is alone, or the first of several, runs the command. */
+/* Runs the command, as the only process or the first of several. */
 static int lead(eclat_ranks *ranks, int argc, char **argv)
 {
     cli cli = {.console = ec_console_of_process(), .argc = argc, .argv = argv, .ranks = ranks};
@@ -168,7 +168,8 @@ static int lead(eclat_ranks *ranks, int argc, char **argv)
     return result != ECLAT_OK ? (int)result : cli.exit_code;
 }
 
-/* The other ranks of an MPI job read no command line. They end when rank 0 says so: signals go to all, and what is to be written is its. */
+/* Serves as another rank of an MPI job, which reads no command line. It ends when rank 0 says so: signals reach all ranks, and only rank 0 has
+ * something to write. */
 static int follow(eclat_ranks *ranks)
 {
     eclat_error err;

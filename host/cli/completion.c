@@ -1,10 +1,10 @@
-/* Completion of commands, options and their values in a shell, from the tables of options. */
+/* Writes shell completion of commands, options and their values from the tables of options. */
 #include <stdbool.h>
 #include <string.h>
 
 #include "cli/help.h"
 
-/* Values are completed by files, or by the words of a list; others are for the user to know. */
+/* Tells whether a value is completed by files. Others are completed from a list, or not at all. */
 static bool is_file(const eclat_option *option) { return option->metavar && !strncmp(option->metavar, "FILE", 4); }
 
 static void put_words(FILE *to, const char *const *words)
@@ -12,7 +12,7 @@ static void put_words(FILE *to, const char *const *words)
     for (; *words; words++) fprintf(to, "%s%s", *words, words[1] ? " " : "");
 }
 
-/* Operands to choose from; false: there are none. */
+/* Writes the operands to choose from; returns false if there are none. */
 static bool put_operands(FILE *to, const eclat_command *page, const char *before, const char *after)
 {
     const char *names[EC_PAGES_MOST + 1];
@@ -26,7 +26,7 @@ static bool put_operands(FILE *to, const eclat_command *page, const char *before
 
 static bool has_files(const eclat_command *page) { return *page->operands != '['; }
 
-/* Values that follow an option: `files` for a file, `words` for one of a list, else nothing. */
+/* Writes the case of each option with a value: `files` for a file, `words` for one of a list, otherwise nothing. */
 static void bash_values(const eclat_option *rows, int count, FILE *to)
 {
     for (int i = 0; i < count; i++) {
@@ -62,7 +62,7 @@ static void bash(FILE *to)
           "_eclat() {\n"
           "    local cur=\"${COMP_WORDS[COMP_CWORD]}\" prev=\"${COMP_WORDS[COMP_CWORD-1]}\" words= options= files= value=\n"
           "    COMPREPLY=()\n"
-          "    if [ \"$cur\" = = ]; then cur= prev=\"$prev=\"\n" /* bash takes --name=value for three words */
+          "    if [ \"$cur\" = = ]; then cur= prev=\"$prev=\"\n" /* bash treats --name=value as three words */
           "    elif [ \"$prev\" = = ]; then prev=\"${COMP_WORDS[COMP_CWORD-2]}=\"; fi\n"
           "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
           "        mapfile -t COMPREPLY < <(compgen -W \"", to);
@@ -84,7 +84,7 @@ static void bash(FILE *to)
           "complete -o filenames -F _eclat eclat\n", to);
 }
 
-/* Within '...[text]': no bracket, colon or quote but those of zsh. */
+/* Writes text within '...[text]', escaping zsh's brackets, colons and quotes. */
 static void zsh_text(FILE *to, const char *text)
 {
     for (; *text; text++) {
@@ -148,7 +148,7 @@ static void zsh(FILE *to)
           "_eclat \"$@\"\n", to);
 }
 
-/* Within '...': no quote or backslash but those of fish. */
+/* Writes text within '...', escaping fish's quotes and backslashes. */
 static void fish_text(FILE *to, const char *text)
 {
     for (; *text; text++) {
@@ -157,7 +157,7 @@ static void fish_text(FILE *to, const char *text)
     }
 }
 
-/* -r: takes a value; -f: it is no file. Where a value may follow the sign = alone, fish offers it by the plain form. */
+/* -r: takes a value; -f: which is not a file. If a value may follow only after =, fish offers it with the plain option. */
 static void fish_option(const eclat_command *page, const eclat_option *o, FILE *to)
 {
     char text[1024];

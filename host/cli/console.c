@@ -6,7 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-/* A terminal that understands escape sequences. */
+/* Tells whether fd is a terminal that understands escape sequences. */
 static bool has_styles(int fd)
 {
     const char *kind = getenv("TERM");
@@ -15,7 +15,7 @@ static bool has_styles(int fd)
 
 ec_console ec_console_of_process(void)
 {
-    const char *refused = getenv("NO_COLOR"); /* no-color.org: set, and not empty */
+    const char *refused = getenv("NO_COLOR"); /* no-color.org: set and not empty */
     return (ec_console){.terminal = isatty(STDERR_FILENO) == 1, .coloured = has_styles(STDERR_FILENO) && !(refused && *refused)};
 }
 
@@ -53,8 +53,7 @@ void ec_console_draw(ec_console *console, const char *line)
     console->drawn = size + rest;
 }
 
-/* Names in messages come from files: no control character of theirs may reach the terminal. Lines of a build log may
- * stay lines. */
+/* Names in messages come from files: none of their control characters may reach the terminal. Lines of a build log remain lines. */
 void ec_console_say(ec_console *console, eclat_severity severity, const char *text)
 {
     static const struct { const char *word, *colour; } kinds[] = {

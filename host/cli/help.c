@@ -6,14 +6,14 @@
 
 enum { WIDTH = 119, ITEM_TEXT = 1024, LIST_TEXT = 4096 };
 
-/* No line ends within "(default: X" or "--option VALUE". */
+/* Tells whether a word stays on the line of the next one: no line ends within "(default: X" or "--option VALUE". */
 static bool stays_with_next(const char *word, int size)
 {
     if (!word[size]) return false;
     return !strncmp(word, "(default: ", 10) || (!strncmp(word, "--", 2) && word[size + 1] >= 'A' && word[size + 1] <= 'Z');
 }
 
-/* Words of text from column `at` on, below one another from column `indent`. */
+/* Writes words of text from column `at` on, and in further lines from column `indent` on. */
 static void wrap(FILE *to, const char *text, int at, int indent)
 {
     bool is_first = true;
@@ -64,10 +64,10 @@ static void plain_item(FILE *to, const char *term, const char *text, int indent)
 
 static int by_name(const void *a, const void *b) { return strcmp(((const eclat_option *)a)->name, ((const eclat_option *)b)->name); }
 
-/* In a list of names alone. */
+/* Tells whether an option is only named in a list. */
 static bool is_brief(const eclat_command *page, const eclat_option *row) { return (page->borrows || page->lacks) && row->is_borrowed; }
 
-/* --help and --version, which all commands have, come last. */
+/* Puts --help and --version, which all commands have, at the end. */
 int ec_help_rows(const eclat_command *page, eclat_option rows[EC_OPTIONS_MOST])
 {
     int all = ec_page_options(page, rows), count = 0;
@@ -97,10 +97,10 @@ static void write_option(const eclat_option *o, const ec_help_style *style, FILE
     style->item(to, term, text, indent);
 }
 
-/* Wide where options have long names. */
+/* Returns the width of the column of options, which is wide if their names are long. */
 static int indent_of(const eclat_command *page) { return strncmp(page->operands, "SCENE", 5) ? 21 : 29; }
 
-/* The options whose group has this title, and what else there is to say of it. */
+/* Writes the options whose group has this title, and further notes on it. */
 static void write_group(const eclat_command *page, const eclat_option *rows, int count, const char *title, const ec_help_style *style, FILE *to)
 {
     style->heading(to, title);
@@ -121,7 +121,7 @@ static bool is_group(const char *heading, const eclat_option *rows, int count)
     return false;
 }
 
-/* Names, and metavars where they are of options that the command has. */
+/* Writes a list of names, with metavars for options that the command has. */
 static void write_list(const char *heading, const eclat_option *rows, int count, bool lacks, const ec_help_style *style, FILE *to)
 {
     char text[LIST_TEXT] = "";
@@ -143,7 +143,7 @@ static void write_commands(const ec_help_style *style, FILE *to)
     for (int i = 0; i < count; i++) style->item(to, pages[i]->name, pages[i]->summary, indent_of(&ec_page_main));
 }
 
-/* Those that belong to no group. */
+/* Writes the notes that belong to no group. */
 static void write_notes(const eclat_command *page, const eclat_option *rows, int count, const ec_help_style *style, FILE *to)
 {
     const char *heading = "";

@@ -1,11 +1,11 @@
-/* The man page, set for groff's man macros. */
+/* Writes the man page for groff's man macros. */
 #include <ctype.h>
 #include <stdbool.h>
 #include <string.h>
 
 #include "cli/help.h"
 
-/* Hyphens are minus signs, backslashes are shown, and no line starts with a control character. */
+/* Writes text for groff: hyphens become minus signs, backslashes are shown, and no line starts with a control character. */
 static void put(FILE *to, const char *text)
 {
     if (*text == '.' || *text == '\'') fputs("\\&", to);
@@ -16,7 +16,7 @@ static void put(FILE *to, const char *text)
     }
 }
 
-/* Bold, but the values of options are slanted. */
+/* Writes a term in bold, with values of options in italics. */
 static void put_term(FILE *to, const char *term)
 {
     const bool is_option = *term == '-';

@@ -10,7 +10,7 @@
 #define SECONDS_BETWEEN_LINES 0.1
 enum { BAR_MAX = 24, BAR_MIN = 6 };
 
-/* "[====>  ] " of width columns, or nothing where there is no room for it. */
+/* Formats "[====>  ] " with `width` columns, or nothing if there is no room. */
 static void format_bar(double fraction, int width, char bar[BAR_MAX + 1])
 {
     if (width > BAR_MAX) width = BAR_MAX;
@@ -37,7 +37,7 @@ static int show(void *user, const eclat_progress *progress)
         ec_console_draw(view->console, line);
         view->drawn_at = now;
     }
-    return 1; /* Ctrl-C has stopped the job itself */
+    return 1; /* Ctrl-C stops the job by itself */
 }
 
 static const char *report(void *user, const char *text, size_t size)

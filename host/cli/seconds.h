@@ -1,4 +1,4 @@
-/* The clock of the program. */
+/* Returns seconds of the program's clock. */
 #ifndef EC_CLI_SECONDS_H
 #define EC_CLI_SECONDS_H
 

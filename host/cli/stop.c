@@ -8,11 +8,11 @@
 
 #include "cli/seconds.h"
 
-/* The process's, as signals are. */
+/* Of the process, like signals. */
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of job and hint, so that neither goes meanwhile */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* guards job and hint, so that neither is freed meanwhile */
 static eclat_job *running;
 static const char *hint;
 
@@ -26,7 +26,7 @@ static void end(int signal_number)
     raise(signal_number);
 }
 
-#define ONE_WISH 0.5 /* seconds: schedulers and launchers signal a job's script and its processes, and the script may pass its own on */
+#define ONE_WISH 0.5 /* seconds: schedulers and launchers signal both a job's script and its processes, and the script may pass its signal on */
 
 static void *watch(void *signals)
 {
@@ -50,9 +50,9 @@ static void *watch(void *signals)
 
 void ec_stop_watch_signals(void)
 {
-    /* The last two end the process as the system has it; but for this thread, drivers' compilers would swallow them. */
+    /* The last two end the process as usual; without this thread, drivers' compilers would swallow them. */
     static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1};
-    static sigset_t signals; /* the thread's as long as it lives */
+    static sigset_t signals; /* used by the thread as long as it lives */
     sigemptyset(&signals);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         struct sigaction old;
@@ -61,7 +61,7 @@ void ec_stop_watch_signals(void)
     pthread_t thread;
     pthread_sigmask(SIG_BLOCK, &signals, NULL);
     if (pthread_create(&thread, NULL, watch, &signals) == 0) pthread_detach(thread);
-    else pthread_sigmask(SIG_UNBLOCK, &signals, NULL); /* they end the process as ever */
+    else pthread_sigmask(SIG_UNBLOCK, &signals, NULL); /* they end the process as usual */
 }
 
 void ec_stop_ignore_file_size(void) { signal(SIGXFSZ, SIG_IGN); }

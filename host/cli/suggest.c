@@ -9,7 +9,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* Insertions, deletions, replacements and swaps of neighbours (Damerau 1964, restricted form). */
+/* Counts insertions, deletions, replacements and swaps of neighbours (Damerau 1964, restricted form). */
 static int edit_distance(const char *a, int a_size, const char *b, int b_size)
 {
     int d[LONGEST + 1][LONGEST + 1];

@@ -60,10 +60,10 @@ static ec_result check_output(const char *option, const char *path, const ec_com
 
 /* The reports of all pairs, as JSON and as text. */
 typedef struct results {
-    cJSON *reports, *shown; /* arrays; shown: NULL where no page is wanted */
-    char *text;             /* as for a terminal */
+    cJSON *reports, *shown; /* arrays; shown: NULL if no page is wanted */
+    char *text;             /* the reports as on a terminal */
     size_t size;
-    FILE *to;               /* that */
+    FILE *to;               /* the stream that writes text */
     uint32_t differ;
 } results;
 
@@ -83,7 +83,7 @@ cleanup:
     return result;
 }
 
-/* One pair's report alone, those of several as an array. */
+/* Reports one pair by itself, several as an array. */
 static ec_result tell(const ec_call *call, results *all, uint32_t count, ec_error *err)
 {
     if (!call->json) {

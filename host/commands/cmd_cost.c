@@ -1,4 +1,4 @@
-/* eclat cost SCENE: what buys accuracy cheapest. */
+/* eclat cost SCENE: measures what buys accuracy cheapest. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,13 +11,13 @@
 #include "image/image.h"
 #include "report/json.h"
 
-#define COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator */
+#define COST_UNIT "16" /* EC_COST_UNIT, which is an enumerator and cannot be used in a text */
 
 typedef struct cost_request {
-    ec_render_request render;  /* first: the setters of its options are used. Scene, camera, environment, device, size, seed; no outputs */
+    ec_render_request render;  /* must be first, for the setters of its options. Uses scene, camera, environment, device, size and seed; no outputs */
     double budget;             /* seconds */
-    const char *html, *json;   /* files; NULL: none; json may be "-" */
-    const char *reference;     /* file, or NULL */
+    const char *html, *json;   /* paths; NULL: none; json may be "-" */
+    const char *reference;     /* path or NULL */
 } cost_request;
 
 #define REQUEST cost_request
@@ -74,7 +74,7 @@ static ec_result check_outputs(const cost_request *request, ec_error *err)
     return result;
 }
 
-/* Without --size the study is as large as its reference. */
+/* Takes the size of the reference, if --size is not given. */
 static ec_result take_size(cost_request *request, ec_error *err)
 {
     ec_exr exr = {0};
@@ -110,7 +110,7 @@ static ec_result run_study(ec_cost_study *study, const ec_render_job *job, ec_er
     return result;
 }
 
-/* One file that cannot be written must not cost the others. */
+/* Writes the reports; one that cannot be written does not stop the others. */
 static ec_result deliver(const ec_cost_report *report, const cost_request *request, const ec_listener *listener, ec_error *err)
 {
     const bool is_json = is_told(request->json);

@@ -17,7 +17,7 @@ static ec_result run(ec_call *call, ec_error *err)
     EC_TRY(ec_devices_list(&devices, &report.count, err));
     report.devices = devices;
 
-    /* A wrong ECLAT_DEVICE must not hide the list that mends it. */
+    /* An invalid ECLAT_DEVICE must not hide the list that helps to correct it. */
     uint32_t chosen = 0;
     ec_error reason = {0};
     if (ec_device_choose(devices, report.count, NULL, &chosen, &report.why, &reason) == EC_OK) {

@@ -12,7 +12,7 @@
 #include "scene/built_in.h"
 
 typedef struct info_request {
-    ec_render_request render; /* first: the setters of its options are used */
+    ec_render_request render; /* must be first, for the setters of its options */
     const char *accel;        /* a name, "all", or NULL for none */
     double grid_density;      /* 0: the default */
 } info_request;
@@ -22,7 +22,7 @@ typedef struct info_request {
 #define NAME(name, lanes, summary) #name,
 static const char *const accel_choices[] = {"all", EC_ACCELS(NAME) NULL};
 
-/* These mean something else here than in `render`. */
+/* Options that mean something else here than in `render`. */
 static const ec_option own[] = {
     {.name = "accel", EC_STORED(WORD, accel), .choices = accel_choices,
      .help = "also build this acceleration structure (bvh2, bvh8, grid, kdtree, none, twolevel, or all), trace rays through it, and report what both cost"},

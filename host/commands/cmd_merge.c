@@ -1,4 +1,4 @@
-/* eclat merge A.exr B.exr … -o ALL.exr: slices of one job into one picture, to the same bits in any order. */
+/* eclat merge A.exr B.exr … -o ALL.exr: merges slices of one job into one picture, with the same bits in any order. */
 #include <string.h>
 
 #include "commands/command.h"

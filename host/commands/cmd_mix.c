@@ -1,4 +1,4 @@
-/* eclat mix IN.exr lamp=2 sky=0.5,0.6,0.8 -o OUT.exr: the layers of a picture weighed anew, with their errors. */
+/* eclat mix IN.exr lamp=2 sky=0.5,0.6,0.8 -o OUT.exr: weights the layers of a picture anew, with their errors. */
 #include <math.h>
 #include <stdio.h>
 

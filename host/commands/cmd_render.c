@@ -20,7 +20,7 @@ static int list_rows(ec_option rows[EC_OPTIONS_MAX])
 static ec_result plan(ec_render_job *job, ec_error *err)
 {
     ec_plan plan;
-    job->ranks = NULL; /* one process and its device stand for all */
+    job->ranks = NULL; /* one process and its device stand for all ranks */
     EC_TRY(ec_render_job_load(job, err));
     EC_TRY(ec_render_plan(job, &plan, err));
     if (job->request->json) return ec_plan_json(&plan, job->listener->to, err);
@@ -28,7 +28,7 @@ static ec_result plan(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* A slice is written with its sums. */
+/* Writes the picture; a slice with its sums. */
 static ec_result write_rendered(ec_call *call, ec_outputs *outputs, ec_error *err)
 {
     const char *names[EC_OUTPUTS_MAX];
@@ -36,7 +36,7 @@ static ec_result write_rendered(ec_call *call, ec_outputs *outputs, ec_error *er
     return ec_render_job_write(&call->render, outputs, &report, err);
 }
 
-/* Reads the scene and options from the call, and the checkpoint to resume. */
+/* Reads the scene and options from the call, and the checkpoint that is resumed. */
 static ec_result take_request(ec_call *call, ec_render_request *request, ec_error *err)
 {
     if (!request->resume || call->input_count) EC_TRY(ec_call_scene(call, "render", &request->scene, err));
@@ -65,7 +65,7 @@ static ec_result list_entries(const ec_call *call, const ec_render_request *requ
     return ec_entries_of_scenes(call->inputs, call->input_count, &call->given, entries, err);
 }
 
-/* The page shows what there is, also where some has failed. */
+/* Writes the page of the pictures that exist, also if some have failed. */
 static ec_result write_index(const ec_render_request *request, const ec_entries *entries, ec_result result, ec_error *err)
 {
     ec_error why;

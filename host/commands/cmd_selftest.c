@@ -12,7 +12,7 @@ typedef struct request {
 
 #define REQUEST request
 
-/* An empty one chooses all. */
+/* An empty value chooses all cases. */
 static ec_result set_only(void *target, const char *option, const char *value, ec_error *err)
 {
     (void)option, (void)err;

@@ -1,4 +1,4 @@
-/* eclat view SCENE: a window that shows the render; what it saves is what `eclat render` would have written. */
+/* eclat view SCENE: a window that shows the render; it saves what `eclat render` would have written. */
 
 #include "commands/command.h"
 
@@ -31,7 +31,7 @@ static int list_rows(ec_option rows[EC_OPTIONS_MAX])
     return count;
 }
 
-/* The library runs it, since the window is a program of the public header (lib/eclat_view.c). */
+/* Run by the library, since the window is a client of the public header (lib/eclat_view.c). */
 const ec_command ec_cmd_view = {
     .told = {.name = "view", .operands = "SCENE [options]", .summary = "show a scene in a window while it renders",
              .intro = "Opens a window that shows a glTF 2.0 scene as it renders: rasterised at once, then path traced, coarsely while the camera moves and ever finer once it "

@@ -1,5 +1,5 @@
-/* eclat-compile: compiles the kernels of jobs (cl/compile_job.h) on standard input into the driver's cache, and tells of each on standard output. The
- * library starts it where a driver compiles under one lock for its whole process. It outlives who started it. */
+/* eclat-compile: reads jobs (cl/compile_job.h) from standard input, compiles their kernels into the driver's cache, and reports each on standard
+ * output. The library starts it for drivers that compile under one lock for the whole process. It outlives the process that started it. */
 #include <fcntl.h>
 #include <limits.h>
 #include <signal.h>
@@ -13,23 +13,24 @@
 #include "cl/cache.h"
 #include "cl/compiler.h"
 
-enum { LATER = 10, LOWEST = 19 }; /* priorities: 10 has a tenth of the weight of a render */
+enum { LATER = 10, LOWEST = 19 }; /* nice values: 10 has a tenth of the weight of a render */
 
-/* A session of its own has its share of the processors as a whole, where the system groups processes by sessions (sched(7), autogroup). */
+/* Lowers the priority. A session of its own gets one share of the processors as a whole, if the system groups processes by sessions (sched(7),
+ * autogroup). */
 static void give_way(int priority)
 {
     const int group = open("/proc/self/autogroup", O_WRONLY | O_CLOEXEC);
     char text[8];
     const int size = snprintf(text, sizeof text, "%d", priority);
     (void)!setpriority(PRIO_PROCESS, 0, priority);
-    if (group < 0) return; /* there are none */
+    if (group < 0) return; /* the system has no groups */
     (void)!write(group, text, (size_t)size);
     close(group);
 }
 
 static void tell(char what)
 {
-    ssize_t ignored = write(STDOUT_FILENO, &what, 1); /* who started it may be gone */
+    ssize_t ignored = write(STDOUT_FILENO, &what, 1); /* the process that started it may be gone */
     (void)ignored;
 }
 
@@ -39,7 +40,8 @@ static void compiled(uint32_t kernel)
     tell(EC_COMPILED_KERNEL);
 }
 
-/* One process at a time: whoever comes second finds kernels compiled. -1: no lock, or where nobody waits for it, somebody else's. */
+/* Takes a lock, so that one process compiles at a time, and the next one finds the kernels compiled. Returns -1 if there is no lock or, without
+ * `waits`, if another process has it. */
 static int lock(const char *cache_dir, const char *name, bool waits)
 {
     char folder[PATH_MAX], path[PATH_MAX + 32];
@@ -70,14 +72,14 @@ static bool run(ec_cl *cl, const ec_compile_job *job, ec_compile_states *states)
     ec_compile_run run;
     ec_result result = ec_compile_run_begin(cl, job, states, &run, NULL);
     if (result == EC_OK) result = ec_compile_run_open(&run, job->needed, compiled, NULL);
-    give_way(LATER); /* the render goes on without the rest */
+    give_way(LATER); /* the render goes on without the remaining kernels */
     if (result == EC_OK) result = ec_compile_run_all(&run, compiled, NULL);
     ec_compile_run_end(&run);
     if (result == EC_OK) ec_compile_job_done(cl, job);
     return result == EC_OK;
 }
 
-/* The first job is waited for; others are not. */
+/* Compiles the kernels of a job; somebody waits for the first one only. */
 static int compile_all(ec_compile_job *job, ec_compile_states *states)
 {
     ec_device_info info;
@@ -101,7 +103,7 @@ int main(void)
     signal(SIGPIPE, SIG_IGN);
     ec_compile_states *states = ec_compile_states_map(STDIN_FILENO);
     if (!states || fseek(stdin, sizeof *states, SEEK_SET) != 0 || !ec_compile_job_read(&job, stdin)) return 1;
-    if (fork() != 0) _exit(0); /* who waits for this process goes on; exit() would move the place in standard input, which both share */
-    setsid(); /* Ctrl-C is for the render */
+    if (fork() != 0) _exit(0); /* the waiting parent goes on; exit() would move the file position of standard input, which both share */
+    setsid(); /* so that Ctrl-C reaches only the render */
     return compile_all(&job, states);
 }

@@ -82,7 +82,7 @@ static void add_reference(cJSON *root, const ec_cost_reference *r)
             EC_REAL("seconds", r->seconds), EC_REAL("setup_seconds", r->setup_seconds));
 }
 
-/* Ids of the rungs that are the best of a column by evidence. */
+/* Adds the ids of the rungs that are best in a column, as far as there is evidence. */
 static void add_best(cJSON *to, const ec_cost_study *study)
 {
     static const char *const names[EC_COST_COLUMNS] = {"time", "variance", "to 5 %", "to 2 %", "to 1 %", "to 0.5 %"};

@@ -4,7 +4,7 @@
 #include "cost/cost.h"
 #include "report/format.h"
 
-/* From easy to hard: the first error from which on samples alone are sooner. Errors where either time is not known are passed over. */
+/* Returns the first error, from large to small, from which on samples alone are faster. Skips errors for which either time is unknown. */
 static double find_crossing(const ec_cost_row *noisy, const ec_cost_row *clean, bool *ever_pays)
 {
     enum { STEPS = 120 };

@@ -1,4 +1,4 @@
-/* Denoised pictures of a study: as `eclat render --denoise` makes them. */
+/* Takes denoised pictures of a study, like `eclat render --denoise`. */
 #include "denoise/denoise.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "cost/cost_internal.h"
 #include "film/resolve.h"
 
-/* All samples of a replicate. Others have as many, or one more or less, so that each is the same share of its set of features. */
+/* Takes all samples of a replicate. Others have as many, or one more or less, so that each is the same share of its set of features. */
 static ec_result take_replicate(ec_cost_runner *runner, const ec_sums *sums, ec_session_batch *batch, ec_error *err)
 {
     const uint32_t r = batch->replicate;
@@ -26,7 +26,7 @@ static ec_result denoise(ec_cost_runner *runner, ec_film *film, ec_error *err)
     EC_TRY(ec_denoise(film, EC_DENOISER_AUTO, &runner->study->cl->info, &came, err));
     if (!came.why_not) runner->denoise_seconds += came.seconds, runner->denoised++;
     if (film->clean.best) memcpy(runner->mean, film->clean.best, runner->pixels * 3 * sizeof(float));
-    else ec_film_resolve(film, runner->mean, NULL); /* too few samples: as it is */
+    else ec_film_resolve(film, runner->mean, NULL); /* too few samples to denoise */
     return EC_OK;
 }
 

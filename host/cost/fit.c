@@ -1,13 +1,13 @@
-/* From points to conclusions: the slope, the efficiency, the time to an accuracy. */
+/* Draws conclusions from points: slope, efficiency, time to an accuracy. */
 #include <math.h>
 
 #include "cost/cost_internal.h"
 
-/* Is the figure more than its own noise? */
+/* Tells whether the figure exceeds its own noise. */
 static bool is_known(const ec_cost_point *p) { return p->mse > 0 && p->mse > 2 * p->mse_se; }
 
-/* Weighted least squares of log error over log samples; points are of different pictures, so independent but for the reference. No
- * point counts as known to better than 1 %: the reference's error is common to all. */
+/* Weighted least squares of log error over log samples. Points come from different pictures, so they are independent except for the reference. No
+ * point counts as more precise than 1 %, as the reference's error is common to all. */
 static ec_cost_fit fit_slope(const ec_cost_point *points, uint32_t count)
 {
     double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0;
@@ -25,7 +25,7 @@ static ec_cost_fit fit_slope(const ec_cost_point *points, uint32_t count)
     return (ec_cost_fit){(w * wxy - wx * wy) / determinant, sqrt(w / determinant)};
 }
 
-/* By how much mse falls with samples beyond the largest picture: as over the last two octaves, 1 for independent samples. */
+/* Returns how fast mse falls with samples beyond the largest picture: as over the last two octaves; 1 for independent samples. */
 static double last_slope(const ec_cost_row *row)
 {
     const uint32_t n = row->point_count;
@@ -34,8 +34,8 @@ static double last_slope(const ec_cost_row *row)
     return fmin(fmax(log(from->mse / to->mse) / log((double)to->samples / from->samples), row->rung.fades ? 0.2 : 1), 2);
 }
 
-/* Samples a pixel until the error is under `target`; INFINITY: never. Where pictures as large were taken, along the line between two
- * points in the log-log chart, beyond them along the last one. */
+/* Returns the samples per pixel until the error is below `target`; INFINITY: never. Interpolates between points in the log-log chart, and
+ * extrapolates beyond the last one. */
 static double samples_to(const ec_cost_row *row, double target, bool *extrapolated)
 {
     const ec_cost_point *p = row->points, *last = &p[row->point_count - 1];
@@ -80,7 +80,7 @@ uint32_t ec_cost_pareto(const ec_cost_study *study, ec_cost_place *places, uint3
 {
     uint32_t count = 0;
     double fastest = 0, best = INFINITY;
-    while (count < most) { /* the next in time that beats all before it */
+    while (count < most) { /* finds the next in time that beats all before it */
         const ec_cost_point *next = NULL;
         for (uint32_t r = 0; r < study->row_count; r++)
             for (uint32_t i = 0; study->rows[r].state == EC_COST_MEASURED && i < study->rows[r].point_count; i++) {

@@ -1,4 +1,4 @@
-/* One page with everything inside. */
+/* Writes a page that contains everything it needs. */
 #include <stdlib.h>
 
 #include "cost/page.h"
@@ -6,7 +6,7 @@
 #include "cost/report.h"
 #include "report/page.h"
 
-/* As on a terminal; malloc'ed, NULL: out of memory. */
+/* Returns the table as on a terminal, malloc'ed; NULL: out of memory. */
 static char *table_text(const ec_cost_report *report)
 {
     char *text = NULL;

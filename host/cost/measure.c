@@ -1,5 +1,5 @@
-/* One rung, as exactly as its share of the budget allows: pictures of 1, 2, 4, … samples against the reference, then time in turns
- * with the base, so that other programs that slow the machine down slow both. */
+/* Measures one rung, as precisely as its share of the budget allows: pictures of 1, 2, 4, … samples against the reference, then time in turns with
+ * the base, so that other programs that slow the machine down affect both. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,8 +23,8 @@ static double median(double *values, uint32_t count)
     return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
-/* The standard error of a median: 1.2533 sigma / sqrt(n) for normal values; sigma by the median absolute deviation, since one of a few turns may
- * be an outlier. */
+/* Returns the standard error of a median, 1.2533 sigma / sqrt(n) for normal values. sigma comes from the median absolute deviation, since one of a
+ * few turns may be an outlier. */
 static double median_se(const double *values, uint32_t count, double middle)
 {
     double deviation[PAIRS_MOST];
@@ -38,7 +38,7 @@ typedef struct measurement {
     ec_cost_row *row;
     ec_cost_runner *runner;
     ec_cost_tally tally;
-    double rates[PAIRS_MOST]; /* seconds a sample of the larger pictures */
+    double rates[PAIRS_MOST]; /* seconds per sample of the larger pictures */
     uint32_t rate_count, index;
 } measurement;
 
@@ -54,8 +54,8 @@ static ec_result take_picture(measurement *m, uint32_t samples, ec_error *err)
     return EC_OK;
 }
 
-/* Where few pixels hold most of the error, two pictures say little of it. The level before tells, not this one: to stop when a figure
- * looks good would make it too good. */
+/* Returns how many pictures to take: if few pixels hold most of the error, two say little. This is judged by the level before, as stopping when a
+ * figure looks good would bias it. */
 static uint32_t choose_pictures(const ec_cost_row *row, uint32_t samples)
 {
     const ec_cost_point *before = row->point_count ? &row->points[row->point_count - 1] : NULL;
@@ -63,7 +63,7 @@ static uint32_t choose_pictures(const ec_cost_row *row, uint32_t samples)
     return samples <= 4 ? PICTURES_MOST : samples < 32 ? 64 / samples : PICTURES;
 }
 
-/* Pictures of n samples, two at least; *go_up: go on with 2 n. */
+/* Takes at least two pictures of n samples; *go_up: go on with 2 n. */
 static ec_result take_level(measurement *m, uint32_t samples, double end, bool *go_up, ec_error *err)
 {
     const uint32_t largest = ec_session_largest(m->runner->session), wanted = choose_pictures(m->row, samples);
@@ -104,7 +104,7 @@ static ec_result take_levels(measurement *m, double end, ec_error *err)
     return m->row->picture ? EC_OK : ec_fail(err, "out of memory for a picture");
 }
 
-/* Both render one picture, one after the other. */
+/* Times both by rendering one picture each, one after the other. */
 static ec_result time_in_turns(measurement *m, double end, ec_error *err)
 {
     double ratios[PAIRS_MOST], mine, bases;
@@ -129,7 +129,7 @@ static ec_result time_in_turns(measurement *m, double end, ec_error *err)
     return EC_OK;
 }
 
-/* The base's own time is that of its larger pictures; and how large a picture is timed in turns. */
+/* Sets the base's own time, that of its larger pictures, and the size of pictures that are timed in turns. */
 static void become_base(measurement *m)
 {
     uint32_t count = m->rate_count < PAIRS_MOST ? m->rate_count : PAIRS_MOST;
@@ -141,7 +141,7 @@ static void finish_times(measurement *m)
 {
     ec_cost_row *row = m->row;
     if (row->state != EC_COST_MEASURED) return;
-    if (m->base && !(row->relative_time > 0)) { /* interrupted before its turns: its own figure */
+    if (m->base && !(row->relative_time > 0)) { /* interrupted before its turns: uses its own figure */
         row->relative_time = m->runner->seconds_per_sample / m->base->seconds_per_sample;
         row->relative_time_se = NAN;
     }
@@ -166,7 +166,7 @@ static ec_result measure(measurement *m, double deadline, ec_error *err)
     return EC_OK;
 }
 
-/* Set-up is a part of the share, but kernels that take long to compile must not be all that a rung does. */
+/* Returns the end of the rung's time. Set-up is part of its share, but slow compilation must not take all of it. */
 static double rest_of(double share, double setup, double latest)
 {
     return fmin(ec_now() + fmax(share - setup, 0.5 * share), latest);
@@ -184,11 +184,11 @@ ec_result ec_cost_measure(ec_cost_study *study, ec_cost_base *base, ec_cost_row 
     if (result != EC_OK) {
         row->state = EC_COST_REFUSED;
         snprintf(row->note, sizeof row->note, "%.255s", why.text);
-        result = is_base ? ec_fail(err, "%s", why.text) : ec_cl_finish(study->cl, err); /* or is there no device any more? */
+        result = is_base ? ec_fail(err, "%s", why.text) : ec_cl_finish(study->cl, err); /* fails if the device is lost */
     } else if (!m.runner->stopped) {
         result = measure(&m, rest_of(share, row->setup_seconds, latest), err);
     }
-    if (result != EC_OK) row->state = EC_COST_PENDING, row->point_count = 0; /* half measured */
+    if (result != EC_OK) row->state = EC_COST_PENDING, row->point_count = 0; /* only half measured */
     ec_cost_tally_free(&m.tally);
     ec_cost_runner_close(&own);
     return result;

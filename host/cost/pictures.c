@@ -1,4 +1,4 @@
-/* Thumbnails, and those of a study as data URIs. */
+/* Makes thumbnails, and data URIs of those of a study. */
 #include "cost/cost_internal.h"
 
 #include <stdlib.h>
@@ -8,9 +8,9 @@
 #include "image/image.h"
 #include "report/page.h"
 
-enum { WIDTH_MOST = 192 }; /* of a thumbnail */
+enum { WIDTH_MOST = 192 }; /* width of a thumbnail */
 
-/* Every step-th pixel as it is: means of several would hide the noise that is to be seen. */
+/* Keeps every step-th pixel unchanged, as means would hide the noise that is to be seen. */
 typedef struct thumbnail {
     uint32_t width, height, step;
 } thumbnail;
@@ -44,7 +44,7 @@ uint8_t *ec_cost_stage(const ec_render_options *o, const float *rgb)
     return bytes;
 }
 
-/* to: an object or an array; key: NULL for an array */
+/* Adds a picture. to: an object, or an array, for which key is NULL. */
 static ec_result add(cJSON *to, const char *key, const thumbnail *t, const uint8_t *rgb, ec_error *err)
 {
     cJSON *text = NULL;
@@ -82,7 +82,7 @@ static uint32_t count_stages(const ec_cost_study *study)
     return count;
 }
 
-/* One row's, every step-th pixel. */
+/* Adds the stages of one row, every step-th pixel. */
 static ec_result add_row_stages(const ec_cost_row *row, uint32_t width, const thumbnail *t, uint8_t *bytes, cJSON *to, ec_error *err)
 {
     for (uint32_t k = 0; k < row->point_count; k++) {

@@ -1,4 +1,4 @@
-/* The reference that every rung is compared with: the whole scene, by the best that eclat has, or a file. */
+/* The reference with which every rung is compared: the whole scene, rendered as well as eclat can, or a file. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -33,7 +33,7 @@ static ec_result finish(ec_cost_reference *r, uint64_t pixels, ec_error *err)
     return EC_OK;
 }
 
-/* As a render takes them (film/schedule.h), from a seed that no rung has, until the deadline. */
+/* Takes batches as a render does (film/schedule.h), from a seed that no rung has, until the deadline. */
 static ec_result take_batches(ec_cost_runner *runner, ec_film *film, double deadline, ec_error *err)
 {
     const uint32_t seed = ec_session_seed(runner->study->options.seed, EC_COST_STREAM_REFERENCE, 0);
@@ -75,7 +75,7 @@ static ec_result foretell(ec_cost_runner *runner, ec_film *film, ec_error *err)
     return ec_film_set_rare(film, &rare, err);
 }
 
-/* No rung meets light that the reference has not met. */
+/* Warns of light that the reference has not met: no rung would meet it either. */
 static void warn_of_rare_paths(const ec_cost_study *study, const ec_film *film)
 {
     const ec_film_error e = ec_film_estimate_error(film);
@@ -98,7 +98,7 @@ ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_err
     if (result == EC_OK && !runner.stopped) result = ec_film_create(&film, o->width, o->height, ec_render_replicates(o), err);
     if (result == EC_OK && film.width) result = foretell(&runner, &film, err);
     if (result == EC_OK && film.width) result = take_batches(&runner, &film, deadline, err);
-    if (result == EC_OK && film.batch_count < 2) study->interrupted = true; /* nothing can be said of anything */
+    if (result == EC_OK && film.batch_count < 2) study->interrupted = true; /* no comparison is possible */
     if (result == EC_OK && film.batch_count >= 2) result = ec_cost_reference_of(&film, r, err);
     if (result == EC_OK && film.batch_count >= 2) warn_of_rare_paths(study, &film);
     r->seconds = ec_now() - start;
@@ -107,7 +107,7 @@ ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_err
     return result;
 }
 
-/* Where no standard error of luminance is kept, the channels' noise is taken to be of one mind, which makes it rather large. */
+/* Reads the reference. If it has no standard error of luminance, the channels' noise is taken as fully correlated, which overestimates it. */
 static ec_result take_exr(const ec_exr *exr, ec_cost_study *study, ec_error *err)
 {
     ec_cost_reference *r = &study->reference;

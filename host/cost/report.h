@@ -1,4 +1,4 @@
-/* The tellings of a study: a table for the terminal, JSON, and a page that holds both in charts. */
+/* Reports of a study: a table for the terminal, JSON, and a page with charts of both. */
 #ifndef EC_COST_REPORT_H
 #define EC_COST_REPORT_H
 
@@ -15,17 +15,17 @@ typedef struct ec_cost_report {
     uint32_t device_index;
 } ec_cost_report;
 
-/* All of a file or none of it. */
+/* Writes a file with `put`, completely or not at all. */
 typedef void ec_cost_put(FILE *to, const void *what);
 ec_result ec_cost_write(const char *path, ec_cost_put *put, const void *what, ec_error *err);
 
-/* bold: with escape codes for a terminal; else the best of a column gets an asterisk. */
+/* Prints the table. bold: with a terminal's escape codes; otherwise the best of a column has an asterisk. */
 void ec_cost_table(const ec_cost_report *report, bool bold, FILE *to);
 
 cJSON *ec_cost_json(const ec_cost_report *report); /* NULL when out of memory */
 ec_result ec_cost_write_json(const ec_cost_report *report, const char *path, ec_error *err);
 
-/* Everything inside: opens without a network. */
+/* Writes a page that contains everything it needs and opens without a network. */
 ec_result ec_cost_write_html(const ec_cost_report *report, const char *path, ec_error *err);
 
 #endif

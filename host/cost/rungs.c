@@ -1,5 +1,5 @@
-/* The rungs: what `eclat render` does by default, and that with one thing changed. First those that tell most, since a budget that
- * is too small ends the list early. */
+/* The rungs: the default of `eclat render`, and the default with one thing changed. The most informative come first, since a small budget ends the
+ * list early. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,12 +17,12 @@ const double ec_cost_targets[EC_COST_TARGETS] = {0.05, 0.02, 0.01, 0.005};
 
 typedef struct rung_list {
     const ec_scene *scene;
-    uint64_t called; /* effects */
-    bool is_rough;   /* metal or glass, so that --scattering makes a difference */
+    uint64_t called; /* effects that the scene calls for */
+    bool is_rough;   /* there is metal or glass for which --scattering makes a difference */
     const ec_render_options *base;
     ec_cost_row *rows;
     uint32_t count;
-    const char *group, *title; /* of what is added next */
+    const char *group, *title; /* those of the rungs added next */
 } rung_list;
 
 __attribute__((format(printf, 3, 4))) static ec_cost_rung *add(rung_list *list, const char *id, const char *name, ...)
@@ -90,7 +90,7 @@ static void add_roulettes(rung_list *list)
     off->unbiased = false;
 }
 
-/* Fireflies have a cost, and so has getting rid of them: the floor is the light that is missing. */
+/* Adds clamps, which remove fireflies at a price: their floor is the light that is missing. */
 static void add_clamps(rung_list *list)
 {
     static const double limits[] = {1, 10, 100};
@@ -104,7 +104,7 @@ static void add_clamps(rung_list *list)
     }
 }
 
-/* Another model of the surface, so another picture: the floor is the light that is lost by scattering once. */
+/* Adds multiple scattering, another model of surfaces and so another picture: the floor is the light that single scattering loses. */
 static void add_scattering(rung_list *list)
 {
     if (!list->is_rough) return;
@@ -114,7 +114,7 @@ static void add_scattering(rung_list *list)
     again->unbiased = false;
 }
 
-/* A library that is named but not there is told of by --denoise; the study goes on without it. */
+/* Adds the denoiser. A library that is named but missing is reported by --denoise; the study goes on without it. */
 static void add_denoiser(rung_list *list)
 {
     ec_denoiser found;
@@ -155,7 +155,7 @@ static void add_speeds(rung_list *list)
     add_speed(list, "lanes", "16")->options.lanes = 16;
 }
 
-/* `without`: an effect of the scene; 0: of light transport. of: a material and 1, or 0 for all. */
+/* Adds a rung without an effect. without: an effect of the scene; 0: of light transport. of: a material's index plus 1, or 0 for all. */
 static ec_cost_rung *add_effect(rung_list *list, uint64_t without, uint32_t of, const char *id, const char *name)
 {
     ec_cost_rung *rung = add(list, id, "%s", name);
@@ -166,7 +166,7 @@ static ec_cost_rung *add_effect(rung_list *list, uint64_t without, uint32_t of, 
     return rung;
 }
 
-/* Effects of the scene, by their names. */
+/* Adds effects of the scene by name. */
 static void add_called(rung_list *list, uint64_t which)
 {
     for (uint32_t i = 0; i < ec_feature_count; i++) {
@@ -186,7 +186,7 @@ static bool is_lamp(const ec_scene *scene, uint32_t material)
     return false;
 }
 
-/* A light group is the environment, all lights without extent, or what shines with one material. */
+/* Adds groups of lights: the environment, all lights without extent, and each of the materials that emit. */
 #define LIGHTS (EC_FEATURE_ENVIRONMENT | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_EMISSION)
 static void add_lights(rung_list *list)
 {

@@ -1,11 +1,11 @@
-/* A rung set up on the device. */
+/* Sets up a rung on the device. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/clock.h"
 #include "cost/cost_internal.h"
 
-enum { LARGEST_BATCH = 256 }; /* what waves are fitted to; pictures may have more samples */
+enum { LARGEST_BATCH = 256 }; /* samples for which waves are sized; pictures may have more */
 
 bool ec_cost_go_on(void *user)
 {
@@ -21,7 +21,7 @@ static ec_result open_session(ec_cost_study *study, const ec_cost_rung *rung, ec
 {
     uint64_t before = study->cl->allocated_bytes;
     ec_render_options options = rung->options;
-    options.compile = EC_COMPILE_FIRST; /* what is measured is rendering with the fast kernels */
+    options.compile = EC_COMPILE_FIRST; /* rendering is measured with the fast kernels */
     options.clamp_luminance = options.clamp * study->reference.mean_luminance; /* no pilot knows it better */
     study->cl->peak_allocated_bytes = before;
     ec_result result = ec_session_open(study->cl, study->scene, &options, LARGEST_BATCH, session, stats, err);
@@ -29,7 +29,7 @@ static ec_result open_session(ec_cost_study *study, const ec_cost_rung *rung, ec
     return result;
 }
 
-/* The first picture compiles what drivers compile at the first launch, the second tells what of its time was that. */
+/* Opens a runner. The first picture includes what drivers compile at the first launch; the second tells how much of its time that was. */
 ec_result ec_cost_runner_open(ec_cost_study *study, const ec_cost_rung *rung, ec_cost_runner *runner, ec_render_stats *stats,
                               double *setup, ec_error *err)
 {
@@ -65,7 +65,7 @@ static void add_up(ec_cost_runner *runner, uint32_t count)
     }
 }
 
-/* As a render takes them: so many samples in replicates (film/schedule.h). */
+/* Takes a picture as a render does: the samples are divided among replicates (film/schedule.h). */
 ec_result ec_cost_runner_take(ec_cost_runner *runner, uint32_t seed, uint32_t samples, double *seconds, ec_error *err)
 {
     const uint32_t count = samples < runner->replicates ? samples : runner->replicates;

@@ -1,4 +1,4 @@
-/* The budget: what is done when, and for how long. */
+/* Divides the budget: what is done when, and for how long. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,19 +6,19 @@
 #include "base/clock.h"
 #include "cost/cost_internal.h"
 
-/* The reference's share. Its noise is taken out of every figure, but not the uncertainty that it brings; with a third of the time it
- * has some ten times the samples of a rung, and what it adds is small. */
+/* The reference's share. Its noise is removed from every figure, but not the uncertainty that it adds; with a third of the time it has some ten times
+ * the samples of a rung, and adds little. */
 static const double reference_share = 0.3;
 
 typedef struct study_state {
     ec_cost_study *study;
     ec_cost_base base;
-    double deadline;      /* of all rungs */
+    double deadline;      /* for all rungs */
     uint32_t planned;     /* rows from here on are given up */
-    double setup, slowest; /* of the last rungs, smoothed; and the longest */
+    double setup, slowest; /* set-up of the last rungs, smoothed; the longest one */
 } study_state;
 
-/* All comparisons stand on the base; times need fewer samples than errors. */
+/* Weights a rung's share: all comparisons depend on the base; times need fewer samples than errors. */
 static double weight(const ec_cost_rung *rung)
 {
     return rung->is_base ? 1.5 : rung->speed_only ? 0.35 : rung->is_effect ? 0.7 : 1;
@@ -31,16 +31,16 @@ static double share_of(const study_state *s, uint32_t row)
     return (s->deadline - ec_now()) * weight(&s->study->rows[row].rung) / all;
 }
 
-enum { ENOUGH = 64 }; /* samples a pixel that a rung is to get: two pictures of EC_COST_UNIT and those before them */
+enum { ENOUGH = 64 }; /* samples per pixel for a rung: two pictures of EC_COST_UNIT, and the smaller ones before them */
 
-/* Set-up and samples enough for figures; rungs give way from the end of the list until those before them get that much. The reference tells it
- * of the first one: a budget that goes to few rungs says something of these. */
+/* Gives up rungs from the end of the list until those before them have time for set-up and enough samples for figures. For the first one this is
+ * estimated from the reference: a budget spent on few rungs tells something of these. */
 static void give_up_some(study_state *s, uint32_t row)
 {
     double picture = s->base.seconds_per_sample * (double)s->study->options.width * s->study->options.height;
     double needed = 1.2 * s->setup + ENOUGH * picture;
     while (s->planned > (row ? row : 1) && share_of(s, row) < needed * weight(&s->study->rows[row].rung)) s->planned--;
-    /* Kernels may have to be compiled, and that cannot be broken off. */
+    /* Kernels may have to be compiled, which cannot be interrupted. */
     if (row && ec_now() + s->slowest + 0.05 * s->study->budget > s->deadline) s->planned = row;
 }
 
@@ -52,7 +52,7 @@ static void explain_the_rest(study_state *s, const char *by)
         all += weight(&study->rows[i].rung);
         if (study->rows[i].state == EC_COST_MEASURED) done += weight(&study->rows[i].rung);
     }
-    double enough = study->budget * all / fmax(done, 0.5); /* shares as long as those were */
+    double enough = study->budget * all / fmax(done, 0.5); /* the budget with which all would get shares as long as those */
     for (uint32_t i = 0; i < study->row_count; i++) {
         ec_cost_row *row = &study->rows[i];
         if (row->state != EC_COST_PENDING) continue;
@@ -65,7 +65,7 @@ static void explain_the_rest(study_state *s, const char *by)
     }
 }
 
-/* A picture for timing: a few per cent of a rung's share. */
+/* Sets the size of a picture for timing: a few per cent of a rung's share. */
 static void settle_base(study_state *s)
 {
     double picture = s->study->rows[0].seconds_per_sample * (double)s->study->options.width * s->study->options.height;
@@ -90,13 +90,13 @@ static ec_result measure_rows(study_state *s, ec_error *err)
         EC_TRY(ec_cost_measure(study, &s->base, row, share_of(s, i), s->deadline, err));
         s->setup = i ? 0.5 * (s->setup + row->setup_seconds) : row->setup_seconds;
         s->slowest = fmax(s->slowest, row->setup_seconds);
-        if (i == 0 && row->state != EC_COST_MEASURED) break; /* nothing to compare with */
+        if (i == 0 && row->state != EC_COST_MEASURED) break; /* there is nothing to compare with */
         if (i == 0) settle_base(s);
     }
     return EC_OK;
 }
 
-/* Errors are of a pixel, so that fewer pixels tell as much, if less surely: halved until all rungs get their samples in half of the time. */
+/* Halves the size until all rungs get their samples in half of the time. Errors are per pixel, so fewer pixels tell as much, if less precisely. */
 static ec_result fit_size(study_state *s, ec_error *err)
 {
     enum { LEAST = 64 }; /* pixels high */
@@ -125,7 +125,7 @@ ec_result ec_cost_run(ec_cost_study *study, ec_error *err)
     study_state s = {.study = study};
     EC_TRY(ec_cost_list(study->scene, &study->options, &study->rows, &study->row_count, err));
     s.planned = study->row_count;
-    s.deadline = study->start + study->budget - (0.2 + 0.01 * study->budget); /* writing takes its time too */
+    s.deadline = study->start + study->budget - (0.2 + 0.01 * study->budget); /* leaves time for writing */
     study->doing = "reference";
     EC_TRY(fit_size(&s, err));
     if (study->reference_file)

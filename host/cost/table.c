@@ -1,4 +1,4 @@
-/* The study in one table. */
+/* Prints the study as a table. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 enum { CELL = 48, NAME_WIDTH = 27, LINE = 96 };
 enum { RELATIVE, VARIANCE, BIAS, TO_FIRST, COLUMNS = TO_FIRST + EC_COST_TARGETS };
 static const char *const titles[COLUMNS] = {"time", "variance", "bias", "to 5 %", "2 %", "1 %", "0.5 %"};
-static const int widths[COLUMNS] = {7, 9, 13, 10, 10, 10, 10}; /* with the names, LINE in all */
+static const int widths[COLUMNS] = {7, 9, 13, 10, 10, 10, 10}; /* LINE in all, with the names */
 
 typedef struct table {
     const ec_cost_study *study;
@@ -37,7 +37,7 @@ static void wrap(FILE *to, const char *first, const char *text)
     fputc('\n', to);
 }
 
-/* Three digits and a unit. */
+/* Formats three digits and a unit. */
 static void format_time(double seconds, char *text, size_t size)
 {
     static const struct {
@@ -100,7 +100,7 @@ static void print_row(const table *t, uint32_t index)
     fputs(row->invalid ? "  not finite!\n" : "\n", t->to);
 }
 
-/* Rows that were not measured, those of one reason together. */
+/* Prints the rows that were not measured, grouped by reason. */
 static void print_left(const ec_cost_study *study, FILE *to)
 {
     for (uint32_t i = 0; i < study->row_count; i++) {

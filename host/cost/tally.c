@@ -49,7 +49,7 @@ static void add(ec_cost_sum *s, double d)
     s->square += d * d;
 }
 
-/* The weight of a pixel's difference in relmse, where it is 1 in mse. */
+/* Returns the weight of a pixel's difference in relmse; in mse it is 1. */
 static double own_weight(double reference)
 {
     double floored = reference + EC_RELMSE_FLOOR;
@@ -70,10 +70,10 @@ void ec_cost_tally_add(ec_cost_tally *t, const float *rgb)
     }
 }
 
-/* Squared standard error of the mean over all pixels of all pictures, as if pictures had nothing in common. */
+/* Returns the squared standard error of the mean over all pixels of all pictures, as if pictures were independent. */
 static double own_se2(const ec_cost_sum *s, double count) { return fmax(s->square - s->sum * s->sum / count, 0) / (count * count); }
 
-/* They have the reference's error in common, which more pictures do not lessen: Var (b - e)^2 = 2 var Y^2 + 4 b^2 var Y. */
+/* Adds the reference's error, which all pictures share and more of them do not reduce: Var (b - e)^2 = 2 var Y^2 + 4 b^2 var Y. */
 static void add_common(const ec_cost_tally *t, double *mse, double *relmse)
 {
     const ec_cost_reference *r = t->reference;

@@ -1,4 +1,4 @@
-/* What a study says in words, and no more than it has evidence for. */
+/* Says in words what a study shows, and no more than there is evidence for. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ void ec_cost_label(const ec_cost_rung *rung, char *text, size_t size)
     snprintf(text, size, "%s%s", prefix, rung->is_base ? "the default" : rung->name);
 }
 
-/* Rungs that do not converge to the picture do not compete. */
+/* Tells whether a rung competes: it must converge to the picture. */
 static bool competes(const ec_cost_row *row)
 {
     const ec_cost_rung *r = &row->rung;
@@ -29,8 +29,8 @@ static bool competes(const ec_cost_row *row)
 
 static double square(double x) { return x * x; }
 
-/* The relative noise of the time to an error: that of the squared error at the first picture under it; beyond the last picture also that of the slope
- * along which it is extrapolated, over the logarithm of the way. */
+/* Returns the relative noise of the time to an error: that of the squared error at the first picture below it; beyond the last picture also that of
+ * the extrapolated slope, times the logarithm of the distance. */
 static double noise_near(const ec_cost_row *row, double error)
 {
     const ec_cost_point *p = row->points;
@@ -57,7 +57,7 @@ ec_cost_figure ec_cost_figure_of(const ec_cost_study *study, const ec_cost_row *
     const ec_cost_row *base = &study->rows[0], *curve = row->rung.speed_only ? base : row; /* the same bits have the same errors */
     const double factor = row->rung.speed_only ? row->relative_time : 1, seconds = factor * curve->seconds_to[target];
     if (!isfinite(seconds)) return none;
-    const double noise = row->rung.speed_only ? 0 : noise_near(curve, ec_cost_targets[target]); /* which then cancels */
+    const double noise = row->rung.speed_only ? 0 : noise_near(curve, ec_cost_targets[target]); /* it cancels */
     return (ec_cost_figure){seconds, seconds * sqrt(square(noise) + square(time_se))};
 }
 
@@ -75,7 +75,7 @@ uint32_t ec_cost_best(const ec_cost_study *study, ec_cost_column column)
     return best;
 }
 
-/* The smallest error that the default has reached, else the largest for which its time is foretold; -1: none. */
+/* Returns the smallest error that the default has reached, or else the largest for which its time is foretold; -1: none. */
 static int find_goal(const ec_cost_row *base)
 {
     int goal = -1;
@@ -114,7 +114,7 @@ static void say_winner(const ec_cost_study *study, ec_cost_column column, char *
         sqrt(square(f.se / f.value) + square(base_noise)) / gain, count);
 }
 
-/* Effects whose loss is certain, the largest first. */
+/* Names effects whose loss is certain, the largest first. */
 static void say_effects(const ec_cost_study *study, char *text, size_t size)
 {
     bool said[128] = {false};

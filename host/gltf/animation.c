@@ -1,4 +1,4 @@
-/* One document, many scenes. */
+/* Makes many scenes, one for each moment, of one document. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +11,12 @@
 struct ec_animation {
     ec_gltf *gltf;
     char *path;
-    double posed_at; /* the moment that it is posed at and no scene has been made of; NaN: one has */
-    bool spans;      /* a box is known, in which all of it is at all times: */
+    double posed_at; /* time in seconds at which the document is posed, if no scene has been made of it yet; otherwise NaN */
+    bool spans;      /* low and high are known: a box that holds everything at all times */
     double low[3], high[3];
 };
 
-/* Pictures are decoded when the first scene needs them, and kept. */
+/* Allocates the table in which pictures, decoded when the first scene needs them, are kept for the others. */
 static ec_result make_room(ec_gltf *g, ec_error *err)
 {
     g->decoded_count = g->image_count;
@@ -63,7 +63,7 @@ ec_result ec_animation_show(ec_animation *a, const ec_scene_choice *choice, ec_s
     return EC_OK;
 }
 
-/* How long what is played takes; 0: the file does not say. */
+/* Finds how long the chosen animations take, in seconds; 0: the file does not say. */
 static ec_result find_seconds(const ec_animation *a, const ec_scene_choice *choice, double *seconds, ec_error *err)
 {
     const ec_scene_contents *c = &a->gltf->contents;

@@ -9,7 +9,7 @@
 
 enum { WIDTH_MOST = 4096 };
 
-/* A face's middle, and where its columns and rows run to. */
+/* The middle of each face, and the directions in which its columns and rows advance. */
 static const struct {
     double middle[3], right[3], down[3];
 } frames[6] = {{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
@@ -21,7 +21,7 @@ void ec_cube_free(ec_cube *cube)
     *cube = (ec_cube){0};
 }
 
-/* The face that direction d (of any length) meets, and where on it, from -1 to 1. */
+/* Returns the face that direction d (of any length) meets, and where on it: *right and *down are -1 to 1. */
 static int meet(const double d[3], double *right, double *down)
 {
     int axis = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
@@ -38,8 +38,8 @@ static int64_t nearest(double at, int64_t size)
     return i < 0 ? 0 : i >= size ? size - 1 : i;
 }
 
-/* Pixel (x, y) of a face, either of which may lie one beyond its edge: that is the neighbour's. At a corner, where only three pixels
- * meet, their mean stands for the fourth, so that all three faces interpolate to the same there. */
+/* Reads pixel (x, y) of a face; either coordinate may be one beyond the edge, where the neighbouring face is read. At a corner, where only three
+ * pixels meet, their mean stands for the fourth, so that all three faces interpolate to the same value there. */
 static void texel(const ec_cube *cube, int f, int64_t x, int64_t y, double rgb[3])
 {
     int64_t size = cube->size, in_x = x < 0 ? 0 : x >= size ? size - 1 : x, in_y = y < 0 ? 0 : y >= size ? size - 1 : y;

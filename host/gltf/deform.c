@@ -1,5 +1,5 @@
-/* Morph targets and skins. A mesh that they move is replaced by a copy that stands as it is shown, so that nothing after this knows
- * of either, and a scene without them pays nothing. */
+/* Applies morph targets and skins. A mesh that they move is replaced by a copy in its final shape, so that later steps know of neither, and scenes
+ * without them pay nothing. */
 #include "gltf/deform.h"
 #include "base/text.h"
 #include "gltf/flatten.h"
@@ -14,8 +14,8 @@
 typedef struct deformer {
     ec_gltf *g;
     ec_placement_list *placements;
-    int32_t *placement_of; /* by node; -1: not in the scene */
-    int32_t *shared;       /* by mesh: its copy under its own weights, which instances share; -1: none yet */
+    int32_t *placement_of; /* by node: index into the placements; -1: not in the scene */
+    int32_t *shared;       /* by mesh: its copy deformed by its own weights, shared by all nodes without weights and skins; -1: none yet */
     uint64_t bytes;
     ec_error *err;
 } deformer;
@@ -34,7 +34,7 @@ static bool has_influences(const ec_gltf_mesh *mesh)
     return false;
 }
 
-/* A few bytes may stand for many vertices, and each node that deforms a mesh takes a copy of it. */
+/* Fails if the deformed copies outgrow the memory: a few bytes may stand for many vertices, and each node that deforms a mesh has a copy of its own. */
 static ec_result check_memory(deformer *d, const ec_gltf_primitive *p)
 {
     uint64_t memory = ec_memory_of_machine();
@@ -58,7 +58,7 @@ static ec_result prepare(deformer *d, const ec_pose *pose, const ec_gltf_primiti
     return pose->joints ? ec_gltf_influences_prepare(d->g, p, where, d->err) : EC_OK;
 }
 
-/* A mesh of the same primitives, which share what is not moved. Its index is that of the last. */
+/* Appends a copy of a mesh, whose primitives share the streams that are not deformed. */
 static ec_result copy_mesh(deformer *d, int32_t index)
 {
     ec_gltf *g = d->g;
@@ -97,7 +97,7 @@ static ec_result deform_mesh(deformer *d, const ec_pose *pose, int32_t index)
     return EC_OK;
 }
 
-/* A skinned mesh stands in the world: its node does not move it, but a camera there, or a joint. */
+/* Places a skinned mesh in the world. Its node no longer moves it, but still moves a camera there and acts as a joint. */
 static ec_result stand_in_world(deformer *d, uint32_t index, const ec_pose *pose)
 {
     ec_placement *at = &d->placements->items[index];
@@ -131,7 +131,7 @@ static ec_result visit(deformer *d, uint32_t index)
     ec_pose pose = {.weights = node->weight_count ? node->weights : mesh->weights,
                     .weight_count = node->weight_count ? node->weight_count : mesh->weight_count};
     bool skinned = node->skin >= 0 && has_influences(mesh);
-    if (d->g->animated && (skinned || pose.weight_count)) at->reached = true, at->moves = d->g->blurs; /* its joints or weights may */
+    if (d->g->animated && (skinned || pose.weight_count)) at->reached = true, at->moves = d->g->blurs; /* its joints or weights may be animated */
     if (!any_weight(pose.weights, pose.weight_count)) pose.weight_count = 0;
     ec_result result = skinned ? ec_pose_skin(d->g, node->skin, d->placements, d->placement_of, &pose, d->err) : EC_OK;
     if (result == EC_OK && (skinned || pose.weight_count)) result = deform(d, node, &pose, at);

@@ -1,10 +1,10 @@
-/* A primitive's vertices, moved by morph targets and then by joints: glTF 2.0, 3.7.2.2 and 3.7.3.3. */
+/* Moves a primitive's vertices by morph targets, then by joints: glTF 2.0, 3.7.2.2 and 3.7.3.3. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "gltf/deform.h"
 
-/* One stream and what targets add to it; -1: they do not. */
+/* One stream, and the accessors of what each target adds to it; -1: nothing. */
 typedef struct moved {
     const ec_gltf_accessor *base;
     float *out;
@@ -21,7 +21,7 @@ static void morph(const ec_gltf *g, const ec_gltf_primitive *p, const ec_pose *p
         int32_t accessor = p->targets[t].of[stream];
         if (pose->weights[t] == 0 || accessor < 0) continue;
         const ec_gltf_accessor *a = &g->accessors[accessor];
-        uint32_t count = a->components < m->components ? a->components : m->components; /* a tangent's sign stays */
+        uint32_t count = a->components < m->components ? a->components : m->components; /* a tangent's sign is not morphed */
         ec_gltf_accessor_floats(a, vertex, count, value);
         for (uint32_t k = 0; k < count; k++) out[k] += (double)pose->weights[t] * (double)value[k];
     }
@@ -58,7 +58,7 @@ static ec_result move_vertex(const ec_gltf *g, const ec_gltf_primitive *p, const
     return EC_OK;
 }
 
-/* Takes `values`. */
+/* Appends an accessor that owns `values`; they are freed on failure. */
 static ec_result append(ec_gltf *g, float *values, uint64_t count, uint32_t components, int32_t *accessor, ec_error *err)
 {
     ec_gltf_accessor *grown = realloc(g->accessors, ((size_t)g->accessor_count + 1) * sizeof *grown);
@@ -74,7 +74,7 @@ static ec_result append(ec_gltf *g, float *values, uint64_t count, uint32_t comp
     return EC_OK;
 }
 
-/* Does this pose change the stream? */
+/* Tells whether this pose changes the stream. */
 static bool is_moved(const ec_gltf_primitive *p, const ec_pose *pose, int stream)
 {
     if (p->streams.of[stream] < 0) return false;

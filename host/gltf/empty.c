@@ -1,5 +1,5 @@
-/* No triangle is left: is that a picture of what lies around, or a mistake? What a file hides, or at the moment shown has
- * scaled to nothing, it means to; a file without surfaces has nothing to show. */
+/* Decides whether a scene without any triangle is an error. It is not if the file hides its surfaces, or scales them to nothing at this moment: the
+ * picture then shows only the surroundings. A file without surfaces has nothing to show. */
 #include "gltf/flatten_vertex.h"
 
 #include <stdio.h>
@@ -28,7 +28,7 @@ static ec_result add_cause(const ec_gltf *g, int32_t node, bool hidden, char *te
 ec_result ec_flatten_empty(const ec_flattener *f, const ec_gltf *g, const ec_placement_list *placements)
 {
     const ec_scene *s = f->scene;
-    int32_t hidden = -1, flat = -1; /* the first node of each */
+    int32_t hidden = -1, flat = -1; /* the first node of each kind */
     char why[320] = "";
     for (uint32_t i = placements->count; i-- > 0;) {
         const ec_placement *at = &placements->items[i];

@@ -1,5 +1,4 @@
-/* Which files a scene is read from. Looked up in its JSON alone, so that it is known before all of it is read, and of a
- * scene that cannot be. */
+/* Lists the files that a scene is read from. Only its JSON is read, so that the list is known early, and also for a scene that cannot be loaded. */
 #include <cjson/cJSON.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -12,7 +11,7 @@
 
 #define LARGEST_JSON (256u << 20)
 
-/* Joins the folder and the name; what there is no memory for is left out. */
+/* Appends folder + name to the list, or leaves it out if there is no memory. */
 static void add(ec_scene_files *files, const char *folder, int folder_length, const char *name)
 {
     char **more = realloc(files->paths, (files->count + 1) * sizeof *more);
@@ -34,7 +33,7 @@ static void add_uris(ec_scene_files *files, const cJSON *list, const char *folde
     }
 }
 
-/* A pipe could block for ever. */
+/* Opens regular files only: a pipe could block for ever. */
 static FILE *open_regular(const char *path)
 {
     struct stat info;
@@ -44,7 +43,7 @@ static FILE *open_regular(const char *path)
     return file;
 }
 
-/* The JSON of a .gltf, or the first chunk of a .glb. malloc'ed; NULL: none to be had. */
+/* Returns the JSON of a .gltf, or the first chunk of a .glb, malloc'ed; NULL if there is none. */
 static char *read_json(const char *path)
 {
     FILE *file = open_regular(path);

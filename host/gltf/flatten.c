@@ -1,4 +1,4 @@
-/* Flattens placed meshes into one triangle soup: positions go through double, are recentred and only then rounded. */
+/* Flattens placed meshes into one set of triangles: positions are computed in double and recentred before they are rounded to float. */
 #include "gltf/keep.h"
 
 #include <float.h>
@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 
-/* But for those of meshes that are kept once. */
+/* Calls the function for each primitive of each placement, except for meshes that are kept once. */
 static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_placement_list *list, ec_draw_function function)
 {
     for (uint32_t i = 0; i < list->count; i++) {
@@ -21,7 +21,7 @@ static ec_result for_each_draw(ec_flattener *f, const ec_gltf *g, const ec_place
     return EC_OK;
 }
 
-/* Many instances of one mesh make a small file huge: say so rather than be killed for it. */
+/* Fails if the scene does not fit into memory, as many instances of one mesh make a small file huge: an error is better than being killed. */
 static ec_result check_memory(const ec_flattener *f, const char *path)
 {
     uint64_t per_vertex = 0;
@@ -34,7 +34,7 @@ static ec_result check_memory(const ec_flattener *f, const char *path)
                    (unsigned long long)(memory >> 20));
 }
 
-/* First pass: where it is. Vertices of triangles that will be dropped must not move the centre. */
+/* First pass: measures the extent. Vertices of triangles that will be dropped must not move the centre. */
 static ec_result measure_draw(ec_flattener *f, const ec_draw *d)
 {
     ec_draw_span(d, f->low, f->high);

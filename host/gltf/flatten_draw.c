@@ -1,4 +1,4 @@
-/* One primitive at one place: how much of it there can be, and its triangles but for those that are none. */
+/* Draws one primitive at one place: counts how much geometry it can have at most, and appends its triangles that have an area. */
 #include "gltf/flatten_vertex.h"
 
 #include <float.h>
@@ -75,7 +75,7 @@ static double largest_component(const double v[3])
     return fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
 }
 
-/* Collinear as stored in the file: rounding after the transform could give such a triangle a meaningless area. */
+/* Tells whether the corners are collinear as stored in the file: rounding after the transform could give such a triangle a meaningless area. */
 static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
 {
     float local[3][3];
@@ -85,7 +85,7 @@ static bool is_flat_in_file(const ec_draw *d, const uint32_t v[3])
     return largest_component(normal) == 0;
 }
 
-/* A triangle must have an area that floats can express; otherwise it is counted and left out. */
+/* Tells whether a triangle has an area that floats can express; if not, it is counted and will be left out. */
 static bool is_drawable(ec_flattener *f, const ec_draw *d, const uint32_t v[3], float position[3][3])
 {
     double normal[3];
@@ -114,7 +114,7 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
         uint32_t v[3];
         float position[3][3];
         double world[3][3];
-        ec_draw_corners(d, t, v, world); /* wherever they are: is_drawable counts */
+        ec_draw_corners(d, t, v, world); /* corners that are not numbers are counted by is_drawable */
         for (int i = 0; i < 9; i++) position[i / 3][i % 3] = (float)(world[i / 3][i % 3] - d->center[i % 3]);
         if (!is_drawable(f, d, v, position)) continue;
         size_t n = s->triangle_count++;
@@ -126,7 +126,7 @@ ec_result ec_flattener_fill(ec_flattener *f, const ec_draw *d)
                         (ec_source){f->placement, (uint32_t)(d->p - d->g->meshes[d->at->mesh].primitives), v[i]};
                 *known = ec_flattener_append_vertex(f, d, v[i], position[i]);
             }
-            /* a mirrored mesh is turned, so that its front stays its front */
+            /* triangles of a mirrored mesh are reversed, so that its front stays its front */
             s->indices[3 * n + (size_t)(d->mirrored && i ? 3 - i : i)] = *known;
         }
         s->triangle_material[n] = d->p->scene_material;

@@ -1,4 +1,4 @@
-/* One vertex with its streams, from a primitive's accessors to the scene's arrays. */
+/* Copies one vertex with its streams from a primitive's accessors to the scene's arrays. */
 #include "gltf/flatten_vertex.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ void ec_draw_world_position(const ec_draw *d, uint32_t vertex, double out[3])
     for (int i = 0; i < 3; i++) out[i] += d->at->origin[i];
 }
 
-/* Unit length or, where that makes no sense, zero. */
+/* Stores v at unit length, or zero if that is impossible. */
 static void store_direction(const double v[3], float out[3])
 {
     double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
@@ -43,15 +43,15 @@ void ec_draw_frame(const ec_draw *d, uint32_t vertex, float *normal, float *tang
         multiply(d->at->linear, in, turned);
         store_direction(turned, tangent);
         bool usable = tangent[0] != 0 || tangent[1] != 0 || tangent[2] != 0;
-        /* the bitangent is mirrored with the mesh, n x t is not */
+        /* the bitangent is mirrored with the mesh, but n x t is not */
         tangent[3] = !usable ? 0 : (in[3] < 0) != d->mirrored ? -1.0f : 1.0f;
     }
 }
 
-/* Deformed copies are those of a mesh of the file. */
+/* Returns the index of the mesh in the file, also for a deformed copy. */
 static int32_t file_mesh(const ec_draw *d) { return d->mesh < (int32_t)d->g->stored_meshes ? d->mesh : d->g->nodes[d->at->node].mesh; }
 
-/* NaN and infinity. */
+/* Counts normals that are NaN or infinite. */
 static void count_odd_normal(struct ec_odd_values *odd, const ec_draw *d, uint32_t vertex)
 {
     float in[3];
@@ -61,7 +61,7 @@ static void count_odd_normal(struct ec_odd_values *odd, const ec_draw *d, uint32
     if (!odd->count++) odd->mesh = file_mesh(d);
 }
 
-/* Clamped to low..high; NaN becomes 0. */
+/* Stores values clamped to low..high; NaN becomes 0. */
 static void store_values(struct ec_odd_values *odd, const ec_draw *d, int32_t accessor, uint32_t vertex, uint32_t count,
                          float low, float high, float *out)
 {

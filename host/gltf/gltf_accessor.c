@@ -1,11 +1,11 @@
-/* Typed reading of buffers. Every range is checked once, when an accessor is opened; reading is then plain. */
+/* Reads buffers by type. Every range is checked once, when an accessor is opened; reading is then plain. */
 #include "gltf/codecs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A file may claim elements that no bytes stand for (no bufferView: zeros). Beyond this it is an attack, not a mesh. */
+/* The most elements that a file may claim without bytes behind them (no bufferView: zeros). More is an attack, not a mesh. */
 #define MAX_IMPLIED_ELEMENTS (1u << 24)
 
 static uint32_t component_size(uint32_t type)
@@ -32,8 +32,8 @@ ec_result ec_gltf_check_views(const ec_gltf *g, ec_error *err)
     return EC_OK;
 }
 
-/* Sizes that the decoder may be called with, and no more output than its input can stand for: a byte may be a triangle of 12 bytes, or
- * 16 equal vertices of 256. */
+/* Tells whether the decoder may be called with these sizes, and its input can stand for so much output: a byte may be a triangle of 12 bytes, or 16
+ * equal vertices of 256. */
 static bool is_plausible(const ec_gltf_meshopt *p, uint64_t room)
 {
     bool attributes = p->mode == EC_MESHOPT_ATTRIBUTES;
@@ -57,13 +57,13 @@ static ec_result unpack(ec_gltf *g, int32_t view, ec_error *err)
         return ec_fail(err, "%s: bufferViews[%d], compressed by meshopt: %llu elements of %u bytes do not go with its mode, filter or length",
                        g->path, view, (unsigned long long)p->count, p->stride);
     v->length = p->count * p->stride;
-    v->owned = calloc(v->length + 256, 1); /* its filters work on blocks */
+    v->owned = calloc(v->length + 256, 1); /* the decoder's filters work on whole blocks */
     if (!v->owned) return ec_fail(err, "%s: out of memory for bufferViews[%d]", g->path, view);
     if (ec_meshopt_decode(p, b->data + p->offset, v->owned)) return EC_OK;
     return ec_fail(err, "%s: bufferViews[%d], compressed by meshopt: its data are broken%s", g->path, view, ec_meshopt_hint(p, b->data + p->offset));
 }
 
-/* Finds `count` elements of `size` bytes in a view; *data is the first. */
+/* Locates `count` elements of `size` bytes in a view; *data is the first. */
 static ec_result locate(ec_gltf *g, int32_t view, uint64_t offset, uint64_t count, uint64_t size, uint64_t stride,
                         const uint8_t **data, const char *where, ec_error *err)
 {
@@ -156,7 +156,7 @@ ec_result ec_gltf_accessor_open(ec_gltf *g, int32_t accessor, const char *what, 
     return EC_OK;
 }
 
-/* Any type but float, which has a quicker way below. */
+/* Loads a component of any type; floats have a faster path below. */
 static float load_component(const uint8_t *p, uint32_t type, bool normalized)
 {
     const uint32_t size = component_size(type), word = load_index(p, size == 4 ? EC_GLTF_UINT : size == 2 ? EC_GLTF_USHORT : EC_GLTF_UBYTE);
@@ -182,7 +182,7 @@ void ec_gltf_accessor_floats(const ec_gltf_accessor *a, uint64_t element, uint32
     }
     const uint8_t *p = a->data + element * a->stride;
     uint32_t size = component_size(a->component_type);
-    if (a->component_type == EC_GLTF_FLOAT) { /* nearly always: without a look at the type for each component */
+    if (a->component_type == EC_GLTF_FLOAT) { /* the usual case, without checking the type of each component */
         for (uint32_t c = 0; c < count; c++) {
             uint32_t word = load_index(p + 4 * c, EC_GLTF_UINT);
             memcpy(&out[c], &word, sizeof word);

@@ -1,5 +1,5 @@
-/* A moment of an animation is a change to the document: what each channel says at that time is written where it points, before
- * nodes, meshes, materials, lights and cameras are read. So KHR_animation_pointer costs nothing more than its pointers. */
+/* Shows a moment of an animation by changing the document: the value of each channel at that time is written where it points to, before nodes,
+ * meshes, materials, lights and cameras are read. KHR_animation_pointer thus needs only the resolution of its pointers. */
 #include "gltf/gltf_schema.h"
 #include "gltf/gltf_shim.h"
 
@@ -17,7 +17,7 @@ namespace eclat {
 using nlohmann::json;
 using path = std::vector<std::string>;
 
-/* A JSON pointer's parts; ~1 stands for a slash and ~0 for a tilde. */
+/* Splits a JSON pointer into its parts; ~1 stands for a slash and ~0 for a tilde. */
 static path split(const std::string &pointer)
 {
     path parts;
@@ -34,7 +34,7 @@ static path split(const std::string &pointer)
     return parts;
 }
 
-/* Only what is read after this; the rest of the tree already stands in arrays. */
+/* Tells whether a pointer leads to what is read after animation; the rest of the tree has already been converted. */
 static bool may_move(const path &to)
 {
     if (to.size() < 3) return false;
@@ -57,27 +57,27 @@ static const field *find_field(const schema &shape, const std::string &name)
     return nullptr;
 }
 
-/* Does a member's path lead through that object? */
+/* Tells whether the path of some member leads through that object. */
 static bool has_within(const schema &shape, const std::string &object)
 {
     return std::any_of(shape.begin(), shape.end(),
                        [&](const field &f) { return std::strncmp(f.name, object.c_str(), object.size()) == 0; });
 }
 
-/* An object that has only defaults so far need not be in the file. One that names a texture, or is of an extension, means
- * more. */
+/* Tells whether an object may be missing from the file because all of its members have defaults. One that names a texture or belongs to an extension
+ * may not. */
 static bool has_defaults(const path &to, size_t i, const schema &shape)
 {
     if (to[i] == "extensions" || to[i - 1] == "extensions") return false;
     return std::none_of(shape.begin(), shape.end(), [](const field &f) { return f.required; });
 }
 
-/* Finds the field that a pointer leads to; nullptr where there is none that may be written. */
+/* Finds the field that a pointer leads to; nullptr if there is none that may be written. */
 static const field *find_target(const json &root, const path &to)
 {
     if (!may_move(to)) return nullptr;
     const schema *shape = &document_schema;
-    const json *at = &root; /* nothing where only defaults are */
+    const json *at = &root; /* nullptr: only defaults from here on */
     std::string inner;      /* path within the shape */
     for (size_t i = 0; i < to.size(); i++) {
         bool last = i + 1 == to.size();
@@ -89,7 +89,7 @@ static const field *find_target(const json &root, const path &to)
             continue;
         }
         if (f->type == kind::number || f->type == kind::flag) return last ? f : nullptr;
-        if (f->type == kind::numbers) { /* all, or one weight of many */
+        if (f->type == kind::numbers) { /* all of them, or a single weight */
             bool one = i + 2 == to.size() && to[i] == "weights" && at && element(*at, to[i + 1]);
             return last || one ? f : nullptr;
         }
@@ -102,7 +102,7 @@ static const field *find_target(const json &root, const path &to)
     return nullptr;
 }
 
-/* To what find_target has found. */
+/* Writes the value of a field that find_target has found. */
 static void write(json &root, const path &to, const json &value)
 {
     const std::string &last = to.back();
@@ -138,7 +138,7 @@ static json sample(ec_gltf *gltf, const json &sampler, const path &to, kind type
     return std::vector<double>(numbers.values, numbers.values + numbers.count);
 }
 
-/* Where a channel points; empty: at nothing, which glTF lets it. */
+/* Returns the pointer of a channel's target; empty if it has none, which glTF allows. */
 static std::string pointer_of(const json &target)
 {
     const json *extension = find_extension(target, "KHR_animation_pointer");
@@ -215,7 +215,7 @@ std::vector<uint32_t> choose_animations(const json &root, const ec_scene_choice 
 bool apply_moment(json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice, ec_gltf *gltf, const ec_log *log)
 {
     bool more = false;
-    for (uint32_t i : animations) { /* they stay where they are: what is written is elsewhere */
+    for (uint32_t i : animations) { /* the animations themselves do not move: what is written is elsewhere in the tree */
         const json &animation = root["animations"][i];
         more |= apply(root, animation, "animations[" + std::to_string(i) + "]", choice, gltf, log);
     }

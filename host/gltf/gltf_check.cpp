@@ -1,4 +1,4 @@
-/* Walks a JSON tree along the schema: types, required members, ranges, index ranges. */
+/* Checks a JSON tree against the schema: types, required members, ranges and index ranges. */
 #include "gltf/gltf_schema.h"
 #include "gltf/gltf_shim.h"
 
@@ -43,7 +43,7 @@ class checker {
     const char *path;
     const ec_log *log;
 
-    /* A member of a member, by its path. */
+    /* Checks a member of a member, given by its path. */
     void check_inside(json &value, const field &f, const std::string &outer, const char *rest, const std::string &where)
     {
         auto found = value.find(outer);
@@ -63,7 +63,7 @@ class checker {
     }
     static std::string item(const std::string &where, size_t i) { return where + "[" + std::to_string(i) + "]"; }
 
-    /* false: leave it out, the default will do. */
+    /* Returns false if the value is to be removed, so that its default applies. */
     bool check_value(json &value, const field &f, const std::string &where)
     {
         switch (f.type) {
@@ -75,7 +75,7 @@ class checker {
             if (!value.is_boolean()) fail(where, "must be true or false");
             break;
         case kind::choice: return check_choice(value, f, where);
-        case kind::accessor_type: /* an unknown one is wrong only where it is read, as a matrix would be */
+        case kind::accessor_type: /* an unknown type is an error only when it is read, like a matrix */
             if (!is_among(value, f.detail)) value = "MAT2";
             break;
         case kind::object: check_object(value, f.members, where); break;
@@ -117,7 +117,7 @@ class checker {
     {
         if (!value.is_number()) fail(where, "must be a number");
         if (!std::isfinite(float(value.get<double>()))) fail(where, "is too large: " + value.dump());
-        value = value.get<double>(); /* whatever is written without a point */
+        value = value.get<double>(); /* also if it was written without a decimal point */
     }
 
     void check_text(const json &value, const std::string &where)
@@ -187,7 +187,7 @@ class checker {
     }
 };
 
-/* All texture uses below a material: each is an object with an index, wherever it is. */
+/* Tells whether a material uses a texture: each use is an object with an index, at any depth. */
 static bool uses_texture(const json &value, size_t texture)
 {
     if (!value.is_structured()) return false;
@@ -198,7 +198,7 @@ static bool uses_texture(const json &value, size_t texture)
     return false;
 }
 
-/* An image that is not there is no error where no material asks for it: the texture is as one without an image. */
+/* Accepts textures whose image does not exist if no material uses them: they count as textures without an image. */
 static void check_sources(json &root, const char *path, const ec_log *log)
 {
     const size_t images = list_of(root, "images").size(), textures = list_of(root, "textures").size();

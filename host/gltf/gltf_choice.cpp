@@ -1,4 +1,4 @@
-/* Scenes and variants: what was chosen becomes what the tree says. */
+/* Writes the chosen scene and material variant into the tree. */
 #include "gltf/gltf_shim.h"
 
 namespace eclat {
@@ -37,7 +37,7 @@ static int material_of(const json &primitive, uint32_t variant)
     return -1;
 }
 
-/* Primitives that say nothing of the variant keep their material. */
+/* Gives primitives the material of the chosen variant; those without a mapping for it keep theirs. */
 void choose_variant(json &root, const ec_scene_choice *choice, ec_gltf *gltf)
 {
     ec_scene_names &names = gltf->contents.variants;

@@ -1,4 +1,4 @@
-/* Images, cameras and lights from the checked JSON tree. */
+/* Converts images, cameras and lights from the checked JSON tree. */
 #include "gltf/gltf_shim.h"
 
 #include <algorithm>
@@ -37,11 +37,11 @@ void convert_image_light(const json &root, ec_gltf *gltf, const ec_log *log)
     out.used = true;
 }
 
-static const float widest_yfov = 3.0f; /* glTF only advises to stay below pi, where a picture has no plane */
+static const float widest_yfov = 3.0f; /* radians; glTF only advises to stay below pi, where there is no image plane */
 
 static const float widest_aspect = 128; /* a picture of the default height is then 65536 pixels wide */
 
-/* The schema knows that the member named as the type is there. */
+/* Sets type and size of a camera. The schema guarantees the member that is named by the type. */
 static void set_lens(const json &in, ec_camera &out)
 {
     const std::string &type = in["type"].get_ref<const std::string &>();
@@ -78,9 +78,9 @@ void convert_cameras(const json &list, ec_gltf *gltf, const ec_log *log)
     });
 }
 
-static const double half_pi = 1.57079632679489662, quarter_pi = 0.7853981634; /* rounded as tinygltf has it: pictures stay what they are */
+static const double half_pi = 1.57079632679489662, quarter_pi = 0.7853981634; /* rounded as in tinygltf, so that pictures do not change */
 
-/* Colours over 1 do no harm, but intensities that floats overflow by do. */
+/* Sets colour, intensity and cone of a light. Colours over 1 are harmless; intensities that overflow floats are not, and are reported by odd. */
 static void set_light(const json &in, ec_light &out, bool &odd)
 {
     const std::string &type = in["type"].get_ref<const std::string &>();

@@ -3,7 +3,7 @@
 #include "base/sha256.h"
 #include "gltf/gltf.h"
 
-/* A chain: what came before, how many bytes, and these. */
+/* Chains digests: hashes the digest so far, the length, and the bytes. */
 void ec_gltf_digest_add(ec_gltf *g, const uint8_t *bytes, uint64_t length)
 {
     ec_sha256 hash;
@@ -14,12 +14,12 @@ void ec_gltf_digest_add(ec_gltf *g, const uint8_t *bytes, uint64_t length)
     ec_sha256_end(&hash, g->digest);
 }
 
-/* An image that cannot be read is one that the scene goes without. */
+/* Adds the file of an image. One that cannot be read is skipped, as the scene does without it. */
 static void add_image(ec_gltf *g, const ec_gltf_image *image)
 {
     EC_FREED uint8_t *bytes = NULL;
     uint64_t length = 0;
-    if (!image->uri || !strncmp(image->uri, "data:", 5)) return; /* in the document */
+    if (!image->uri || !strncmp(image->uri, "data:", 5)) return; /* it is part of the document */
     ec_gltf_uri_load(g, "image", image->uri, &bytes, &length, NULL);
     ec_gltf_digest_add(g, bytes, length);
 }

@@ -1,4 +1,4 @@
-/* Which extensions are read, which change no picture, and what is said of the others. */
+/* Lists the extensions that are read and those that change no picture, and reports all others. */
 #include "gltf/gltf_shim.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace eclat {
 
 using nlohmann::json;
 
-/* Beside those in which a field of materials is. */
+/* Besides those of the fields of materials. */
 static const char *const supported_extensions[] = {
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -29,7 +29,7 @@ static const char *const supported_extensions[] = {
     "KHR_texture_transform",
     "MSFT_lod"};
 
-/* Those that change no picture: what they describe is for other programs than renderers, or, as FB_ngon_encoding, says how a file was made. */
+/* Extensions that change no picture: they describe something for programs other than renderers or, like FB_ngon_encoding, how the file was made. */
 static const char *const silent_extensions[] = {
     "AGI_stk_metadata",
     "EXT_feature_metadata",
@@ -62,7 +62,7 @@ template <size_t n> static bool is_in(const char *const (&list)[n], const std::s
     return std::find(list, list + n, name) != list + n;
 }
 
-/* Extensions that need a library which this build may lack. */
+/* Extensions that need a library, which this build may lack. */
 static const struct {
     const char *name, *package;
     const bool &built;
@@ -106,7 +106,7 @@ static std::string comma_list(const std::set<std::string> &names)
     return printable(list);
 }
 
-/* The list has its place before it has its strings: should one fail, what there is can be freed. */
+/* Allocates the list before its strings: if one fails, what there is can be freed. */
 static void copy_strings(const std::set<std::string> &names, ec_scene_names &list)
 {
     list.names = make_array<char *>(names.size());

@@ -1,4 +1,4 @@
-/* Releases a glTF document, also a half-built one. */
+/* Frees a glTF document, also one that is only half built. */
 #include "gltf/gltf.h"
 
 #include <stdlib.h>
@@ -34,7 +34,7 @@ void ec_gltf_unpose(ec_gltf *g)
     while (g->accessor_count > g->stored_accessors) free(g->accessors[--g->accessor_count].owned);
     while (g->mesh_count > g->stored_meshes) free_mesh(&g->meshes[--g->mesh_count]);
     for (uint32_t i = 0; i < g->mesh_count; i++)
-        for (uint32_t k = 0; k < g->meshes[i].primitive_count; k++) /* what alpha hid may be seen now */
+        for (uint32_t k = 0; k < g->meshes[i].primitive_count; k++) /* what alpha hid may be visible now */
             g->meshes[i].primitives[k].drawn = g->meshes[i].primitives[k].triangle_count > 0;
 }
 

@@ -1,4 +1,4 @@
-/* Views, accessors, meshes and skins from the checked JSON tree: index ranges and types are known to be good. */
+/* Converts views, accessors, meshes, skins and nodes from the checked JSON tree; index ranges and types are already checked. */
 #include "gltf/gltf_shim.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void convert_views(const json &list, ec_gltf *gltf)
     });
 }
 
-/* Components of an element; 0: a matrix that nothing here reads. */
+/* Returns the number of components of an element; 0: a matrix type that is never read. */
 static uint32_t component_count(const std::string &type)
 {
     return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : type == "MAT4" ? 16 : 0;
@@ -82,7 +82,7 @@ static ec_gltf_streams convert_streams(const json &attributes)
     return streams;
 }
 
-/* JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... */
+/* Collects JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... */
 static void convert_influences(const json &attributes, ec_gltf_primitive &out)
 {
     auto name = [](const char *stem) { return [stem](uint32_t i) { return stem + std::to_string(i); }; };
@@ -162,7 +162,7 @@ double element(const json &object, const char *key, size_t i, double fallback)
     return found == object.end() ? fallback : (*found)[i].get<double>();
 }
 
-/* Translation x rotation x scale, column major. A quaternion that is not unit is normalised; zero is no rotation. */
+/* Computes translation x rotation x scale, column major. A quaternion that is not unit is normalised; zero is no rotation. */
 static void compose_local(double m[16], const json &node)
 {
     double t[3], q[4], s[3];
@@ -174,7 +174,7 @@ static void compose_local(double m[16], const json &node)
     ec_gltf_compose(t, q, s, m);
 }
 
-/* MSFT_lod: a node that lists coarser ones is itself the finest. They may stand in the scene all the same. */
+/* MSFT_lod: hides the coarser versions that a node lists, which may be part of the scene too. The node itself is the finest. */
 static void hide_coarser(const json &list, ec_gltf *gltf)
 {
     for (const json &in : list)
@@ -182,7 +182,7 @@ static void hide_coarser(const json &list, ec_gltf *gltf)
             for (const json &id : list_of(*lod, "ids")) gltf->nodes[id.get<size_t>()].hidden = true;
 }
 
-/* The last row of a node's matrix is 0 0 0 1. */
+/* Warns of node matrices whose last row is not 0 0 0 1. */
 static void warn_projective(const json &list, ec_gltf *gltf, const ec_log *log)
 {
     for (size_t i = 0; i < list.size(); i++) {
@@ -221,7 +221,7 @@ void convert_nodes(const json &list, ec_gltf *gltf, const ec_log *log)
     warn_projective(list, gltf, log);
 }
 
-/* The nodes of the scene to show; where the file has no scenes, all that are nobody's child. */
+/* Finds the nodes of the scene to show; if the file has no scenes, all nodes without a parent. */
 void set_roots(const json &root, ec_gltf *gltf)
 {
     std::vector<int> roots;

@@ -1,11 +1,11 @@
-/* The outer shell of a glTF file: is it a .glb or JSON text (by content), do the lengths fit, is the JSON sane? */
+/* Reads the container of a glTF file: .glb or JSON text, told apart by content. Checks lengths and the depth of the JSON. */
 #include "gltf/gltf_shim.h"
 
 #include <cstring>
 
 namespace eclat {
 
-/* Deeper than any real file; what recurses over the tree stays within the stack. */
+/* Deeper than any real file; keeps recursion over the tree within the stack. */
 static const int max_json_depth = 64;
 
 static void check_depth(const char *text, size_t length)

@@ -11,7 +11,7 @@ typedef struct curve {
     const ec_gltf *g;
     const ec_gltf_accessor *times, *values;
     ec_interpolation interpolation;
-    uint32_t components, per_key; /* elements at a key: as many as weights, else 1 */
+    uint32_t components, per_key; /* elements per key: the number of weights, else 1 */
 } curve;
 
 static float key_time(const curve *c, uint64_t key)
@@ -55,7 +55,7 @@ static ec_result open_curve(ec_gltf *g, const ec_gltf_keyframes *k, const char *
 
 enum { IN_TANGENT, VALUE, OUT_TANGENT };
 
-/* All numbers at a key. Parts other than VALUE are there in cubic splines only. */
+/* Reads all numbers of a key. Parts other than VALUE exist only in cubic splines. */
 static void read_key(const curve *c, uint64_t key, int part, double *out)
 {
     uint64_t first = c->interpolation == EC_CUBICSPLINE ? 3 * key + (uint64_t)part : key;
@@ -66,7 +66,7 @@ static void read_key(const curve *c, uint64_t key, int part, double *out)
     }
 }
 
-/* The last key that is not after `at`; -1: all are. */
+/* Returns the last key that is not after `at`; -1: all are after it. */
 static int64_t find_key(const curve *c, double at)
 {
     uint64_t low = 0, high = c->times->count;
@@ -89,7 +89,7 @@ static void normalize(double q[4])
     for (int i = 0; i < 4 && length > 0; i++) q[i] /= length;
 }
 
-/* Along the shorter arc; where the two nearly agree, along the chord. */
+/* Interpolates along the shorter arc or, if the two nearly agree, along the chord; the result is in a. Normalises both. */
 static void slerp(double a[4], double b[4], double t)
 {
     normalize(a);
@@ -105,14 +105,14 @@ static void slerp(double a[4], double b[4], double t)
     for (int i = 0; i < 4; i++) a[i] = u * a[i] + v * sign * b[i];
 }
 
-/* Between a key and the next, t of the way; `out` holds the key's value, `work` has room for three more. */
+/* Interpolates between a key and the next, at fraction t; `out` holds the key's value, and then the result. `work` has room for three values. */
 static void interpolate(const curve *c, uint64_t key, double t, double duration, bool rotation, double *out, double *work)
 {
     uint32_t n = c->components * c->per_key;
     double *next = work, *leave = work + n, *arrive = work + 2 * n;
     if (c->interpolation == EC_STEP) return;
     read_key(c, key + 1, VALUE, next);
-    if (c->interpolation == EC_LINEAR && !memcmp(out, next, n * sizeof *out)) return; /* still, to the last bit */
+    if (c->interpolation == EC_LINEAR && !memcmp(out, next, n * sizeof *out)) return; /* unchanged, to the last bit */
     if (c->interpolation == EC_LINEAR && rotation) {
         slerp(out, next, t);
         return;

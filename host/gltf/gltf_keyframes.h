@@ -7,7 +7,7 @@
 typedef enum ec_interpolation { EC_LINEAR, EC_STEP, EC_CUBICSPLINE } ec_interpolation;
 
 typedef struct ec_gltf_keyframes {
-    int32_t input, output; /* accessors: times in seconds, values */
+    int32_t input, output; /* accessors: times in seconds, and values */
     ec_interpolation interpolation;
 } ec_gltf_keyframes;
 
@@ -16,12 +16,12 @@ typedef struct ec_gltf_numbers {
     uint32_t count;
 } ec_gltf_numbers;
 
-/* Its value at a moment, that of the nearest key before the first and after the last one. `where` is for messages, which do not
- * name the file. */
+/* Computes the sampler's value at time `at` in seconds; before the first and after the last key, the value of that key. `where` is for messages,
+ * which do not name the file. */
 ec_result ec_gltf_keyframes_sample(ec_gltf *gltf, const ec_gltf_keyframes *keyframes, bool rotation, double at, const char *where,
                                    ec_gltf_numbers *numbers, ec_error *err);
 
-/* How many of its keys lie between two moments. It has been sampled. */
+/* Counts the keys strictly between two times. The sampler must have been sampled before. */
 uint32_t ec_gltf_keyframes_between(const ec_gltf *gltf, const ec_gltf_keyframes *keyframes, double from, double to);
 
 #endif

@@ -1,4 +1,4 @@
-/* Materials by the rows of shared/material_fields.h, and what those cannot say; textures with their samplers. */
+/* Converts materials by the rows of shared/material_fields.h and special rules beyond these, and textures with their samplers. */
 #include "gltf/gltf_shim.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace eclat {
 
 using nlohmann::json;
 
-/* NULL: the file does not say. */
+/* Returns the value at a path; NULL if the file does not have it. */
 static const json *find_path(const json &material, const char *path)
 {
     const json *at = &material;
@@ -29,7 +29,7 @@ static const json *find_path(const json &material, const char *path)
 
 static const ec_texture_use no_texture = {-1, 0, {1, 0, 0, 0, 1, 0}};
 
-/* KHR_texture_transform: T x R x S, the rotation being counter-clockwise as seen with v pointing down. */
+/* KHR_texture_transform: T x R x S; the rotation is counter-clockwise if v points down. */
 static void set_transform(ec_texture_use &use, int64_t &uv_set, const json &t)
 {
     double angle = t.value("rotation", 0.0), c = std::cos(angle), s = std::sin(angle);
@@ -65,8 +65,8 @@ static void set_field(ec_material &out, const ec_material_field &field, const js
     for (int i = 0; said && i < field.floats; i++) floats[i] = said->is_array() ? (*said)[size_t(i)].get<float>() : said->get<float>();
 }
 
-/* attenuationColor is what is left of white light after attenuationDistance (Beer-Lambert). What a file says of a body's
- * thickness only tells bodies from thin walls: rays find the way through by themselves. */
+/* Sets absorption: attenuationColor is what is left of white light after attenuationDistance (Beer-Lambert). The thickness in the file only
+ * distinguishes bodies from thin walls; rays find the way through by themselves. */
 static void set_volume(ec_material &out, const json &v, const std::string &where, const ec_gltf *gltf, const ec_log *log)
 {
     double thickness = v.value("thicknessFactor", 0.0), distance = v.value("attenuationDistance", double(INFINITY));
@@ -81,7 +81,7 @@ static void set_volume(ec_material &out, const json &v, const std::string &where
     if (odd) ec_warn(log, "%s: %s.KHR_materials_volume has values out of range; they are clamped", gltf->path, where.c_str());
 }
 
-/* One more texture: roughness from the glossiness in another's alpha. */
+/* Appends a texture that takes roughness from the glossiness in another texture's alpha. */
 static int32_t append_gloss(ec_gltf *gltf, int32_t texture, double factor)
 {
     auto *grown = static_cast<ec_gltf_texture *>(realloc(gltf->textures, (size_t(gltf->texture_count) + 1) * sizeof *gltf->textures));
@@ -93,12 +93,12 @@ static int32_t append_gloss(ec_gltf *gltf, int32_t texture, double factor)
     return int32_t(gltf->texture_count++);
 }
 
-/* KHR_materials_pbrSpecularGlossiness, archived. Its specular colour is the reflectance seen head-on, without metals: what
- * KHR_materials_ior has the index 0 for. Diffuse is weighed by 1 - max(F) there, by 1 - max(F0) here, so grazing views are darker. */
+/* KHR_materials_pbrSpecularGlossiness, archived. Its specular colour is the reflectance seen head-on, without metals: what KHR_materials_ior has the
+ * index 0 for. Diffuse is weighted by 1 - max(F) there, by 1 - max(F0) here, so grazing views are darker. */
 static void set_specular_glossiness(ec_material &out, const json &in, const std::string &where, ec_gltf *gltf, const ec_log *log)
 {
     const json *s = find_extension(in, "KHR_materials_pbrSpecularGlossiness");
-    if (!s || find_extension(in, "KHR_materials_specular")) return; /* a file that has both says it better there */
+    if (!s || find_extension(in, "KHR_materials_specular")) return; /* which describes it better if a file has both */
     double glossiness = s->value("glossinessFactor", 1.0);
     for (size_t i = 0; i < 4; i++) out.base_color[i] = float(element(*s, "diffuseFactor", i, 1));
     for (size_t i = 0; i < 3; i++) out.specular_color[i] = float(element(*s, "specularFactor", i, 1));
@@ -127,14 +127,14 @@ static void set_material(ec_material &out, const json &in, const std::string &wh
             out.emission[i] = float(element(in, "emissiveFactor", i, 0) * strength->value("emissiveStrength", 1.0));
     if (const json *anisotropy = find_extension(in, "KHR_materials_anisotropy"))
         out.anisotropy_rotation = float(std::remainder(anisotropy->value("anisotropyRotation", 0.0), 6.283185307179586));
-    if (const json *older = find_path(in, EC_KHR "volume_scatter/multiscatterColor")) /* of drafts before 2026 */
+    if (const json *older = find_path(in, EC_KHR "volume_scatter/multiscatterColor")) /* of drafts of the extension before 2026 */
         for (size_t i = 0; i < 3; i++) out.scatter[i] = (*older)[i].get<float>();
     if (find_path(in, EC_KHR "volume_scatter/multiscatterColorTexture"))
         ec_warn(log, "%s: %s has a multiscatterColorTexture, which is left out: bodies scatter alike all over", gltf->path, where.c_str());
     const json *volume = find_extension(in, "KHR_materials_volume");
-    for (float &absorption : out.absorption) absorption = 0; /* the file has a colour there */
+    for (float &absorption : out.absorption) absorption = 0; /* the file has a colour in its place */
     bool passes = find_extension(in, "KHR_materials_transmission") || find_extension(in, "KHR_materials_diffuse_transmission");
-    if (volume && passes) set_volume(out, *volume, where, gltf, log); /* into others nothing gets */
+    if (volume && passes) set_volume(out, *volume, where, gltf, log); /* nothing gets into other bodies */
     set_specular_glossiness(out, in, where, gltf, log);
     out.name = copy_string(in.value("name", ""));
 }

@@ -1,4 +1,4 @@
-/* A primitive's vertices and triangles: types, counts and indices checked once, then read as plain triangles. */
+/* Checks a primitive's types, counts and indices once; it can then be read as plain triangles. */
 #include "gltf/codecs.h"
 
 #include <stdio.h>
@@ -19,8 +19,8 @@ static unsigned kind_of(const ec_gltf_accessor *a)
 
 typedef struct stream_rule {
     const char *name;
-    unsigned components[2]; /* allowed */
-    unsigned core, quantized; /* kinds allowed by glTF, and in addition by KHR_mesh_quantization */
+    unsigned components[2]; /* allowed numbers */
+    unsigned core, quantized; /* kinds allowed by glTF, and those that KHR_mesh_quantization adds */
 } stream_rule;
 
 static const stream_rule rules[EC_STREAMS] = {
@@ -82,7 +82,7 @@ static ec_result open_indices(ec_gltf *g, const ec_gltf_primitive *p, const char
     return EC_OK;
 }
 
-/* Range of the indices; one beyond the vertices is an error. */
+/* Finds the range of the indices; one beyond the vertices is an error. */
 static ec_result scan_indices(const ec_gltf *g, ec_gltf_primitive *p, uint64_t count, const char *where, ec_error *err)
 {
     uint64_t vertices = g->accessors[p->streams.of[EC_POSITION]].count;
@@ -151,7 +151,7 @@ ec_result ec_gltf_influences_prepare(ec_gltf *g, const ec_gltf_primitive *p, con
 void ec_gltf_primitive_triangle(const ec_gltf *g, const ec_gltf_primitive *p, uint64_t t, uint32_t v[3])
 {
     uint64_t corner[3] = {3 * t, 3 * t + 1, 3 * t + 2};
-    if (p->mode == EC_GLTF_STRIP) { /* every second one is turned, so that all face the same way */
+    if (p->mode == EC_GLTF_STRIP) { /* every second triangle is reversed, so that all face the same way */
         corner[0] = t;
         corner[1] = t + 1 + t % 2;
         corner[2] = t + 2 - t % 2;

@@ -1,4 +1,4 @@
-/* The shape of a glTF document: a file that does not have it is refused with the place that is wrong. Only members that eclat reads are listed. */
+/* The schema of glTF documents, as far as eclat reads them. A file that does not conform is refused, and the message names the wrong place. */
 #include "gltf/gltf_schema.h"
 #include "shared/material_fields.h"
 
@@ -85,7 +85,7 @@ static const schema camera = {
 
 static const schema image = {plain("uri", kind::text), index("bufferView", "bufferViews"), name};
 static const schema texture = {
-    count("source", 0, false, int_count), index("sampler", "samplers"), /* of one that nothing uses no image need be there: check_sources */
+    count("source", 0, false, int_count), index("sampler", "samplers"), /* a texture that nothing uses need not have an image: check_sources */
     object("extensions", {object("EXT_texture_avif", {index("source", "images", required)}),
                           object("EXT_texture_webp", {index("source", "images", required)}),
                           object("KHR_texture_basisu", {index("source", "images", required)})})};

@@ -1,4 +1,4 @@
-/* Describes the members of a JSON object: gltf_schema.cpp does so for glTF, gltf_check.cpp compares documents with it. */
+/* Describes the members of a JSON object: gltf_schema.cpp describes glTF, and gltf_check.cpp compares documents with it. */
 #ifndef EC_GLTF_GLTF_SCHEMA_H
 #define EC_GLTF_GLTF_SCHEMA_H
 
@@ -28,9 +28,9 @@ struct field {
     const char *name;           /* or a path: "outer/inner" */
     kind type;
     bool required = false;
-    const char *detail = nullptr; /* index: the array pointed into (rows: each element); choice: what is allowed */
-    double low = 0, high = 0;   /* count; numbers: how many (0 or less: any); rows: how long each is, how many (0: some) */
-    std::vector<field> members = {}; /* object(s) */
+    const char *detail = nullptr; /* index: name of the array it points into (rows: each element does); choice: the allowed values */
+    double low = 0, high = 0;   /* count: range; numbers: how many (0 or less: any); rows: length of each, number of rows (0: some) */
+    std::vector<field> members = {}; /* of object(s) */
 };
 using schema = std::vector<field>;
 

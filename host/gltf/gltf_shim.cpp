@@ -1,5 +1,5 @@
-/* .gltf or .glb to ec_gltf: the tree is parsed and checked once, and each part is made of it. tinygltf, whose reader would parse the text again, and
- * trusts what files say, brings the format's constants. */
+/* Reads a .gltf or .glb into an ec_gltf: the tree is parsed and checked once, and all parts are converted from it. tinygltf only provides constants
+ * of the format, as its reader would parse the text again, and trusts what files say. */
 #include "gltf/gltf_shim.h"
 
 #include <memory>
@@ -8,7 +8,7 @@ namespace eclat {
 
 using nlohmann::json;
 
-/* Before the document's shape is checked: in another version it is another one. */
+/* Checks the version first: other versions have another structure. */
 static void check_version(const json &root)
 {
     const json asset = root.value("asset", json());
@@ -44,12 +44,12 @@ static void load_buffer(ec_gltf_buffer &out, json &in, const std::string &where,
         if (ec_gltf_uri_load(gltf, where.c_str(), uri.c_str(), &out.owned, &available, &err) != EC_OK)
             throw bad_file(err.text);
         out.data = out.owned;
-        in.erase("uri"); /* embedded buffers are large */
+        in.erase("uri"); /* frees memory: embedded buffers are large */
     } else if (&out == gltf->buffers && file.chunk) {
         out.data = file.chunk;
         available = file.chunk_length;
     } else {
-        return; /* an error only once somebody reads it */
+        return; /* an error only when it is read */
     }
     if (out.length > available)
         throw bad_file(where + " promises " + std::to_string(out.length) + " bytes but holds " +
@@ -71,7 +71,7 @@ static void check_views(const ec_gltf *gltf)
     if (ec_gltf_check_views(gltf, &err) != EC_OK) throw bad_file(err.text);
 }
 
-/* Textures, materials, cameras and lights, which an animation may change. */
+/* Converts textures, materials, cameras and lights, which an animation may change. */
 static void convert_looks(const json &root, ec_gltf *gltf, const ec_log *log)
 {
     convert_cameras(list_of(root, "cameras"), gltf, log);
@@ -85,7 +85,7 @@ static void read_document(ec_gltf *gltf, uint64_t length, const ec_scene_choice 
     container file = parse_container(gltf->file, length);
     json &root = file.root;
     if (choice->frame) ec_gltf_digest_add(gltf, gltf->file, length);
-    if (!file.chunk) { /* JSON text is done with: with embedded buffers it is as large as the scene */
+    if (!file.chunk) { /* the JSON text is no longer needed, and with embedded buffers it is as large as the scene */
         free(gltf->file);
         gltf->file = nullptr;
     }
@@ -130,7 +130,7 @@ static void pose(ec_gltf *gltf, const ec_scene_choice *choice, bool whole, const
     convert_looks(tree.root, gltf, log);
 }
 
-/* Turns every exception into a message of one line. */
+/* Calls job, and turns every exception into a message of one line. */
 template <typename work> static ec_result guarded(const char *path, ec_error *err, work &&job)
 {
     try {

@@ -1,5 +1,5 @@
-/* Between the C++ files of the glTF reader; C code includes gltf/gltf.h. Inside, problems are thrown as bad_file;
- * ec_gltf_read turns every exception into an ec_error. */
+/* Shared by the C++ files of the glTF reader; C code includes gltf/gltf.h. Problems are thrown as bad_file; ec_gltf_read turns every exception into
+ * an ec_error. */
 #ifndef EC_GLTF_GLTF_SHIM_H
 #define EC_GLTF_GLTF_SHIM_H
 
@@ -19,7 +19,7 @@ struct bad_file : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/* gltf_json.cpp: the bytes of a .gltf or .glb to a JSON tree; *chunk is the .glb's binary chunk or NULL. */
+/* gltf_json.cpp: parses the bytes of a .gltf or .glb; chunk is the .glb's binary chunk, or NULL. */
 struct container {
     nlohmann::json root;
     const uint8_t *chunk;
@@ -27,50 +27,49 @@ struct container {
 };
 container parse_container(const uint8_t *bytes, uint64_t length);
 
-/* gltf_extensions.cpp: what a file requires and eclat lacks is an error; what it uses, a warning. */
+/* gltf_extensions.cpp: fails on required extensions that eclat lacks, and warns of used ones. */
 void check_extensions(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
 
-/* gltf_check.cpp: types, required members, ranges and index ranges of everything eclat reads. Repairs what glTF only
- * warns about (an unknown filter, say). */
+/* gltf_check.cpp: checks types, required members, ranges and index ranges of everything that eclat reads. Repairs what glTF only warns about, such as
+ * an unknown filter. */
 void check_document(nlohmann::json &root, const char *path, const ec_log *log);
 
-/* gltf_geometry.cpp: lists of the checked tree */
-const nlohmann::json &list_of(const nlohmann::json &object, const char *key); /* empty where there is none */
+/* gltf_geometry.cpp: converts lists of the checked tree. */
+const nlohmann::json &list_of(const nlohmann::json &object, const char *key); /* an empty list if there is none */
 const nlohmann::json *find_extension(const nlohmann::json &object, const char *name);
-double element(const nlohmann::json &object, const char *key, size_t i, double fallback); /* i of an array member of numbers */
+double element(const nlohmann::json &object, const char *key, size_t i, double fallback); /* number i of an array member */
 void convert_views(const nlohmann::json &list, ec_gltf *gltf);
 void convert_accessors(const nlohmann::json &list, ec_gltf *gltf);
 void convert_meshes(const nlohmann::json &list, ec_gltf *gltf);
-void convert_weights(const nlohmann::json &list, ec_gltf *gltf); /* of meshes that are there, again */
+void convert_weights(const nlohmann::json &list, ec_gltf *gltf); /* again, for meshes that exist */
 void convert_skins(const nlohmann::json &list, ec_gltf *gltf);
 void convert_nodes(const nlohmann::json &list, ec_gltf *gltf, const ec_log *log);
 void set_roots(const nlohmann::json &root, ec_gltf *gltf);
 
-/* gltf_choice.cpp: what was chosen among scenes and variants is written into the tree, so that what follows sees a file with
- * nothing to choose. Lists the names too. */
+/* gltf_choice.cpp: writes the chosen scene and variant into the tree, so that what follows sees a file without choices. Also lists their names. */
 void list_names(const nlohmann::json &list, ec_scene_names *out);
 uint32_t find_choice(const ec_scene_names *names, const char *what, const char *wanted);
 void choose_scene(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
 void choose_variant(nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf);
 
-/* gltf_animation.cpp: which animations are shown, by their index; none where everything is as it is stored. */
+/* gltf_animation.cpp: returns indices of the animations to show; empty if everything is shown as stored. */
 std::vector<uint32_t> choose_animations(const nlohmann::json &root, const ec_scene_choice *choice, ec_gltf *gltf,
                                         const ec_log *log);
-/* Likewise a moment of them; the tree is to be checked again then. The same channels are written at every moment, so that one moment
- * takes the place of another. true: a channel moves more than nodes and weights. */
+/* Writes a moment of them into the tree, which must be checked again afterwards. Every moment writes the same channels, so that one moment replaces
+ * another. Returns true if a channel moves more than nodes and weights. */
 bool apply_moment(nlohmann::json &root, const std::vector<uint32_t> &animations, const ec_scene_choice *choice,
                   ec_gltf *gltf, const ec_log *log);
 
-/* The document of an animation, into which another moment is written. */
+/* The document of an animation, kept to write other moments into it. */
 struct posable {
     nlohmann::json root;
     std::vector<uint32_t> animations;
-    bool more; /* than nodes and weights is moved */
+    bool more; /* more than nodes and weights is moved */
 };
 
 /* gltf_convert.cpp */
 void convert_images(const nlohmann::json &list, ec_gltf *gltf);
-void convert_image_light(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log); /* the shown scene's */
+void convert_image_light(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log); /* that of the shown scene */
 void convert_cameras(const nlohmann::json &list, ec_gltf *gltf, const ec_log *log);
 void convert_lights(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log);
 
@@ -78,14 +77,14 @@ void convert_lights(const nlohmann::json &root, ec_gltf *gltf, const ec_log *log
 void convert_materials(const nlohmann::json &list, ec_gltf *gltf, const ec_log *log);
 void convert_textures(const nlohmann::json &root, ec_gltf *gltf);
 
-/* Zeroed C arrays and strings, so that ec_gltf_free can release half a document. */
+/* Zeroed C arrays and strings, so that ec_gltf_free can free half a document. */
 template <typename T> T *make_array(size_t count)
 {
     T *array = static_cast<T *>(calloc(count ? count : 1, sizeof(T)));
     if (!array) throw std::bad_alloc();
     return array;
 }
-/* A list of the document as an array: one(in, out) fills each. The count grows with them, so that ec_gltf_free sees those that are begun. */
+/* Converts a list of the document to an array: one(in, out) fills each item. The count grows with the items, so that ec_gltf_free sees those begun. */
 template <typename T, typename F> void convert_list(const nlohmann::json &list, T *&array, uint32_t &count, F &&one)
 {
     array = make_array<T>(list.size());
@@ -106,7 +105,7 @@ inline std::string printable(std::string text)
     ec_text_clean(&text[0]);
     return text.c_str();
 }
-/* At most so many bytes of a text. */
+/* Cuts a text to at most `most` bytes. */
 inline std::string shortened(const std::string &text, int most)
 {
     return text.substr(0, size_t(ec_text_cut(text.c_str(), most)));

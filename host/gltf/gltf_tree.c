@@ -1,4 +1,4 @@
-/* Walks the node tree without recursion: a file may be a chain of a million nodes. */
+/* Walks the node tree without recursion, since a file may be a chain of a million nodes. */
 #include "gltf/gltf_tree.h"
 #include "base/freed.h"
 #include "base/text.h"
@@ -14,7 +14,7 @@ ec_label ec_label_of(const char *list, uint32_t index, const char *name)
     return label;
 }
 
-/* parent[i] = -1 for roots. */
+/* Finds parents; parent[i] is -1 for roots. */
 static ec_result find_parents(const ec_gltf *g, int32_t *parent, ec_error *err)
 {
     for (uint32_t i = 0; i < g->node_count; i++) parent[i] = -1;
@@ -41,7 +41,7 @@ ec_result ec_gltf_node_above(const ec_gltf *g, int32_t node, bool (*is)(const ec
     return EC_OK;
 }
 
-/* Every node has at most one parent here, so going up from a node on a cycle comes back to where it started. */
+/* Fails if there is a cycle. As every node has at most one parent, going up from a node in a cycle returns to it. */
 static ec_result check_cycles(const ec_gltf *g, const int32_t *parent, uint32_t *seen_from, ec_error *err)
 {
     for (uint32_t i = 0; i < g->node_count; i++) {
@@ -117,7 +117,7 @@ ec_result ec_gltf_place_nodes(const ec_gltf *g, ec_placement_list *list, ec_erro
 
 ec_result ec_placement_append(ec_placement_list *list, const ec_placement *placement, ec_error *err)
 {
-    ec_placement copy = *placement; /* may be one of the items */
+    ec_placement copy = *placement; /* placement may point into the list */
     if (list->count == list->room) {
         size_t room = 2 * (size_t)list->room + 8;
         ec_placement *grown = room <= INT32_MAX ? realloc(list->items, room * sizeof *grown) : NULL;

@@ -1,5 +1,5 @@
-/* Where a glTF file's bytes come from: data URIs and files beside it. A URI may not leave the scene's folder, nor may a symbolic link there: a scene
- * is data from strangers and must not be able to read (or probe for) anything else on the machine. */
+/* Reads the bytes that URIs stand for: data URIs and files beside the glTF file. Neither a URI nor a symbolic link may lead out of the scene's
+ * folder: a scene comes from strangers, and must not be able to read (or probe for) anything else on the machine. */
 #include "base/freed.h"
 #include "base/text.h"
 #include "gltf/gltf.h"
@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* In place; returns the new length. A '%' that starts no escape stays. */
+/* Decodes in place and returns the new length. A '%' that starts no escape is kept. */
 static size_t percent_decode(char *text, size_t length)
 {
     size_t out = 0;
@@ -34,7 +34,7 @@ static bool has_scheme(const char *uri)
     return *uri == ':';
 }
 
-/* Does a relative path climb above where it starts? "a/../b" does not. */
+/* Tells whether a relative path climbs above its start. "a/../b" does not. */
 static bool climbs_out(const char *path)
 {
     int depth = 0;
@@ -64,7 +64,7 @@ static bool is_data_uri(const char *uri)
     return !strncasecmp(uri, "data:", 5);
 }
 
-/* For what a scene may do without, this machine's lack is not the file's fault. */
+/* Reports the lack of memory as the machine's fault, not the file's, also for files that a scene may do without. */
 static ec_result out_of_memory(const char *where, uint64_t bytes, ec_error *err)
 {
     ec_fail(err, "%s: out of memory for %llu bytes", where, (unsigned long long)bytes);
@@ -72,7 +72,7 @@ static ec_result out_of_memory(const char *where, uint64_t bytes, ec_error *err)
     return EC_FAILED;
 }
 
-/* The file a URI names, relative to the scene's folder; the caller's, also after a failure. */
+/* Decodes the path of the file that a URI names, relative to the scene's folder. The caller frees it, also after a failure. */
 static ec_result decode_file_uri(const char *where, const char *uri, char **path, ec_error *err)
 {
     size_t length = strlen(uri);
@@ -109,7 +109,7 @@ static int base64_value(char c)
     return -1;
 }
 
-/* In place (the output is never longer than the input); false on a character that is not base64. */
+/* Decodes in place, as the output is never longer than the input. Returns false on a character that is not base64. */
 static bool base64_decode(char *text, size_t length, uint64_t *out_length)
 {
     uint32_t bits = 0;
@@ -149,7 +149,7 @@ static ec_result load_data_uri(const char *where, const char *uri, uint8_t **byt
         free(text);
         return ec_fail(err, "%s: the data URI's base64 is broken; export the file again", where);
     }
-    char *smaller = realloc(text, *length + 1); /* base64 was a third longer */
+    char *smaller = realloc(text, *length + 1); /* base64 was a third longer than the bytes */
     *bytes = (uint8_t *)(smaller ? smaller : text);
     return EC_OK;
 }
@@ -158,7 +158,7 @@ static ec_result read_all(int file, const char *name, uint8_t **bytes, uint64_t 
 {
     struct stat info;
     if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode))
-        return ec_fail(err, "%s: not a regular file", name); /* a pipe or device could block for ever */
+        return ec_fail(err, "%s: not a regular file", name); /* a pipe or a device could block for ever */
     uint64_t size = (uint64_t)info.st_size;
     uint8_t *data = malloc(size + 1);
     if (!data) return out_of_memory(name, size, err);
@@ -189,7 +189,7 @@ ec_result ec_gltf_file_load(const char *name, uint8_t **bytes, uint64_t *length,
     return result;
 }
 
-/* Does the path stay below the folder once links are followed? One that cannot be told is left to open, which says why. */
+/* Fails if the path leaves the folder once links are followed. A path that cannot be resolved passes; opening it will fail and say why. */
 static ec_result check_links(const char *folder, const char *full, const char *where, ec_error *err)
 {
     EC_FREED char *inside = realpath(*folder ? folder : ".", NULL), *real = realpath(full, NULL);

@@ -1,5 +1,5 @@
-/* A surface of coverage 0 is not there: it is not seen, casts no shadow and gives no light. So rays need not go there to find that out,
- * and what its material has calls for nothing. */
+/* Leaves out surfaces whose coverage is 0 everywhere: they are not seen, cast no shadow and give no light. Rays then need not visit them, and their
+ * materials call for no effects. */
 #include "base/freed.h"
 #include "gltf/flatten.h"
 #include "scene/texture_range.h"
@@ -7,8 +7,8 @@
 typedef struct hiding {
     ec_gltf *g;
     const ec_placement_list *placements;
-    const bool *hidden;      /* by material, whatever the vertex colours: they make alpha less */
-    uint64_t drawn, triangles; /* primitives that stay, triangles of those that do not */
+    const bool *hidden;      /* by material, whatever the vertex colours, which can only make alpha less */
+    uint64_t drawn, triangles; /* primitives that stay; triangles of those that do not */
 } hiding;
 
 static void look(hiding *h, bool hide)
@@ -25,7 +25,7 @@ static void look(hiding *h, bool hide)
     }
 }
 
-/* Drops the textures of a material that nothing shows, so that no texture coordinates are needed. */
+/* Drops the textures of a material that is not shown, so that no texture coordinates are needed. */
 static void strip(ec_material *m)
 {
     for (int slot = 0; slot < EC_SLOT_COUNT; slot++) m->textures[slot].texture = -1;

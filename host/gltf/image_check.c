@@ -1,4 +1,4 @@
-/* The limits and errors that all decoders share. */
+/* Limits and errors shared by all decoders. */
 #include "gltf/image_decode.h"
 
 #include <stdio.h>

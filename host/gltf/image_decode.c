@@ -1,4 +1,4 @@
-/* Tells the format of an image. */
+/* Recognises the format of an image, and calls its decoder. */
 #include "gltf/codecs.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* JPEG through libjpeg-turbo. */
+/* Decodes JPEG with libjpeg-turbo. */
 #include "gltf/image_decode.h"
 
 #include <setjmp.h>
@@ -8,9 +8,9 @@
 
 #include <jpeglib.h>
 
-/* An 8x8 block costs at least two bits or so. */
+/* An 8x8 block takes at least about two bits. */
 #define PIXELS_PER_BYTE 2000
-/* A progressive file may repeat scans without end, each over the whole picture. */
+/* A progressive file may repeat scans of the whole picture without end. */
 #define MAX_SCANS 200
 
 typedef struct reader {
@@ -19,8 +19,8 @@ typedef struct reader {
     struct jpeg_progress_mgr progress;
     jmp_buf escape;
     ec_decode_error *err;
-    uint8_t *place;  /* where the caller wants them; NULL */
-    uint8_t *pixels; /* else */
+    uint8_t *place;  /* the caller's memory for the pixels; NULL: none */
+    uint8_t *pixels; /* own memory for the pixels, if there is no place */
 } reader;
 
 static void fail(reader *r, const char *reason)
@@ -36,7 +36,7 @@ static void on_error(j_common_ptr common)
     fail(common->client_data, text);
 }
 
-/* Damaged places are shown as they come; the first is told. */
+/* Ignores damage, which is shown as decoded, but keeps the first warning. */
 static void on_message(j_common_ptr common, int level)
 {
     char text[JMSG_LENGTH_MAX];
@@ -51,7 +51,7 @@ static void on_progress(j_common_ptr common)
     if (r->jpeg.input_scan_number > MAX_SCANS) fail(r, "it has too many scans");
 }
 
-/* Adobe stores inverted CMYK; the other kind hardly exists. In place, as both have four channels. */
+/* Converts CMYK in place, as both have four channels. Adobe stores it inverted; the other kind hardly exists. */
 static void cmyk_to_rgba(uint8_t *row, uint32_t width, bool inverted)
 {
     for (uint32_t x = 0; x < width; x++, row += 4) {
@@ -61,7 +61,7 @@ static void cmyk_to_rgba(uint8_t *row, uint32_t width, bool inverted)
     }
 }
 
-/* Errors leave by longjmp: what must be freed stands in *r. */
+/* Errors leave by longjmp: whatever must be freed is in *r. */
 static void read_header(reader *r, const uint8_t *bytes, size_t length)
 {
     jpeg_create_decompress(&r->jpeg);
@@ -94,7 +94,7 @@ static void read_picture(reader *r, const ec_image *image)
     }
 }
 
-/* On the heap, as locals may be lost over a longjmp. */
+/* Allocates the reader on the heap, as locals may be lost by a longjmp. */
 static reader *make_reader(ec_decode_error *err)
 {
     reader *r = calloc(1, sizeof *r);

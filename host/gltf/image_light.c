@@ -1,8 +1,7 @@
-/* EXT_lights_image_based: the cube's sharpest mip is what the surroundings look like, and so the environment; the blurred ones and the
- * irradiance coefficients are for those who cannot integrate. Of the extension's two encodings there is one here: sRGB, divided by
- * alpha (RGBD), which JPEG and three-channel PNG do not have. Its text does not say so of RGBD's colours; Babylon.js, whose authors
- * wrote it, has them in sRGB. Faces lie as OpenGL samples them: seen from inside, they are mirrored left to right ("flipped about its
- * vertical axis"). */
+/* EXT_lights_image_based: the cube's sharpest mip is what the surroundings look like, and becomes the environment; the blurred mips and the
+ * irradiance coefficients serve renderers that cannot integrate. Of the extension's two encodings one is read: sRGB divided by alpha (RGBD), which
+ * JPEG and three-channel PNG lack. The specification does not say that RGBD colours are sRGB; Babylon.js, whose authors wrote it, treats them so.
+ * Faces are laid out as OpenGL samples them: seen from inside, they are mirrored left to right ("flipped about its vertical axis"). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +13,7 @@
 
 enum { FACE_MOST = 2048 };
 
-/* Alpha 0 would be an infinite brightness: it counts as the least above it. */
+/* Decodes pixels to radiance. Alpha 0 would mean infinite brightness, and counts as the smallest value above it. */
 static float *to_radiance(const ec_image *image, double intensity)
 {
     size_t count = (size_t)image->width * image->height;
@@ -34,8 +33,8 @@ static float *to_radiance(const ec_image *image, double intensity)
 typedef struct face {
     uint32_t width, height;
     bool failed;
-    ec_error why;  /* of a failure; else how it is damaged, or "" */
-    float *rgb;    /* NULL: its size is not usable, or there is no memory for it */
+    ec_error why;  /* why it failed; after success: how the image is damaged, or "" */
+    float *rgb;    /* NULL: its size is not usable, or there is no memory */
 } face;
 
 static void load_face(const ec_gltf *g, int f, face *out)
@@ -67,7 +66,7 @@ static ec_result check_face(const ec_gltf *g, int f, const face *faces, ec_error
     return one->rgb ? EC_OK : ec_fail(err, "%s: out of memory for %s", g->path, where);
 }
 
-/* By all threads; of several faces that cannot be had the first is told. */
+/* Loads the faces in all threads. If several fail, the first one is reported. */
 static ec_result load_faces(const ec_gltf *g, ec_cube *cube, const ec_log *log, ec_error *err)
 {
     face faces[6] = {{0}};

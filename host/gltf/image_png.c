@@ -1,19 +1,19 @@
-/* PNG through libpng. Gamma and colour profiles are ignored, as glTF demands. */
+/* Decodes PNG with libpng. Gamma and colour profiles are ignored, as glTF demands. */
 #include "gltf/image_decode.h"
 
 #include <png.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Deflate reaches 1032:1, and a byte can hold eight pixels. */
+/* Deflate compresses up to 1032:1, and a byte can hold eight pixels. */
 #define PIXELS_PER_BYTE 10000
 
 typedef struct reader {
     const uint8_t *bytes;
     size_t length, done;
     ec_decode_error *err;
-    uint8_t *place;  /* where the caller wants them; NULL */
-    uint8_t *pixels; /* else */
+    uint8_t *place;  /* the caller's memory for the pixels; NULL: none */
+    uint8_t *pixels; /* own memory for the pixels, if there is no place */
     uint8_t **rows;
     bool is_whole;
 } reader;
@@ -38,7 +38,7 @@ static void on_read(png_structp png, png_bytep out, size_t count)
     r->done += count;
 }
 
-/* Whatever is in the file becomes four channels of 8 or, if it has 16, of 16 bits in this machine's byte order. */
+/* Converts any format to four channels of 8 bits or, if the file has 16, of 16 bits in native byte order. */
 static void set_transforms(png_structp png, png_infop info, bool deep)
 {
     png_set_expand(png);
@@ -50,7 +50,7 @@ static void set_transforms(png_structp png, png_infop info, bool deep)
     png_read_update_info(png, info);
 }
 
-/* Errors leave by longjmp: what must be freed stands in *r. */
+/* Errors leave by longjmp: whatever must be freed is in *r. */
 static void read_picture(png_structp png, png_infop info, reader *r, ec_image *image)
 {
     png_read_info(png, info);
@@ -82,7 +82,7 @@ static uint32_t big_endian(const uint8_t *b) { return (uint32_t)b[0] << 24 | (ui
 
 bool ec_image_size_png(const uint8_t *bytes, size_t length, uint32_t *width, uint32_t *height)
 {
-    if (length < 25 || bytes[24] > 8) return false; /* the first chunk says it, with the bits of a channel */
+    if (length < 25 || bytes[24] > 8) return false; /* the first chunk has the size, and the bits of a channel */
     *width = big_endian(bytes + 16);
     *height = big_endian(bytes + 20);
     return !ec_image_check_size(*width, *height, length, PIXELS_PER_BYTE);
@@ -90,7 +90,7 @@ bool ec_image_size_png(const uint8_t *bytes, size_t length, uint32_t *width, uin
 
 bool ec_image_decode_png(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
 {
-    reader *r = calloc(1, sizeof *r); /* on the heap, as locals may be lost over a longjmp */
+    reader *r = calloc(1, sizeof *r); /* on the heap, as locals may be lost by a longjmp */
     if (!r) return ec_decode_out_of_memory(err);
     *r = (reader){.bytes = bytes, .length = length, .err = err};
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, r, on_error, on_warning);

@@ -1,9 +1,9 @@
-/* EXT_mesh_gpu_instancing: a node's mesh at many places, each given by translation, rotation and scale in the node's frame. */
+/* EXT_mesh_gpu_instancing: places a node's mesh many times, each by translation, rotation and scale in the node's frame. */
 #include <stdio.h>
 
 #include "gltf/gltf_tree.h"
 
-#define IMPLIED_PLACES 65536u /* that no bytes stand for: a tiny file could claim any number */
+#define IMPLIED_PLACES 65536u /* the most instances that no bytes stand for: a tiny file could claim any number */
 
 static ec_result open_attribute(ec_gltf *g, int32_t node, int32_t accessor, const char *name, uint32_t components,
                                 uint64_t *count, ec_error *err)
@@ -42,7 +42,7 @@ static ec_result place(ec_gltf *g, uint32_t index, ec_placement_list *placements
     EC_TRY(open_attribute(g, node.node, of->translation, "TRANSLATION", 3, &count, err));
     EC_TRY(open_attribute(g, node.node, of->rotation, "ROTATION", 4, &count, err));
     EC_TRY(open_attribute(g, node.node, of->scale, "SCALE", 3, &count, err));
-    if (!count) return EC_OK; /* attributes of the application's own say nothing of places */
+    if (!count) return EC_OK; /* attributes that an application defines say nothing of places */
     placements->items[index].mesh = -1;
     for (uint64_t i = 0; i < count; i++) {
         double translation[3] = {0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1}, local[16];

@@ -1,13 +1,13 @@
-/* Which meshes are kept once. Not those that emit, since lights are sampled in the world, nor those that bound bodies or let
- * light straight through: which body lies in which is found out there too. Not where a matrix is singular or nearly so: its
- * inverse, by which rays reach the mesh, would be noise. */
+/* Chooses which meshes are kept once. Excluded are meshes that emit, since lights are sampled in the world; those that bound bodies or let light pass
+ * straight through, since it is also in the world that bodies are found within one another; and places whose matrix is singular or nearly so, since
+ * its inverse, which takes rays to the mesh, would be noise. */
 #include "gltf/keep.h"
 
 #include <math.h>
 
 #include "base/freed.h"
 
-#define CONDITION_MOST 1e6 /* of a matrix; its inverse in double is then good to 2^-32, far below a float's rounding */
+#define CONDITION_MOST 1e6 /* largest condition of a matrix; its inverse in double is then accurate to 2^-32, far below a float's rounding */
 #define SMALL_MESH 64u     /* triangles: keeping fewer once saves little more than their instances take */
 #define WORTH_TRIANGLES (1u << 20)
 
@@ -23,7 +23,7 @@ static bool emits_or_bounds(const ec_gltf *g, int32_t mesh, const ec_scene *scen
     return false;
 }
 
-/* The extent of the triangles whose corners are all numbers. */
+/* Measures the extent and the number of the triangles; corners that are not numbers do not count for the extent. */
 static void span_mesh(const ec_gltf *g, ec_kept_mesh *m)
 {
     for (int k = 0; k < 3; k++) {
@@ -46,12 +46,12 @@ static double frobenius(const double m[9])
     return sqrt(sum);
 }
 
-/* Can rays be taken to the mesh and back? Sizes far from 1 would bring squares near a float's limits. */
+/* Tells whether rays can be taken to the mesh and back. Sizes far from 1 would bring squares near the limits of floats. */
 static bool fits(const ec_placement *at, const ec_kept_mesh *m)
 {
     double adjoint[9], scale = frobenius(at->linear), size = 0, reach = 0;
     double determinant = fabs(ec_gltf_determinant(at->linear));
-    ec_gltf_normal_matrix(at->linear, adjoint); /* the adjugate, transposed, of the matrix over its largest element */
+    ec_gltf_normal_matrix(at->linear, adjoint); /* the transposed adjugate of the matrix divided by its largest element */
     double largest = 0;
     for (int i = 0; i < 9; i++) largest = fmax(largest, fabs(at->linear[i]));
     double condition = scale * frobenius(adjoint) * largest * largest / determinant;
@@ -90,7 +90,7 @@ static ec_result find_candidates(ec_keeping *k, const ec_scene *scene, ec_error 
     return EC_OK;
 }
 
-/* By itself only where it saves a million triangles, and half of all: rays through instances cost more. */
+/* Decides EC_INSTANCING_AUTO: instances are worth it only if they save a million triangles, and half of all, as rays through instances cost more. */
 static bool is_worth_it(const ec_keeping *k)
 {
     uint64_t all = 0, saved = 0;

@@ -1,4 +1,4 @@
-/* The triangles of kept meshes, once each, and the matrices of the places where they stand. */
+/* Writes the triangles of kept meshes, once each, and the matrices of their places. */
 #include "gltf/keep.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@
     for (ec_kept_mesh *m = (k)->meshes; (k)->is_kept && m < (k)->meshes + (k)->mesh_count; m++) \
         if (m->is_kept)
 
-/* A mesh may stand far from its own origin; from its centre on, floats keep its digits. */
+/* Returns the mesh's centre. A mesh may be far from its own origin; relative to its centre, floats keep its digits. */
 static void center_of(const ec_kept_mesh *m, double center[3])
 {
     for (int k = 0; k < 3; k++) center[k] = 0.5 * (m->low[k] + m->high[k]);
@@ -23,11 +23,11 @@ ec_result ec_keep_count(const ec_keeping *k, ec_flattener *f)
 }
 
 typedef struct points {
-    float *at; /* 3 a point */
+    float *at; /* 3 floats per point */
     uint64_t count;
 } points;
 
-/* Every vertex of a finite triangle, once. */
+/* Collects every vertex of a finite triangle once. */
 static void gather(const ec_draw *d, bool *seen, points *out)
 {
     memset(seen, 0, (size_t)d->p->highest - d->p->lowest + 1);
@@ -62,7 +62,7 @@ static ec_result gather_mesh(const ec_gltf *g, int32_t mesh, points *out, ec_err
     return EC_OK;
 }
 
-/* Does the mesh's box reach out of what is known to be occupied? */
+/* Tells whether the mesh's box reaches beyond the box that is known to be occupied. */
 static bool may_grow(const ec_kept_mesh *m, const ec_placement *at, const double low[3], const double high[3])
 {
     for (int row = 0; row < 3; row++) {
@@ -77,7 +77,8 @@ static bool may_grow(const ec_kept_mesh *m, const ec_placement *at, const double
     return false;
 }
 
-/* Values as for written-out triangles, so that the centre and cameras that frame the scene are the same. */
+/* Grows the box by the mesh's vertices at a place, with the values that written-out triangles would have, so that the centre and cameras that frame
+ * the scene are the same. */
 static void measure_place(const points *p, const ec_placement *at, double low[3], double high[3])
 {
     const double *m = at->linear;
@@ -119,7 +120,7 @@ static ec_result fill_shape(ec_keeping *k, ec_kept_mesh *m, ec_flattener *f)
     EC_TRY(ec_flattener_draw(f, k->g, m->mesh, &ec_at_home, center, ec_flattener_fill));
     m->dropped_degenerate = s->dropped_degenerate - m->dropped_degenerate;
     m->dropped_nonfinite = s->dropped_nonfinite - m->dropped_nonfinite;
-    /* written out they would have been dropped at every place */
+    /* written out, they would have been dropped at every place */
     s->dropped_degenerate += m->dropped_degenerate * (m->places - 1);
     s->dropped_nonfinite += m->dropped_nonfinite * (m->places - 1);
     shape.count = s->triangle_count - shape.first;
@@ -149,7 +150,7 @@ static ec_placed place(const ec_kept_mesh *m, const ec_placement *at, const doub
     return p;
 }
 
-/* The largest sum that rounding a placed corner goes through. */
+/* Returns the largest intermediate sum when a corner is placed, which bounds its rounding. */
 static double reach_of(const ec_kept_mesh *m, const ec_placed *p)
 {
     double most = 0;
@@ -161,7 +162,8 @@ static double reach_of(const ec_kept_mesh *m, const ec_placed *p)
     return most;
 }
 
-/* Floats of placed corners lie outside what was measured in double by at most the rounding of the matrix, the corner and three fma. */
+/* Extends the scene's bounds: placed corners in float lie outside what was measured in double by at most the rounding of the matrix, the corner and
+ * three fma. */
 static void bound(ec_scene *s, const ec_flattener *f, double reach)
 {
     for (int k = 0; k < 3; k++) {

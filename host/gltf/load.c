@@ -1,4 +1,4 @@
-/* From a glTF document to a scene, step by step. */
+/* Makes a scene of a glTF document, step by step. */
 #include "gltf/flatten.h"
 #include "gltf/thicken.h"
 #include "scene/validate.h"
@@ -7,13 +7,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Strings change owner. */
+/* Moves the counts and names into the scene, which then owns the strings. */
 static void take_facts(ec_gltf *g, ec_scene *s)
 {
     s->mesh_count = g->mesh_count;
     s->node_count = g->node_count;
     s->contents = g->contents;
-    g->contents = (ec_scene_contents){0}; /* the first scene of an animation has them */
+    g->contents = (ec_scene_contents){0}; /* only the first scene of an animation has them */
 }
 
 static ec_result build(const ec_scene_choice *choice, ec_gltf *g, ec_placement_list *placements, ec_scene *s,

@@ -1,5 +1,4 @@
-/* The scene's materials: the file's, glTF's default where something needs it, and variants for meshes that lack a
- * texture coordinate set. */
+/* Makes the scene's materials: the file's, glTF's default if something needs it, and variants for meshes that lack a texture coordinate set. */
 #include "base/freed.h"
 #include "gltf/flatten.h"
 #include "scene/material_fields.h"
@@ -13,7 +12,7 @@ static ec_result append(ec_scene *s, ec_material material, ec_error *err)
     return EC_OK;
 }
 
-/* Bit i: the primitive lacks TEXCOORD_i although the material reads it. */
+/* Returns the sets that the material reads and the primitive lacks: bit i for TEXCOORD_i. */
 static unsigned missing_sets(const ec_material *m, const ec_gltf_primitive *p)
 {
     unsigned missing = 0;
@@ -33,8 +32,8 @@ static ec_result append_variant(ec_scene *s, uint32_t original, unsigned missing
     return result;
 }
 
-/* variants: for every material of the file (and the default, last) and every set of missing coordinates, the scene's
- * index plus one; 0 = not made yet. */
+/* Finds or makes the material of a primitive. variants: for every material of the file, and the default at the end, the scene's index plus one for
+ * each combination of missing texture coordinate sets; 0: not made yet. */
 static ec_result assign(const ec_gltf *g, ec_scene *s, ec_gltf_primitive *p, uint32_t mesh, uint32_t *variants,
                         const ec_log *log, ec_error *err)
 {

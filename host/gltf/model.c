@@ -15,7 +15,7 @@ struct ec_model {
 
 static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-static ec_model exhausted = {.failed = true}; /* stands for a model that there is no memory for */
+static ec_model exhausted = {.failed = true}; /* stands for a model that could not be allocated */
 
 ec_model *ec_model_new(void)
 {
@@ -35,7 +35,7 @@ void ec_model_free(ec_model *m)
     free(m);
 }
 
-/* One more item in an array of the document; NULL where there is no memory for it. */
+/* Appends an item to an array of the document; returns NULL if there is no memory. */
 static void *append(ec_model *m, void *array, uint32_t *count, size_t size, const void *item)
 {
     void *items; /* `array` is the address of a pointer of some type */
@@ -84,7 +84,7 @@ void ec_model_place(ec_model *m, const double matrix[16])
     if (m != &exhausted) memcpy(m->place, matrix ? matrix : identity, sizeof m->place);
 }
 
-/* A node with `local` (NULL: none of its own) below the place of now. */
+/* Adds a node with the matrix `local` (NULL: the identity) below the current place. */
 static void add_node(ec_model *m, const double *local, int32_t mesh, int32_t camera, int32_t light)
 {
     ec_gltf_node node = {.mesh = mesh, .skin = -1, .camera = camera, .light = light};
@@ -97,7 +97,7 @@ static void add_node(ec_model *m, const double *local, int32_t mesh, int32_t cam
     if (!m->failed) APPEND(m, roots, root, index);
 }
 
-/* The index of an accessor of its own buffer; -1 where there is no data. */
+/* Returns the index of a new accessor with its own buffer; -1 if there is no data. */
 static int32_t add_accessor(ec_model *m, const void *data, uint64_t count, uint32_t components, uint32_t type)
 {
     if (!data || m->failed) return -1;
@@ -149,7 +149,7 @@ void ec_model_instancing(ec_model *m, ec_instancing instancing)
     if (!m->failed) m->gltf->instancing = instancing;
 }
 
-/* A node that looks along its -z, y up as far as it can be. */
+/* Computes the matrix of a node that looks along its -z, with y as far up as possible. */
 static void looking(const double at[3], const double target[3], double local[16])
 {
     double x[3], y[3], z[3];

@@ -1,4 +1,4 @@
-/* Quads, boxes and spheres. */
+/* Makes quads, boxes and spheres. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -31,8 +31,8 @@ void ec_model_box(ec_model *m, int32_t material, const double low[3], const doub
     }
 }
 
-/* Where on the unit sphere: point (i, j) of a face of the octahedron, whose sides have n parts. Equal inputs give equal bits, so
- * that faces meet without cracks. */
+/* Computes point (i, j) on the unit sphere of an octahedron's face whose sides have n parts. Equal inputs give equal bits, so that faces meet without
+ * cracks. */
 static void point_on_face(int face, int i, int j, int n, double p[3])
 {
     double s[3] = {(double)(n - i - j) / n, (double)i / n, (double)j / n};
@@ -69,7 +69,7 @@ void ec_model_sphere(ec_model *m, int32_t material, const double center[3], doub
                 }
         }
     }
-    /* Without memory the mesh has no vertices, and the model fails for want of triangles or of memory. */
+    /* Without memory the mesh has no vertices, and ec_model_scene fails for lack of triangles or of memory. */
     ec_model_add(m, material, &(ec_model_mesh){.vertex_count = used, .index_count = corners, .positions = positions,
                                                .normals = smooth ? normals : NULL, .indices = indices});
     free(positions);

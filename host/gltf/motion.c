@@ -1,6 +1,6 @@
-/* What moves while the shutter is open. The document is posed at moments in between, more of them until straight lines from key to key
- * are close enough to the way things take; a vertex is known again by the node, primitive and number it comes from. One path for moving
- * nodes, skins and morph targets: only where vertices are counts. */
+/* Finds what moves while the shutter is open. The document is posed at more and more moments in between, until straight lines from key to key are
+ * close enough to the true motion. A vertex is identified by the placement, primitive and number it comes from, so that moving nodes, skins and morph
+ * targets share one path: only positions of vertices count. */
 #include "gltf/motion.h"
 #include "gltf/thicken.h"
 
@@ -10,8 +10,8 @@
 
 #include "base/memory.h"
 
-/* Powers of two of equal steps, keys of all counts among them: the first moments looked at, four for each way from keyframe to keyframe
- * within the shutter, on which a rotation turns by half a turn at most. */
+/* Returns the first step: four moments for each interval between keyframes within the shutter, in which a rotation turns by at most half a turn.
+ * Counts are powers of two, so that keys of all counts are among the moments. */
 static uint32_t first_step(const ec_gltf *g)
 {
     uint32_t count = 4;
@@ -99,7 +99,7 @@ static ec_result read_moment(ec_tracks *t, uint32_t moment, ec_error *err)
     return result;
 }
 
-/* Each moment takes this much while it is looked at. */
+/* Fails if the positions at all moments examined would take more than half of the memory. */
 static ec_result check_memory(const ec_tracks *t, uint32_t step, ec_error *err)
 {
     uint64_t bytes = (uint64_t)t->count * t->words * sizeof(float) * (EC_MOMENTS / step + 1);
@@ -121,7 +121,7 @@ static ec_result read_moments(ec_tracks *t, uint32_t step, ec_error *err)
     return EC_OK;
 }
 
-/* Fewest segments whose straight lines are close enough at all moments looked at; more moments where none are. */
+/* Chooses the fewest segments whose straight lines are close enough at all moments examined; examines more moments if none are. */
 static ec_result choose_segments(ec_tracks *t, ec_error *err)
 {
     EC_TRY(read_moments(t, first_step(t->base), err));

@@ -1,10 +1,11 @@
-/* How far straight lines from key to key leave the true way. */
+/* Measures how far straight lines from key to key depart from the true motion. */
 #include <float.h>
 #include <math.h>
 
 #include "gltf/motion.h"
 
-/* How far `count` numbers from `first` on are off at all moments, from what the nearest keys on both sides say. Not a number counts as none. */
+/* Returns the largest distance, over all moments, of numbers first … first + count - 1 from what the adjacent keys interpolate to. NaN does not
+ * count. */
 static double distance_of(const ec_tracks *t, numbers_at *at, uint32_t thing, int first, int count)
 {
     const uint32_t stride = EC_MOMENTS / t->segments;
@@ -23,7 +24,7 @@ static double distance_of(const ec_tracks *t, numbers_at *at, uint32_t thing, in
     return sqrt(most);
 }
 
-/* Grows the box by where a thing is at all moments looked at. */
+/* Grows the box by a thing's positions at all moments examined. */
 static void sweep(const ec_tracks *t, numbers_at *at, uint32_t thing, float low[3], float high[3])
 {
     for (uint32_t m = 0; m <= EC_MOMENTS; m += t->step)
@@ -40,7 +41,7 @@ static double share_of(double distance, const float low[3], const float high[3])
     return distance > 0 && sum > 0 ? distance / sqrt(sum) : 0;
 }
 
-/* All vertices of one node: the list is in the order of the nodes. */
+/* Measures all vertices of one placement, as the list is in the order of placements; advances *i behind them. */
 static double mesh_deviation(const ec_tracks *t, uint32_t *i)
 {
     float low[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, high[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};

@@ -1,4 +1,4 @@
-/* From tracks to keys: which vertices move, and what moves put first. */
+/* Turns tracks into keys: decides which vertices move, and puts them first. */
 #include <float.h>
 #include <math.h>
 
@@ -12,14 +12,14 @@ static bool differs(const ec_tracks *t, numbers_at *at, uint32_t thing, size_t f
     return false;
 }
 
-/* Decides which of the scene's flat vertices and triangles stay, move or go. */
+/* The sorting of the scene's flat vertices and triangles: they stay, move or are dropped. */
 typedef struct sorting {
     const ec_tracks *t;
     ec_scene *s;
-    uint32_t vertices, triangles; /* flat ones */
-    uint32_t *track;              /* by vertex: its place in the tracks, or EC_STILL */
-    bool *moving;                 /* by vertex: it moves; later: a triangle that moves has it */
-    uint32_t *place;              /* by vertex: its new place */
+    uint32_t vertices, triangles; /* numbers of flat ones */
+    uint32_t *track;              /* by vertex: its index in the tracks, or EC_STILL */
+    bool *moving;                 /* by vertex: it moves; later: it belongs to a triangle that moves */
+    uint32_t *place;              /* by vertex: its new index */
     uint8_t *fate;                /* by triangle */
 } sorting;
 enum { STAYS, MOVES, GOES };
@@ -82,7 +82,7 @@ static ec_result permute(const sorting *o, float *stream, size_t words, ec_error
     return EC_OK;
 }
 
-/* Meshes that are kept once lie behind, and close up. */
+/* Moves meshes that are kept once, which follow the flat triangles, from index `from` to `to`. */
 static void close_up(ec_scene *s, uint32_t from, uint32_t to)
 {
     size_t rest = s->triangle_count - from;
@@ -93,7 +93,7 @@ static void close_up(ec_scene *s, uint32_t from, uint32_t to)
     for (uint32_t i = 0; i < s->placed_count; i++) s->placed[i].id -= from - to;
 }
 
-/* Triangles keep their nodes: what moves of one and what stays are parts of their own; those of meshes kept once lie behind, and close up. */
+/* Rebuilds the parts: moving and still triangles of a node become separate parts; those of meshes kept once follow, shifted. */
 static ec_result reorder_parts(const sorting *o, uint32_t used, ec_error *err)
 {
     ec_scene *s = o->s;

@@ -8,7 +8,7 @@ static const char *name_of(const ec_gltf *g, const ec_gltf_node *node)
     return node->name || node->mesh < 0 ? node->name : g->meshes[node->mesh].name;
 }
 
-/* Nodes hang in trees, as gltf_tree.c has checked. */
+/* Finds each node's root. Nodes form trees, as gltf_tree.c has checked. */
 static void find_roots(const ec_gltf *g, uint32_t *roots)
 {
     for (uint32_t i = 0; i < g->node_count; i++) roots[i] = i;
@@ -36,7 +36,7 @@ void ec_part_add(ec_scene *s, uint32_t first, uint32_t node)
 {
     ec_part *last = s->part_count ? &s->parts[s->part_count - 1] : NULL;
     if (last && last->node == node) return;
-    if (last && last->first == first) last->node = node; /* nothing was left of it */
+    if (last && last->first == first) last->node = node; /* the last part has no triangles left */
     else s->parts[s->part_count++] = (ec_part){first, node};
 }
 

@@ -1,4 +1,4 @@
-/* Cameras: the file's, put where their nodes stand, or one that frames the whole scene. */
+/* Places the file's cameras at their nodes, or makes one that frames the whole scene. */
 #include "gltf/flatten.h"
 
 #include <math.h>
@@ -6,8 +6,7 @@
 #include "base/freed.h"
 #include "base/vec3.h"
 
-/* An orthonormal frame nearest to looking along `forward` with `up` up; scale, shear and mirroring of the node do not
- * belong to a camera and are dropped. */
+/* Sets the orthonormal frame closest to looking along `forward` with `up` up; a node's scale, shear and mirroring do not apply to a camera. */
 static void set_frame(ec_camera *camera, double forward[3], double up[3])
 {
     double right[3];
@@ -83,7 +82,8 @@ static bool place_camera(const ec_placement *at, const double center[3], ec_came
 
 enum { WAYS = 8 };
 
-/* The area of fronts, both-sided surfaces among them, as orthographic cameras see it along each way, if nothing hides anything. */
+/* Adds up, for each way, the area of front faces (and of both sides of double-sided ones) as an orthographic camera along it would see it without
+ * occlusion. */
 static void add_front_areas(const ec_scene *s, double ways[WAYS][3], double areas[WAYS])
 {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
@@ -98,15 +98,15 @@ static void add_front_areas(const ec_scene *s, double ways[WAYS][3], double area
     }
 }
 
-/* From the upper right of the front, unless more than twice the area faces one of the seven other corners: of what is closed as much does
- * everywhere. */
+/* Chooses the view from the upper right of the front, unless more than twice the area faces one of the seven other corners; closed surfaces show the
+ * same area to all. */
 static void choose_way(const ec_scene *s, double forward[3])
 {
     static const double first[3] = {-0.5, -0.35, -1};
     double ways[WAYS][3], areas[WAYS] = {0};
     int best = 0;
     for (int corner = 0; corner < WAYS; corner++) {
-        for (int k = 0; k < 3; k++) ways[corner][k] = corner >> (k == 2 ? 0 : k + 1) & 1 ? -first[k] : first[k]; /* the back comes second */
+        for (int k = 0; k < 3; k++) ways[corner][k] = corner >> (k == 2 ? 0 : k + 1) & 1 ? -first[k] : first[k]; /* corner 1 is the back */
         ec_normalize(ways[corner]);
     }
     add_front_areas(s, ways, areas);
@@ -115,7 +115,7 @@ static void choose_way(const ec_scene *s, double forward[3])
     memcpy(forward, ways[best], sizeof ways[best]);
 }
 
-/* 45 degrees high in view, near enough that the bounding sphere just fits. */
+/* Returns a camera with a vertical field of view of 45 degrees, as near as the bounding sphere allows. */
 static ec_camera framing_camera(const ec_scene *s)
 {
     ec_camera camera = {.type = EC_CAMERA_PERSPECTIVE, .yfov = 0.7853982f};
@@ -168,7 +168,7 @@ ec_result ec_gltf_cameras_place(ec_gltf *g, const ec_placement_list *placements,
 
 ec_result ec_scene_find_camera(const ec_scene *s, const char *name_or_index, uint32_t *camera, ec_error *err)
 {
-    EC_FREED char **names = malloc(s->camera_count * sizeof *names); /* they themselves are the cameras' */
+    EC_FREED char **names = malloc(s->camera_count * sizeof *names); /* the strings belong to the cameras */
     if (!names) return ec_fail(err, "out of memory");
     for (uint32_t i = 0; i < s->camera_count; i++) names[i] = s->cameras[i].name;
     return ec_scene_names_find(&(ec_scene_names){names, s->camera_count}, "camera", name_or_index, camera, err);

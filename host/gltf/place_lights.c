@@ -1,4 +1,4 @@
-/* KHR_lights_punctual: the file's lights, put where their nodes stand. */
+/* KHR_lights_punctual: places the file's lights at their nodes. */
 #include "gltf/flatten.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Looks at every primitive that stands somewhere, once, before anything is allocated for it. */
+/* Checks every primitive that is placed, once, before anything is allocated for it. */
 #include "base/text.h"
 #include "gltf/flatten.h"
 

@@ -79,7 +79,7 @@ ec_result ec_pose_blend(const ec_gltf *g, const ec_gltf_primitive *p, const ec_p
         for (int i = 0; i < 9; i++) blend->linear[i] /= total;
         for (int i = 0; i < 3; i++) blend->origin[i] /= total;
     } else if (pose->joint_count) {
-        *blend = pose->joints[0]; /* what hangs on nothing goes with the skeleton */
+        *blend = pose->joints[0]; /* vertices without influences follow the first joint */
     }
     return EC_OK;
 }

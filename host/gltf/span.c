@@ -1,4 +1,4 @@
-/* Where all of a scene is in the course of an animation: what stays there is looked at once, what may move at equal times. */
+/* Measures a scene over the course of an animation: what stands still is measured once, what may move at equal time steps. */
 #include <math.h>
 #include <stdlib.h>
 

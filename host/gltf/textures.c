@@ -1,5 +1,5 @@
-/* The textures and images that the scene's triangles use; no others are opened. What is wanted is gathered first, then decoded by all
- * threads, and taken in the order in which materials name it: what is said, and what is first, is the same for any number of threads. */
+/* Loads the textures and images that the scene's triangles use; no others are opened. They are first collected, then decoded by all threads, and
+ * added in the order in which materials name them: messages and order do not depend on the number of threads. */
 #include "base/freed.h"
 #include "base/text.h"
 #include "gltf/flatten.h"
@@ -14,33 +14,33 @@
 /* An image of the file on its way into the scene. */
 typedef struct picture {
     bool is_wanted, is_fetched;
-    uint32_t index;               /* in the file */
-    const uint8_t *stored;        /* as it is in the file … */
-    uint64_t bytes;               /* … so many … */
-    uint8_t *owned;               /* … and to be freed, if not NULL */
-    const ec_gltf_texture *gloss; /* not NULL: it becomes metallic-roughness, by that texture's factor */
+    uint32_t index;               /* index in the file */
+    const uint8_t *stored;        /* the encoded bytes */
+    uint64_t bytes;               /* their number */
+    uint8_t *owned;               /* to be freed, or NULL */
+    const ec_gltf_texture *gloss; /* not NULL: becomes metallic-roughness, by that texture's factor */
     ec_image image;
-    ec_error err;                 /* why there is none, if ec_gltf_image_load failed; else how it is damaged, or "" */
+    ec_error err;                 /* why it failed, if `failed`; else how it is damaged, or "" */
     bool failed;
-    int64_t place;                /* in the scene; UNSEEN or UNUSABLE */
+    int64_t place;                /* index in the scene; UNSEEN or UNUSABLE */
 } picture;
 
 typedef struct table {
     ec_gltf *g;
     ec_scene *s;
     const ec_log *log;
-    picture *pictures; /* of each image; then, where a texture has one for itself, of each texture */
-    picture **wanted;  /* those, as materials name them */
+    picture *pictures; /* one for each image, then one for each texture that needs a picture of its own */
+    picture **wanted;  /* the wanted ones, in the order in which materials name them */
     int64_t wanted_count;
-    int64_t *texture;  /* glTF texture -> scene texture; UNSEEN or UNUSABLE */
-    int slot;          /* whose use is looked at */
+    int64_t *texture;  /* by glTF texture: texture of the scene; UNSEEN or UNUSABLE */
+    int slot;          /* the slot whose use is being visited */
     ec_result result;
     ec_error *err;
 } table;
 
 enum { UNSEEN = -1, UNUSABLE = -2 };
 
-/* The file's bytes of an image; the caller frees *owned. False: err says why there are none. */
+/* Gets the encoded bytes of an image; the caller frees *owned. Returns false if there are none; err says why. */
 static bool fetch_bytes(const ec_gltf *g, uint32_t index, const uint8_t **bytes, uint64_t *length, uint8_t **owned, ec_error *err)
 {
     const ec_gltf_image *in = &g->images[index];
@@ -67,7 +67,7 @@ static bool no_memory(const char *where, ec_error *err)
     return false;
 }
 
-/* A picture of an image's bytes. False: err says why there is none; else err says how it is damaged, or "". */
+/* Decodes an image's bytes. Returns false if that fails, and err says why; otherwise err says how the image is damaged, or "". */
 static bool decode_bytes(const ec_gltf *g, uint32_t index, const uint8_t *bytes, uint64_t length, ec_image *out, ec_error *err)
 {
     const char *name = g->images[index].name;
@@ -94,7 +94,7 @@ bool ec_gltf_image_load(const ec_gltf *g, uint32_t index, ec_image *out, ec_erro
     return ok;
 }
 
-/* Metallic-roughness of a picture whose alpha is glossiness: green 1 - factor x alpha, no metal. */
+/* Makes metallic-roughness of a picture whose alpha is glossiness: green becomes 1 - factor x alpha, blue (metal) 0. */
 static void make_roughness(ec_image *image, double glossiness)
 {
     for (size_t i = 0; i < 4 * (size_t)image->width * image->height; i += 4) {
@@ -104,10 +104,10 @@ static void make_roughness(ec_image *image, double glossiness)
     }
 }
 
-/* Where an animation keeps them, the same pixels serve all its scenes. */
+/* Returns the place where an animation keeps the pixels for all its scenes; NULL: it does not. */
 static ec_image *kept_of(const table *t, const picture *p) { return t->g->decoded && !p->gloss ? &t->g->decoded[p->index] : NULL; }
 
-/* Its bytes, and its size where that can be told, unless it is decoded already. */
+/* Gets an image's bytes and, if the header tells it, its size, unless it is decoded already. */
 static void fetch(const table *t, picture *p)
 {
     const ec_image *kept = kept_of(t, p);
@@ -132,8 +132,7 @@ static void decode(const table *t, picture *p)
     ec_image_find_range(&p->image);
 }
 
-/* A picture that cannot be had does not stop a render: the material's factors stand alone, as if it were white, or without
- * it where it holds directions. One that there is no memory for does. */
+/* A picture that cannot be read does not stop a render: it is taken as white or, if it holds directions, left out. Lack of memory does stop it. */
 static const char *instead_of(const table *t)
 {
     bool directions = t->slot == EC_SLOT_NORMAL || t->slot == EC_SLOT_CLEARCOAT_NORMAL || t->slot == EC_SLOT_ANISOTROPY;
@@ -192,7 +191,7 @@ static void map_use(table *t, bool drawn, ec_texture_use *use)
     use->texture = texture < 0 ? -1 : (int32_t)texture;
 }
 
-/* drawn: by material. */
+/* Visits every texture use of every material. drawn: by material. */
 static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, bool drawn, ec_texture_use *use))
 {
     for (uint32_t i = 0; i < t->s->material_count; i++) {
@@ -205,7 +204,8 @@ static void for_each_use(table *t, const bool *drawn, void (*look)(table *t, boo
     }
 }
 
-/* Room in one piece, as kernels read it, for those whose size is known: what is decoded there is there once. Without memory each has its own. */
+/* Allocates one block, laid out as kernels read it, for the pictures whose size is known, so that they are decoded in place. Without memory for it
+ * each picture has its own. */
 static void make_room(const table *t)
 {
     uint64_t count = 0;
@@ -234,7 +234,7 @@ static int by_bytes(const void *a, const void *b)
     return *x < *y ? -1 : *x > *y;
 }
 
-/* The largest first: no thread begins with it when the others are about to end. */
+/* Decodes the largest picture first, so that no thread starts on it when the others are about to end. */
 static void decode_all(const table *t)
 {
     const int64_t count = t->wanted_count;
@@ -246,7 +246,7 @@ static void decode_all(const table *t)
     for (int64_t i = 0; i < count; i++) decode(t, t->wanted[i]);
 }
 
-/* By material: does a primitive that stands somewhere have it? */
+/* Marks the materials of primitives that are placed. */
 static void mark_drawn(const ec_gltf *g, const ec_placement_list *placements, bool *drawn)
 {
     for (uint32_t i = 0; i < placements->count; i++) {
@@ -260,7 +260,7 @@ static void mark_drawn(const ec_gltf *g, const ec_placement_list *placements, bo
 
 ec_result ec_gltf_textures_load(ec_gltf *g, const ec_placement_list *placements, ec_scene *s, const ec_log *log, ec_error *err)
 {
-    const size_t most = (size_t)g->image_count + g->texture_count; /* pictures: the images, and roughness made of glossiness */
+    const size_t most = (size_t)g->image_count + g->texture_count; /* the images, and roughness made of glossiness */
     EC_FREED picture *pictures = calloc(most + 1, sizeof *pictures);
     EC_FREED int64_t *texture = malloc(((size_t)g->texture_count + 1) * sizeof *texture);
     EC_FREED picture **wanted = malloc((most + 1) * sizeof(picture *));

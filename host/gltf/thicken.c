@@ -1,4 +1,4 @@
-/* glTF's points and lines have no width; pictures of paths need one. */
+/* Gives width to glTF's points and lines, which have none, since paths can only hit surfaces. */
 #include "gltf/thicken.h"
 
 #include <float.h>
@@ -10,13 +10,13 @@
 
 #define PICTURE_HEIGHT 512
 
-/* How large a pixel is at a place in the world: by its depth, or one size for all. */
+/* The size of a pixel in the world: fixed + per_depth x depth. */
 typedef struct eye {
     double position[3], forward[3];
     double per_depth, fixed;
 } eye;
 
-/* Points, or lines' segments. */
+/* Counts the points, or the segments of lines. */
 static uint64_t count_parts(const ec_gltf *g, const ec_gltf_primitive *p)
 {
     const uint64_t corners = p->indices >= 0 ? g->accessors[p->indices].count : g->accessors[p->streams.of[EC_POSITION]].count;
@@ -60,7 +60,7 @@ static bool look_through(const ec_gltf *g, const ec_placement_list *list, eye *e
     return false;
 }
 
-/* The camera that frames all of a scene without one stands 1 / sin 22.5 degrees of its radius away and sees 45 degrees. */
+/* Approximates the camera that frames a scene without one: it stands 1 / sin 22.5 degrees times the scene's radius away, and sees 45 degrees. */
 static void frame_all(const ec_gltf *g, const ec_placement_list *list, eye *e)
 {
     double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX}, high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX}, radius = 0;
@@ -109,7 +109,7 @@ static void free_mesh(ec_thick_mesh *m)
     for (int i = 0; i < EC_STREAMS; i++) free(m->streams[i]);
 }
 
-/* Takes the values. There is room. */
+/* Appends an accessor that owns the values; there must be room for it. */
 static int32_t put_accessor(ec_gltf *g, void *values, uint64_t count, uint32_t type, uint32_t components)
 {
     g->accessors[g->accessor_count] = (ec_gltf_accessor){.view = -1, .count = count, .component_type = type, .components = components, .open = true,
@@ -146,7 +146,7 @@ static ec_result thicken(ec_gltf *g, const ec_gltf_primitive *p, const ec_placem
         for (int end = 0; end < 2; end++) {
             to_world(g, p, at, vertices[end], ends[end]);
             radii[end] = radius_at(g, e, ends[end]);
-            for (int k = 0; k < 3; k++) ends[end][k] -= at->origin[k]; /* so that floats hold it far from the world's origin */
+            for (int k = 0; k < 3; k++) ends[end][k] -= at->origin[k]; /* relative, so that floats are precise far from the world's origin */
         }
         ec_ball_append(&m, (const double(*)[3])ends, radii, vertices);
     }
@@ -162,7 +162,7 @@ static bool has_thin(const ec_gltf *g, int32_t mesh)
     return false;
 }
 
-/* A mesh beside the one that stands there, in the world's directions: balls stay round whatever the node does. */
+/* Adds a mesh beside the one that is placed, with axes of the world: balls stay round whatever the node's matrix. */
 static ec_result visit(ec_gltf *g, ec_placement_list *list, uint32_t index, const eye *e, bool moving, ec_error *err)
 {
     const ec_placement at = list->items[index];

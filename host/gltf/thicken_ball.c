@@ -1,4 +1,4 @@
-/* One ball or capsule, of flat faces with the normals of a round one. */
+/* Makes one ball or capsule of flat faces, with the normals of a round one. */
 #include "gltf/thicken.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Point k of ring r of the upper half of a unit ball; ring 0 is its pole. */
+/* Computes point k of ring r of the upper half of a unit ball; ring 0 is its pole. */
 static void point_of(const ec_thick_mesh *m, int ring, int k, double p[3])
 {
     const double down = 0.5 * pi * ring / m->rings, around = 2 * pi * k / m->sides;
@@ -16,7 +16,7 @@ static void point_of(const ec_thick_mesh *m, int ring, int k, double p[3])
     p[2] = ring == m->rings ? 0 : cos(down);
 }
 
-/* Half the area of the ball's faces. */
+/* Returns half the area of the unit ball's faces. */
 static double half_area(const ec_thick_mesh *m)
 {
     double area = 0;
@@ -24,13 +24,13 @@ static double half_area(const ec_thick_mesh *m)
         double a[3], b[3], c[3], d[3], u[3], v[3], n[3];
         point_of(m, ring, 0, a), point_of(m, ring + 1, 0, b), point_of(m, ring + 1, 1, c), point_of(m, ring, 1, d);
         for (int k = 0; k < 3; k++) u[k] = c[k] - a[k], v[k] = d[k] - b[k];
-        ec_cross(u, v, n); /* of the trapezium a, b, c, d; at the pole a triangle */
+        ec_cross(u, v, n); /* of the trapezium a, b, c, d, which is a triangle at the pole */
         area += 0.5 * m->sides * sqrt(ec_dot(n, n));
     }
     return area;
 }
 
-/* From all around a convex body is seen with a quarter of its surface (Cauchy). */
+/* Seen from all directions, a convex body shows a quarter of its surface on average (Cauchy). */
 void ec_ball_choose(ec_thick_mesh *m, double pixels)
 {
     m->sides = pixels > 8 ? EC_BALL_SIDES_MOST : 8;
@@ -41,7 +41,7 @@ void ec_ball_choose(ec_thick_mesh *m, double pixels)
 
 uint64_t ec_ball_vertices(const ec_thick_mesh *m) { return 2 * (1 + (uint64_t)m->rings * (uint64_t)m->sides); }
 
-/* Each half: a fan, and quads between rings; then the tube. */
+/* Each half has a fan, and quads between rings; the tube has quads. */
 uint64_t ec_ball_indices(const ec_thick_mesh *m) { return 6 * (uint64_t)m->sides * (2 * (uint64_t)m->rings - 1) + 6 * (uint64_t)m->sides; }
 
 static void make_frame(const double axis[3], double u[3], double v[3])
@@ -58,7 +58,7 @@ static void copy_stream(ec_thick_mesh *m, int stream, uint32_t vertex)
     const int32_t accessor = m->from->streams.of[stream];
     const uint32_t width = ec_stream_width[stream];
     float *out = m->streams[stream] + m->vertex_count * width;
-    for (uint32_t k = 0; k < width; k++) out[k] = 1; /* the alpha of a colour that has none */
+    for (uint32_t k = 0; k < width; k++) out[k] = 1; /* alpha of a colour without one */
     ec_gltf_accessor_floats(&m->g->accessors[accessor], vertex, m->g->accessors[accessor].components, out);
 }
 
@@ -80,7 +80,7 @@ static void append_triangle(ec_thick_mesh *m, uint32_t a, uint32_t b, uint32_t c
     m->index_count += 3;
 }
 
-/* Between two rings; `first` is the vertex of point 0 of each. */
+/* Appends the quads between two rings, given by the vertex of point 0 of each. */
 static void append_band(ec_thick_mesh *m, uint32_t upper, uint32_t lower, bool turned)
 {
     for (int k = 0; k < m->sides; k++) {
@@ -90,7 +90,7 @@ static void append_band(ec_thick_mesh *m, uint32_t upper, uint32_t lower, bool t
     }
 }
 
-/* half: 0, the one towards -axis, or 1. Returns the first vertex of its rim. */
+/* Appends half a ball; half: 0: the one towards -axis, 1: the other. Returns the first vertex of its rim. */
 static uint32_t append_half(ec_thick_mesh *m, const double end[3], double radius, double axes[3][3], int half, uint32_t vertex)
 {
     const uint32_t pole = (uint32_t)m->vertex_count, sides = (uint32_t)m->sides;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Levels 1 and 2 of ISA-L 2.30 now and then give other bytes for the same block (tests/host/test_deflate.c). docs/internals.md has what was tried. */
+/* Levels 1 and 2 of ISA-L 2.30 occasionally give other bytes for the same block (tests/host/test_deflate.c). docs/internals.md says what was tried. */
 enum { LEVEL = 3, LEVEL_ROOM = ISAL_DEF_LVL3_DEFAULT };
 
 struct ec_deflate {
@@ -14,7 +14,7 @@ struct ec_deflate {
 
 ec_deflate *ec_deflate_create(void)
 {
-    return calloc(1, sizeof(ec_deflate)); /* zeros: isal_deflate_stateless reads a field that its init leaves */
+    return calloc(1, sizeof(ec_deflate)); /* zeroed, as isal_deflate_stateless reads a field that its init does not set */
 }
 
 void ec_deflate_free(ec_deflate *d)
@@ -22,7 +22,7 @@ void ec_deflate_free(ec_deflate *d)
     free(d);
 }
 
-/* ISA-L leaves values in the upper halves of x86 registers, and pow after it takes 12 times as long, in this thread for good. */
+/* Clears the upper halves of x86 registers. ISA-L leaves values there, after which pow takes 12 times as long for the rest of the thread. */
 static void leave_wide_registers(void)
 {
 #ifdef __x86_64__
@@ -50,7 +50,7 @@ size_t ec_deflate_pack(ec_deflate *d, ec_deflate_kind kind, uint8_t *from, size_
     return code == COMP_OK ? z->total_out : 0;
 }
 
-/* Blocks that are stored as they are: five bytes for each of 65 535, and the stream's frame. */
+/* Blocks stored uncompressed: five bytes for each 65 535, and the stream's frame. */
 size_t ec_deflate_bound(size_t bytes)
 {
     return bytes + 5 * (bytes / 65535 + 1) + 16;

@@ -9,7 +9,7 @@
 
 enum { BLOCKS_A_THREAD = 4 };
 
-/* What OpenEXR's ZIP compresses: even bytes before odd ones, each as its difference from the one before, off by 128 (ImfZip.cpp). */
+/* Prepares what OpenEXR's ZIP compresses: even bytes before odd ones, each as the difference from the one before, plus 128 (ImfZip.cpp). */
 static void predict(const uint8_t *packed, size_t bytes, uint8_t *to)
 {
     const size_t half = (bytes + 1) / 2;
@@ -20,7 +20,7 @@ static void predict(const uint8_t *packed, size_t bytes, uint8_t *to)
     for (size_t i = 1; i < bytes / 2; i++) to[half + i] = (uint8_t)(packed[2 * i + 1] - packed[2 * i - 1] + 128);
 }
 
-/* For a chunk as it is packed, predicted and compressed. */
+/* Makes room for a chunk packed, predicted and compressed. */
 static bool make_room(ec_exr_block *b, size_t bytes)
 {
     if (!b->deflate) b->deflate = ec_deflate_create();
@@ -32,7 +32,7 @@ static bool make_room(ec_exr_block *b, size_t bytes)
     return b->memory != NULL && b->deflate != NULL;
 }
 
-/* The part's channels in the file's order; false: it has others. */
+/* Sorts the part's channels into the file's order. Returns false if the file has other channels. */
 static bool order(exr_const_context_t context, int index, const ec_exr_part *part, const ec_channel **channels)
 {
     const exr_attr_chlist_t *list = NULL;
@@ -46,7 +46,7 @@ static bool order(exr_const_context_t context, int index, const ec_exr_part *par
     return true;
 }
 
-/* Rows of the data from `row` on. A chunk that would not get smaller is stored as it is packed. */
+/* Encodes rows of the data from `row` on. A chunk that compression would not make smaller is stored as it is packed. */
 static exr_result_t encode(ec_exr_block *b, const ec_exr_part *part, const ec_channel *const *channels, uint32_t width, uint32_t row,
                            uint32_t rows)
 {

@@ -8,7 +8,7 @@
 #include "image/exr_input.h"
 #include "image/image.h"
 
-/* False where the file cannot be read; whoever reads its pixels says why. */
+/* Returns false if the file cannot be read; reading its pixels tells why. */
 static bool open_header(ec_exr_input *input, const char *path)
 {
     *input = (ec_exr_input){.path = path};
@@ -35,7 +35,7 @@ int ec_exr_number(const char *path, const char *attribute, double *value)
     return is_number;
 }
 
-/* Is the last line's block whole? Blocks may stand in any order, but are written in theirs. */
+/* Tells whether the block of the last line is complete. Blocks may be in any order, but are written in theirs. */
 static bool is_whole(const ec_exr_input *input)
 {
     exr_attr_box2i_t window;

@@ -5,7 +5,7 @@
 
 #include "base/freed.h"
 
-/* The library's callback. */
+/* Callback of the library: keeps its first message. */
 static void keep_message(exr_const_context_t context, exr_result_t code, const char *message)
 {
     void *user = NULL;
@@ -51,7 +51,7 @@ const exr_attr_chlist_entry_t *ec_exr_channel(const ec_exr_input *input, int par
     return NULL;
 }
 
-/* What all chunks of a part have in common. */
+/* What decoding all chunks of a part shares. */
 typedef struct decoding {
     exr_context_t context;
     int part;
@@ -61,10 +61,10 @@ typedef struct decoding {
     const ec_exr_room *rooms;
     uint32_t count;
     bool as_floats;
-    float *unwanted; /* a line, for channels that nobody asked for: not every routine of the library passes them over */
+    float *unwanted; /* a line for unwanted channels, which not all routines of the library can skip */
 } decoding;
 
-/* Points a channel of the chunk that begins with pixel (x, y) at its room. */
+/* Directs a channel of the chunk that begins at pixel (x, y) to its room. */
 static void place(const decoding *d, exr_coding_channel_info_t *channel, uint64_t x, uint64_t y)
 {
     const ec_exr_room *room = NULL;
@@ -90,7 +90,7 @@ static exr_result_t decode_chunk(decoding *d, const exr_chunk_info_t *info, uint
     return code == EXR_ERR_SUCCESS ? exr_decoding_run(d->context, d->part, p) : code;
 }
 
-/* Scan lines are tiles as wide as the picture. */
+/* Decodes all chunks. Scan lines are treated as tiles as wide as the picture. */
 static exr_result_t decode_chunks(decoding *d, bool is_tiled)
 {
     int32_t wide = INT32_MAX, high = 1;

@@ -7,13 +7,13 @@ static const uint32_t half_inf = 0x7c00, half_nan = 0x7e00, half_most = 0x7bff;
 
 uint32_t ec_channel_bytes(ec_channel_type type) { return type == EC_CHANNEL_HALF ? 2 : 4; }
 
-/* IEEE 754 binary32 to binary16, to nearest, ties to even. Selections in place of branches, so that compilers take several values at once. */
+/* Converts IEEE 754 binary32 to binary16, to nearest, ties to even. Uses selections instead of branches, so that compilers vectorise it. */
 static uint16_t half_of(float value)
 {
     uint32_t bits, tiny;
     memcpy(&bits, &value, sizeof bits);
     const uint32_t sign = bits >> 16 & 0x8000, size = bits & 0x7fffffff;
-    const float shifted = fabsf(value) + 0.5f; /* whose last place is the least half, 2^-24 */
+    const float shifted = fabsf(value) + 0.5f; /* its last place is the least half, 2^-24 */
     memcpy(&tiny, &shifted, sizeof tiny);
     tiny -= 0x3f000000;
     tiny = tiny == 0 && size > 0 ? 1 : tiny;

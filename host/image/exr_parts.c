@@ -61,7 +61,7 @@ const char *ec_exr_text(const ec_exr_file *file, const char *name)
     return found->string->str;
 }
 
-/* -1, which no part has, where there is none. */
+/* Returns the index of the part; -1, which no part has, if there is none. */
 static int part_named(const ec_exr_file *file, const char *name)
 {
     for (int i = 0; i < file->part_count; i++) {

@@ -1,4 +1,4 @@
-/* OpenEXR in: the first part's full-resolution image, scan lines or tiles, any compression, to float planes. */
+/* Reads OpenEXR: the full-resolution image of the first part, scan lines or tiles, any compression, into float planes. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,10 +9,10 @@
 #include "image/exr_read_rgba.h"
 #include "image/image.h"
 
-enum { SIDE_MAX = 1 << 17 };                       /* pixels; beyond it a header is taken for damaged */
+enum { SIDE_MAX = 1 << 17 };                       /* pixels; a header with more is taken for damaged */
 static const uint64_t value_max = 1ull << 32;      /* width * height * channels: 16 GiB of planes */
-/* No compression packs more pixels into a byte, nor a few hundred bytes gigabytes: the largest blocks, 256 lines, have 16 bytes of table
- * and header each, and their colours come on top. */
+/* More pixels per byte than any compression reaches, so that a few hundred bytes cannot claim gigabytes: the largest blocks, 256 lines, have 16 bytes
+ * of table and header each, plus their colours. */
 enum { PIXELS_A_BYTE_MAX = 1 << 17 };
 
 static ec_result damaged(const ec_exr_input *in, exr_result_t code, ec_error *err)
@@ -65,7 +65,7 @@ static ec_result allocate_planes(const ec_exr_input *in, const exr_attr_chlist_t
 {
     uint64_t pixels = (uint64_t)exr->width * exr->height, count = (uint64_t)list->num_channels, planes = 0;
     for (uint64_t i = 0; i < count; i++) planes += is_wanted(wanted, list->entries[i].name.str);
-    const uint64_t bytes = pixels * planes * sizeof(float), free_now = ec_memory_free(); /* else promised, and the process killed as it is used */
+    const uint64_t bytes = pixels * planes * sizeof(float), free_now = ec_memory_free(); /* or memory is promised, and the process killed later */
     if (bytes > free_now)
         return ec_fail(err, "cannot read '%s': %u x %u pixels with %llu channels take %.1f GB of memory, and %.1f are free; crop it", in->path, exr->width,
                        exr->height, (unsigned long long)planes, (double)bytes / 1e9, (double)free_now / 1e9);

@@ -1,5 +1,5 @@
-/* DWAA and DWAB compressed files, which OpenEXRCore 3.1 does not decode ("not yet implemented in C"), through the
- * C interface of the C++ library. It knows colour only, as half: just what these lossy compressions are made for. */
+/* Reads files compressed by DWAA and DWAB, which OpenEXRCore 3.1 does not decode ("not yet implemented in C"), through the C interface of the C++
+ * library. It knows only colour, as half, which is what these lossy compressions are made for. */
 #include "image/exr_read_rgba.h"
 
 #include <ImfCRgbaFile.h>
@@ -25,7 +25,7 @@ static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *ex
     return EC_OK;
 }
 
-/* The library below takes an attribute's word for its size, gigabytes too. OpenEXRCore compares it with the file's. */
+/* Checks the header with OpenEXRCore, which compares sizes of attributes with the file's; the C++ library believes them, even gigabytes. */
 static ec_result check_header(const char *path, ec_error *err)
 {
     ec_exr_input in;

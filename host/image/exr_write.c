@@ -1,4 +1,4 @@
-/* OpenEXR out: scan lines, ZIP (16 lines a block) or plain; one part, or several and a seal; rows as they come. */
+/* Writes OpenEXR row by row: scan lines, ZIP (16 lines per block) or uncompressed; one part, or several and a seal. */
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,30 +15,30 @@ enum {
     ROOM_MAX = 4096
 };
 
-/* A file on its way. The parts are the caller's; of what they point to no more is needed after the header than channels' names. */
+/* A file being written. The parts are the caller's; after the header, only names of channels are needed of what they point to. */
 struct ec_exr_rows {
     ec_atomic_file file;
     const char *path;     /* the caller's */
     uint32_t width, height;
     const ec_exr_part *parts;
     uint32_t part_count;
-    uint32_t room;           /* blanks in the header */
+    uint32_t room;           /* bytes of blanks in the header */
     exr_context_t context;
     uint64_t header_size;
     ec_exr_blocks blocks;
-    int part;                /* that is being written, from row y on */
+    int part;                /* the part being written, from row y on */
     uint32_t y;
     int write_error;         /* errno of the first failed write */
 };
 
-/* Where a header goes that is made once more: from it comes what takes the place of the first. */
+/* Receives a header that is made again, to replace the first one. */
 typedef struct header_bytes {
     uint8_t *bytes;
     uint64_t size, most;
 } header_bytes;
 
-/* The library calls both of these with its lock held: nothing of it that takes the lock may be called from here, error reports among
- * it, or a full disk would hang the program. */
+/* The library calls both of these with its lock held: nothing that takes the lock, such as error reports, may be called from here, or a full disk
+ * would hang the program. */
 static void ignore_message(exr_const_context_t context, exr_result_t code, const char *message)
 {
     (void)context, (void)code, (void)message;
@@ -105,7 +105,7 @@ static exr_result_t add_part(exr_context_t context, const ec_exr_rows *rows, con
     return code;
 }
 
-/* blanks: of an attribute that keeps the header's size; 0: there is none */
+/* Writes the header. blanks: size of the attribute that pads it; 0: none. */
 static exr_result_t write_header(exr_context_t context, const ec_exr_rows *rows, const ec_exr_part *parts, uint32_t blanks)
 {
     char text[ROOM_MAX + 1];
@@ -192,7 +192,7 @@ ec_result ec_exr_rows_put(ec_exr_rows *rows, const ec_exr_part *part, uint32_t c
     return EC_OK;
 }
 
-/* The header once more, over the first one: what it says was not known then. Blanks make up for what has become longer or shorter. */
+/* Writes the header again over the first one, with what was not known then. Blanks compensate for texts that became longer or shorter. */
 static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, ec_error *err)
 {
     EC_FREED uint8_t *bytes = malloc(rows->header_size + ROOM_MAX);
@@ -207,7 +207,7 @@ static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, 
         code = exr_start_write(&context, rows->path, EXR_WRITE_FILE_DIRECTLY, &setup);
         if (code == EXR_ERR_SUCCESS) code = write_header(context, rows, part, blanks);
         uint64_t size = header.size;
-        if (context) exr_finish(&context); /* of a file without pixels; what it writes goes behind the header, or nowhere */
+        if (context) exr_finish(&context); /* of a file without pixels; its output goes behind the header, or nowhere */
         header.size = size;
         blanks = blanks + (uint32_t)rows->header_size - (uint32_t)size;
         if (!rows->room || blanks == 0 || blanks > ROOM_MAX) break;
@@ -220,7 +220,7 @@ static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, 
 
 ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err)
 {
-    exr_result_t code = exr_finish(&rows->context); /* writes the table of blocks */
+    exr_result_t code = exr_finish(&rows->context); /* writes the table of block offsets */
     ec_result result = code == EXR_ERR_SUCCESS ? EC_OK : failed(rows, code, err);
     if (result == EC_OK && attributes) {
         ec_exr_part part = rows->parts[0];

@@ -1,9 +1,9 @@
-/* One number, by golden sections round the best of a coarse scale. */
+/* Fits an exposure by golden-section search around the best value of a coarse scale. */
 #include "image/shown.h"
 
 enum { PIXELS_MOST = 1 << 16, STOPS = 12 };
 
-/* Evenly spread pixels suffice: one number is fitted. */
+/* Returns the squared misfit over evenly spread pixels, which suffice for a single number. */
 static double misfit(const ec_look *curve, double exposure, const ec_measured *linear, const ec_measured *shown)
 {
     const ec_look look = {.tonemap = curve->tonemap, .exposure = exposure};

@@ -1,4 +1,4 @@
-/* Symbols and constants as in the paper, section 4; filters are separable, or sums of two that are. */
+/* Symbols and constants are as in the paper, section 4; filters are separable, or sums of two separable ones. */
 #include "image/flip.h"
 
 #include <math.h>
@@ -17,13 +17,13 @@ static const double to_xyz[3][3] = {{10135552 / 24577794., 8788810 / 24577794., 
 static const double to_rgb[3][3] = {{3.241003275, -1.537398934, -0.498615861}, {-0.969224334, 1.875930071, 0.041554224},
                                     {0.055639423, -0.204011202, 1.057148933}};
 
-/* One-dimensional kernels, each with the sum of its positive weights 1, as is that of its negative ones. */
+/* One-dimensional kernels. In each, the positive weights add up to 1, and so do the negative ones in size. */
 enum { SMOOTH_Y, SMOOTH_RG, SMOOTH_BY, SMOOTH_BY2, SMOOTH_FEATURE, EDGE, POINT, KERNELS };
 typedef struct filters {
     int radius, feature_radius;
     double kernel[KERNELS][TAPS];
-    double by_share;             /* of the first of BY's two Gaussians */
-    double colour_most;          /* the largest difference of colour: green and blue */
+    double by_share;             /* weight of the first of BY's two Gaussians */
+    double colour_most;          /* the largest colour difference, between green and blue */
 } filters;
 
 static void transform(const double m[3][3], const double in[3], double out[3])
@@ -39,7 +39,7 @@ static void normalise(double *kernel, int radius)
         if (kernel[i] != 0) kernel[i] /= sums[kernel[i] < 0];
 }
 
-/* A Gaussian of the contrast sensitivity functions; returns the sum of its weights. */
+/* Makes a Gaussian of the contrast sensitivity functions; returns the sum of its weights. */
 static double gaussian(double b, int radius, double *kernel)
 {
     double sum = 0;
@@ -53,7 +53,7 @@ static double hyab(const double a[3], const double b[3])
     return fabs(a[0] - b[0]) + hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-/* CIELAB of linear RGB, with Hunt's effect: colours count less in the dark. */
+/* Converts linear RGB to CIELAB with the Hunt effect: colours count less in the dark. */
 static void hunt_lab(const double rgb[3], double lab[3])
 {
     const double delta = 6 / 29.;
@@ -90,7 +90,7 @@ static void make_filters(filters *f)
     f->colour_most = pow(hyab(green, blue), qc);
 }
 
-/* Adds the weighted values of one row to another; shifted pointers add a row's values to their neighbours'. */
+/* Adds a row, weighted; shifting the pointers adds values to their neighbours. */
 static void add_row(const float *in, double weight, uint32_t width, float *out)
 {
     const float by = (float)weight;
@@ -99,7 +99,7 @@ static void add_row(const float *in, double weight, uint32_t width, float *out)
 
 static int radius_of(const filters *f, int kernel) { return kernel < SMOOTH_FEATURE ? f->radius : f->feature_radius; }
 
-/* A row in the opponent colours YCxCz, each with room for the widest filter, where its ends go on. */
+/* Converts a row to the opponent colours YCxCz, each extended at both ends for the widest filter. */
 static void to_opponent(const float *in, uint32_t width, float *out)
 {
     const uint32_t row = width + 2 * RADIUS_MOST;
@@ -125,12 +125,12 @@ static void filter_across(const filters *f, const float *in, uint32_t width, flo
             add_row(opponent + channel[k] * (width + 2 * RADIUS_MOST) + RADIUS_MOST + i, f->kernel[k][i + radius_of(f, k)], width, out + (uint32_t)k * width);
 }
 
-/* The other halves of the filters: which row, filtered across, by which kernel. */
+/* The second passes of the filters: which row, filtered horizontally, by which kernel. */
 enum { Y, RG, BY, BY2, EDGE_X, EDGE_Y, POINT_X, POINT_Y, DOWN };
 static const int halves[DOWN][2] = {{SMOOTH_Y, SMOOTH_Y}, {SMOOTH_RG, SMOOTH_RG}, {SMOOTH_BY, SMOOTH_BY}, {SMOOTH_BY2, SMOOTH_BY2}, {EDGE, SMOOTH_FEATURE},
                                     {SMOOTH_FEATURE, EDGE}, {POINT, SMOOTH_FEATURE}, {SMOOTH_FEATURE, POINT}};
 
-/* across: rows of KERNELS * width. out: DOWN * width, of row y. */
+/* Filters row y vertically. across: rows of KERNELS * width; out: DOWN * width. */
 static void filter_down(const filters *f, const float *across, uint32_t width, uint32_t height, uint32_t y, float *out)
 {
     memset(out, 0, DOWN * sizeof *out * width);
@@ -174,7 +174,7 @@ ec_result ec_flip(const float *a, const float *b, uint32_t width, uint32_t heigh
 {
     filters f = {0};
     const float *pictures[2] = {a, b};
-    const uint64_t row = (uint64_t)KERNELS * width, line = (uint64_t)2 * DOWN * width + 3 * 2 * RADIUS_MOST; /* of a thread: what either half needs */
+    const uint64_t row = (uint64_t)KERNELS * width, line = (uint64_t)2 * DOWN * width + 3 * 2 * RADIUS_MOST; /* per thread: what either pass needs */
     const int threads = omp_get_max_threads();
     float *across = malloc((2 * height * row + (uint64_t)threads * line) * sizeof *across);
     if (!across) return ec_fail(err, "out of memory for FLIP of two pictures of %ux%u pixels", width, height);

@@ -1,4 +1,4 @@
-/* Files of pixels beside the EXR, written row by row from the top: one row of a table each. */
+/* File formats other than EXR, written row by row from the top, as a table. */
 #ifndef EC_IMAGE_FORMATS_H
 #define EC_IMAGE_FORMATS_H
 
@@ -6,13 +6,13 @@
 
 #include "image/gather.h"
 
-/* Opened by begin, freed by end and abort. A file has its name only once it is whole. */
+/* begin opens rows, end and abort free them. A file gets its name only once it is complete. */
 typedef struct ec_format {
-    const char *endings[3]; /* of names, NULL behind the last */
+    const char *endings[3]; /* file name extensions, ended by NULL */
     bool has_alpha, has_16_bits, keeps_text;
-    ec_encode *const *encode; /* of formats that are encoded whole; what it points to is NULL where the build lacks the library, */
-    const char *library;    /* of this name */
-    bool is_linear;         /* floats of radiance come, 3 a pixel */
+    ec_encode *const *encode; /* of formats encoded as a whole; points to NULL if the build lacks the library, */
+    const char *library;    /* whose name this is */
+    bool is_linear;         /* takes radiance, 3 floats per pixel */
     ec_result (*begin)(void **rows, const char *path, const ec_raster *of, const ec_png_text *text, ec_error *err);
     ec_result (*put)(void *rows, const void *pixels, uint32_t count, ec_error *err);
     ec_result (*end)(void *rows, ec_error *err);

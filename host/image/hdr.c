@@ -1,6 +1,6 @@
-/* Radiance .hdr in. Format: G. Ward, "Real Pixels", Graphics Gems II (1991), and Radiance's "File Formats" (Ward, 1992).
- * Values are mantissa * 2^(exponent - 136), as most readers have it (Radiance itself adds half a mantissa step);
- * EXPOSURE lines are not applied, as in most readers; who reads is told. */
+/* Reads Radiance .hdr. Format: G. Ward, "Real Pixels", Graphics Gems II (1991), and Radiance's "File Formats" (Ward, 1992). Values are mantissa *
+ * 2^(exponent - 136), as in most readers (Radiance itself adds half a mantissa step). EXPOSURE lines are not applied, as in most readers;
+ * ec_hdr_has_exposure tells of them. */
 #include "image/hdr.h"
 
 #include <math.h>
@@ -9,12 +9,12 @@
 
 #include "base/freed.h"
 
-/* SIDE_MAX in pixels: beyond it a header is taken for damaged. Only widths in the other range are run-length encoded. */
+/* SIDE_MAX in pixels: a header with more is taken for damaged. Only widths within the other range are run-length encoded. */
 enum { SIDE_MAX = 1 << 17, RLE_WIDTH_MIN = 8, RLE_WIDTH_MAX = 0x7fff };
 
 static const char cut_short[] = "it ends too early";
 
-/* Header lines up to an empty one, then the picture's size. NULL or what is wrong. */
+/* Reads header lines up to an empty one, then the size. Returns NULL, or what is wrong. */
 static const char *read_header(FILE *file, uint32_t *width, uint32_t *height)
 {
     char line[1024];
@@ -34,10 +34,10 @@ static const char *read_header(FILE *file, uint32_t *width, uint32_t *height)
     return NULL;
 }
 
-/* The file is this thread's alone: without the library's locks a byte costs no call. */
+/* Reads without the library's locks, which would cost a call per byte, as only this thread uses the file. */
 static bool read_bytes(FILE *file, uint8_t *bytes, size_t count) { return fread_unlocked(bytes, 1, count, file) == count; }
 
-/* One component of a scan line, run-length encoded: a count above 128 repeats one byte, others precede as many bytes. */
+/* Reads a run-length encoded component of a scan line: a count above 128 repeats one byte, others precede as many bytes. */
 static const char *read_runs(FILE *file, uint8_t *values, uint32_t width)
 {
     for (uint32_t x = 0; x < width;) {
@@ -60,7 +60,8 @@ static void put(uint8_t *line, uint32_t width, uint32_t x, const uint8_t pixel[4
     for (uint32_t k = 0; k < 4; k++) line[k * width + x] = pixel[k];
 }
 
-/* Plain pixels from `first` on; a pixel of mantissas 1, 1, 1 repeats its predecessor, by 8 more bits each time in a row. */
+/* Reads plain pixels, beginning with `first`. A pixel with mantissas 1, 1, 1 repeats its predecessor, with a count of 8 more bits for each such pixel
+ * in a row. */
 static const char *read_plain(FILE *file, uint8_t *line, uint32_t width, const uint8_t first[4])
 {
     int shift = 0;
@@ -82,7 +83,7 @@ static const char *read_plain(FILE *file, uint8_t *line, uint32_t width, const u
     return NULL;
 }
 
-/* line: the four components, one after the other. */
+/* Reads a line; line: the four components, one after the other. */
 static const char *read_line(FILE *file, uint8_t *line, uint32_t width)
 {
     uint8_t start[4];
@@ -95,7 +96,7 @@ static const char *read_line(FILE *file, uint8_t *line, uint32_t width)
     return problem;
 }
 
-/* scale: of each exponent. A mantissa of 8 bits times a power of two of 2^-135 or more is exact. */
+/* Converts a line. scale: by exponent. An 8-bit mantissa times a power of two from 2^-135 on is exact. */
 static void to_floats(const uint8_t *line, uint32_t width, const float scale[256], float *rgb)
 {
     const uint8_t *exponent = line + 3 * (size_t)width;

@@ -1,4 +1,4 @@
-/* Radiance .hdr out: linear radiance to 8 bits and an exponent that the channels share (format: hdr.c), each rounded to the nearest. */
+/* Writes Radiance .hdr: linear radiance in 8 bits and an exponent shared by the channels (format: hdr.c), rounded to nearest. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ enum { WIDTH_LEAST = 8, WIDTH_MOST = 0x7fff, RUN_LEAST = 4, RUN_MOST = 127, PLAI
 typedef struct hdr_rows {
     ec_atomic_file file;
     uint32_t width;
-    uint8_t *line, *packed; /* a row by component, and what becomes of it */
+    uint8_t *line, *packed; /* a row by components, and encoded */
 } hdr_rows;
 
 static void pack_pixel(const float rgb[3], uint8_t out[4])
@@ -22,7 +22,7 @@ static void pack_pixel(const float rgb[3], uint8_t out[4])
     for (int c = 0; c < 3; c++) v[c] = isfinite(rgb[c]) && rgb[c] > 0 ? rgb[c] : 0, most = fmax(most, v[c]);
     memset(out, 0, 4);
     if (most < 0x1p-127) return;
-    if (frexp(most, &exponent) * 256 >= 255.5) exponent++; /* would round to 256 */
+    if (frexp(most, &exponent) * 256 >= 255.5) exponent++; /* it would round to 256 */
     if (exponent > 127) exponent = 127;
     for (int c = 0; c < 3; c++) out[c] = (uint8_t)fmin(rint(ldexp(v[c], 8 - exponent)), 255);
     out[3] = (uint8_t)(exponent + 128);

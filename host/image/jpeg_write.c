@@ -1,4 +1,4 @@
-/* JPEG out by libjpeg: quality 95, colours in every pixel. Compressed in memory, so that a full disk is met once, at the end. */
+/* Writes JPEG with libjpeg: quality 95, full-resolution colours. Compresses in memory, so that a full disk shows once, at the end. */
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>

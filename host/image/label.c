@@ -12,14 +12,14 @@
 
 enum { HEIGHT = 12, MOST = 64 /* characters */ };
 
-typedef struct corner { /* as stb_easy_font_print has it, four to a rectangle */
+typedef struct corner { /* as written by stb_easy_font_print, four to a rectangle */
     float x, y, z;
     uint8_t color[4];
 } corner;
 
 uint32_t ec_label_height(void) { return HEIGHT; }
 
-/* What fits. */
+/* Copies as much of the text as fits; returns its width. */
 static uint32_t shorten(const char *text, uint32_t width, char line[MOST + 3])
 {
     size_t length = strnlen(text, MOST);

@@ -1,4 +1,4 @@
-/* PNG out: sRGB, of 8 or 16 bits. In memory through libpng's simplified API, to files row by row, compressed by all threads (png_strips.h); both
+/* Writes PNG: sRGB, of 8 or 16 bits. In memory with libpng's simplified API; to files row by row, compressed by all threads (png_strips.h). Both
  * write the sRGB chunk. */
 #include <png.h>
 #include <setjmp.h>
@@ -30,12 +30,12 @@ struct ec_png_rows {
     png_structp png;
     png_infop info;
     ec_png_strips strips;
-    bool has_begun;       /* the stream's head is written */
+    bool has_begun;       /* the head of the zlib stream is written */
     int write_error;      /* errno of the write that failed */
-    char message[128];    /* the library's last complaint */
+    char message[128];    /* the library's last message */
 };
 
-/* libpng leaves by longjmp. */
+/* Keeps the message and leaves libpng by longjmp. */
 static void complain(png_structp png, png_const_charp message)
 {
     ec_png_rows *rows = png_get_error_ptr(png);
@@ -46,7 +46,7 @@ static void complain(png_structp png, png_const_charp message)
 static void warn(png_structp png, png_const_charp message)
 {
     ec_png_rows *rows = png_get_error_ptr(png);
-    snprintf(rows->message, sizeof rows->message, "%s", message); /* of an error that follows it the cause */
+    snprintf(rows->message, sizeof rows->message, "%s", message); /* a warning tells the cause of the error that follows */
 }
 
 static void write_all(png_structp png, png_bytep bytes, size_t size)
@@ -102,7 +102,7 @@ ec_result ec_png_rows_begin(ec_png_rows **made, const char *path, const ec_raste
     return EC_OK;
 }
 
-/* The strips that are ready, a chunk each; leaves by longjmp where it fails. */
+/* Writes the finished strips, one chunk each; leaves by longjmp if that fails. */
 static void put_strips(ec_png_rows *rows)
 {
     const ec_png_strips *s = &rows->strips;
@@ -135,7 +135,7 @@ ec_result ec_png_rows_put(ec_png_rows *rows, const uint8_t *pixels, uint32_t cou
 static ec_result finish(ec_png_rows *rows, ec_error *err)
 {
     if (setjmp(png_jmpbuf(rows->png))) return failed(rows, err);
-    png_write_chunk(rows->png, (png_const_bytep)"IEND", NULL, 0); /* png_write_end takes no stream but libpng's own */
+    png_write_chunk(rows->png, (png_const_bytep)"IEND", NULL, 0); /* png_write_end accepts only libpng's own stream */
     return ec_atomic_commit(&rows->file, err);
 }
 

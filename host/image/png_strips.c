@@ -22,7 +22,7 @@ static uint8_t paeth(int left, int up, int corner)
     return (uint8_t)(a <= b && a <= c ? left : b <= c ? up : corner);
 }
 
-/* PNG specification (ISO/IEC 15948), 9.2. `above` of the first row is zeros. */
+/* Filters a row: PNG specification (ISO/IEC 15948), 9.2. `above` is zeros for the first row. */
 static void filter_row(int type, const uint8_t *row, const uint8_t *above, size_t bytes, size_t pixel, uint8_t *to)
 {
     for (size_t i = 0; i < pixel; i++)
@@ -43,7 +43,7 @@ static uint64_t size_of_values(const uint8_t *bytes, size_t count)
     return sum;
 }
 
-/* The filter whose values, taken as signed, have the least sum of sizes: the heuristic of the specification, 12.8. `room`: a row. */
+/* Filters with the type whose values, taken as signed, have the least sum of magnitudes: the heuristic of the specification, 12.8. `room`: a row. */
 static void choose_filter(const uint8_t *row, const uint8_t *above, size_t bytes, size_t pixel, uint8_t *to, uint8_t *room)
 {
     uint64_t least = UINT64_MAX;

@@ -1,4 +1,4 @@
-/* The text that a PNG keeps under a keyword. */
+/* Reads the text under a keyword of a PNG. */
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
@@ -31,8 +31,7 @@ static char *text_under(png_structp png, png_infop info, const char *keyword)
     return NULL;
 }
 
-/* To the very end, so that a file that is damaged is known; rows are decoded one by one into `row`, as wide as they may
- * be. */
+/* Reads to the very end, so that damage is found; rows are decoded one by one into `row`, which has the largest width. */
 static void read_all(png_structp png, png_infop info, FILE *file, const char *keyword, reading *r)
 {
     if (setjmp(png_jmpbuf(png))) return;

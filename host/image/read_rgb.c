@@ -1,4 +1,4 @@
-/* An environment map by content, not by name: OpenEXR or Radiance. */
+/* Reads an environment map, OpenEXR or Radiance by content, not by name. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "image/hdr.h"
 #include "image/image.h"
 
-/* R, G and B of an EXR, or its luminance Y three times. */
+/* Reads R, G and B of an EXR, or three times its luminance Y. */
 static ec_result exr_to_rgb(const char *path, uint32_t *width, uint32_t *height, float **rgb, ec_error *err)
 {
     ec_exr exr;

@@ -14,7 +14,7 @@
 static const char mark[] = "eclat: sealed by SHA-256\n";
 enum { MARK_SIZE = sizeof mark - 1, SEAL_SIZE = MARK_SIZE + EC_SHA256_BYTES };
 
-/* The fingerprint of the first `size` bytes; 0 or an errno value. */
+/* Computes the digest of the first `size` bytes. Returns 0 or an errno value. */
 static int digest_of(int fd, off_t size, uint8_t digest[EC_SHA256_BYTES])
 {
     ec_sha256 hash;

@@ -19,7 +19,7 @@ void ec_show(const ec_look *look, const float *in, uint64_t pixel_count, float *
     }
 }
 
-/* Between any two channels, from se_y^2 = (1 - r) sum (w se)^2 + r (sum w se)^2, w the weights of luminance. */
+/* Returns the correlation between any two channels, from se_y^2 = (1 - r) sum (w se)^2 + r (sum w se)^2, w being the weights of luminance. */
 static double correlation(const float se[3], double se_y)
 {
     double alone = 0, together = ec_luminance_of_floats(se);
@@ -32,7 +32,7 @@ static double correlation(const float se[3], double se_y)
     return together > alone ? fmin(fmax((se_y * se_y - alone) / (together - alone), 0), 1) : 1;
 }
 
-/* What noise along one direction adds to the variance and the mean of R, G, B and luminance: a normal variable at 0 and +-sqrt 3. */
+/* Adds what noise along one direction contributes to variance and mean of R, G, B and luminance: a normal variable evaluated at 0 and +-sqrt 3. */
 static void add_direction(const ec_look *look, const double rgb[3], const double along[3], double weight, double variance[4], double bend[4])
 {
     double middle[4], above[4], below[4], up[3], down[3];
@@ -47,7 +47,7 @@ static void add_direction(const ec_look *look, const double rgb[3], const double
     }
 }
 
-/* See tail_se: a value that came out bright hides in a flat part of the curve how far off it may be. */
+/* Computes tail_se's reach: where the curve is flat, a bright value does not show how far off it may be. */
 static void reach(const ec_look *look, const double rgb[3], const double along[3], double out[3])
 {
     double at[3][4];
@@ -84,7 +84,7 @@ void ec_show_noise(const ec_look *look, const ec_measured *linear, float *se, fl
 
 void ec_show_bend(const ec_look *look, const float *rgb, const float *se, uint64_t pixel_count, float *slack)
 {
-    const double step = 0.1; /* of brightness, in which all noise is taken to be */
+    const double step = 0.1; /* of brightness; all noise is taken to be along it */
 #pragma omp parallel for schedule(static)
     for (uint64_t p = 0; p < pixel_count; p++) {
         double at[3][4];

@@ -30,8 +30,8 @@ const double *ec_srgb_bytes(void)
 enum { CELLS = 4096 };
 
 struct ec_srgb_rounder {
-    double first[256];        /* the least value that rounds to more than i; behind the last, infinity */
-    uint8_t below[CELLS + 1]; /* what a cell's lower end rounds to: one step at most comes in a cell, since 255 * 12.92 / CELLS < 1 */
+    double first[256];        /* the least value that rounds to more than i; infinity behind the last */
+    uint8_t below[CELLS + 1]; /* what a cell's lower end rounds to; a cell has at most one step, as 255 * 12.92 / CELLS < 1 */
 };
 
 static uint8_t round_by_power(double x)

@@ -13,7 +13,7 @@ static void window(double weights[SIDE])
     for (int i = 0; i < SIDE; i++) weights[i] /= sum;
 }
 
-static double at(const float *a, const float *b, uint32_t width, uint32_t x, uint32_t y, const double weights[SIDE]) /* luma, 1 float a pixel */
+static double at(const float *a, const float *b, uint32_t width, uint32_t x, uint32_t y, const double weights[SIDE]) /* a, b: luma, 1 float per pixel */
 {
     const double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
     double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
@@ -45,7 +45,7 @@ double ec_ssim(const float *a, const float *b, uint32_t width, uint32_t height, 
             rows[y][0] += at(luma, luma + pixels, width, x, y, weights);
             rows[y][1]++;
         }
-    for (uint32_t y = 0; rows && y < height; y++) sum += rows[y][0], count += rows[y][1]; /* the same bits by any number of threads */
+    for (uint32_t y = 0; rows && y < height; y++) sum += rows[y][0], count += rows[y][1]; /* in order: the same bits for any number of threads */
     free(luma);
     free(rows);
     return count > 0 ? sum / count : NAN;

@@ -10,7 +10,7 @@ static void multiply(const double m[3][3], double rgb[3])
     for (int c = 0; c < 3; c++) rgb[c] = m[c][0] * r + m[c][1] * g + m[c][2] * b;
 }
 
-/* Khronos PBR Neutral, https://github.com/KhronosGroup/ToneMapping/tree/main/PBR_Neutral, symbols as in its specification. */
+/* Khronos PBR Neutral, https://github.com/KhronosGroup/ToneMapping/tree/main/PBR_Neutral; symbols as in its specification. */
 static void pbr_neutral(double rgb[3])
 {
     const double F90 = 0.04, Ks = 0.8 - F90, Kd = 0.15;
@@ -24,7 +24,7 @@ static void pbr_neutral(double rgb[3])
     for (int c = 0; c < 3; c++) rgb[c] = rgb[c] * (pn / p) * g + pn * (1 - g);
 }
 
-/* Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab, 2016), 1 / 0.6 times as bright as there, as three.js has it. */
+/* Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab, 2016), 1 / 0.6 times as bright as there, like three.js. */
 static void aces(double rgb[3])
 {
     static const double in[3][3] = {{0.59719, 0.35458, 0.04823}, {0.07600, 0.90834, 0.01566}, {0.02840, 0.13383, 0.83777}};
@@ -37,8 +37,8 @@ static void aces(double rgb[3])
     multiply(out, rgb);
 }
 
-/* Troy Sobotka's AgX in Rec. 2020, its sigmoid as Wrensch's polynomial (2023), matrices as in Filament and three.js (Rec. 709 to 2020: ITU-R
- * BT.2407, four digits). */
+/* Troy Sobotka's AgX in Rec. 2020, with Wrensch's polynomial for its sigmoid (2023) and the matrices of Filament and three.js (Rec. 709 to 2020:
+ * ITU-R BT.2407, four digits). */
 static void agx(double rgb[3])
 {
     static const double to_2020[3][3] = {{0.6274, 0.3293, 0.0433}, {0.0691, 0.9195, 0.0113}, {0.0164, 0.0880, 0.8956}};
@@ -63,7 +63,7 @@ static void agx(double rgb[3])
     multiply(to_709, rgb);
 }
 
-/* Jim Hejl and Richard Burgess-Dawson's (Hable, "Filmic Tonemapping Operators", 2010), which has a display's gamma of 2.2 in it. */
+/* The curve of Jim Hejl and Richard Burgess-Dawson (Hable, "Filmic Tonemapping Operators", 2010), which includes a display gamma of 2.2. */
 static void filmic(double rgb[3])
 {
     for (int c = 0; c < 3; c++) {

@@ -1,8 +1,8 @@
-/* Tone curves: linear Rec. 709 light of any brightness to what a display can show. */
+/* Tone curves: map linear Rec. 709 light of any brightness to what a display can show. */
 #ifndef EC_IMAGE_TONE_CURVE_H
 #define EC_IMAGE_TONE_CURVE_H
 
-/* By enum, name, and what help says of it. Options, reports, the library and the manual go by these rows. */
+/* Each has an enum, a name, and a text for help. Options, reports, the library and the manual use these rows. */
 #define EC_TONE_CURVES(ROW) \
     ROW(NEUTRAL, "neutral", "Khronos PBR Neutral") \
     ROW(NONE, "none", "what is over 1 is cut off") \
@@ -16,7 +16,7 @@ typedef enum ec_tonemap { EC_TONE_CURVES(EC_TONE_CURVE_ENUM) EC_TONEMAP_COUNT } 
 #define EC_TONE_CURVE_WORDS(id, name, words) "; " name ": " words
 #define EC_TONE_CURVES_HELP "tone curve of pictures for the screen" EC_TONE_CURVES(EC_TONE_CURVE_WORDS)
 
-/* rgb: finite, none negative, exposed already; becomes linear Rec. 709 within [0, 1]. */
+/* Applies a curve in place. rgb: finite, not negative, already exposed; becomes linear Rec. 709 within [0, 1]. */
 void ec_tone_curve_apply(ec_tonemap curve, double rgb[3]);
 
 #endif

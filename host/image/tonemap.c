@@ -1,9 +1,9 @@
-/* Linear radiance to sRGB of 8 and 16 bits. */
+/* Converts linear radiance to sRGB of 8 and 16 bits. */
 #include <math.h>
 
 #include "image/image.h"
 
-/* Non-finite to 0 and negative to 0; the upper limit keeps infinity out of the curves' squares, when the exposure is absurd. */
+/* Applies the exposure; non-finite and negative values become 0. The upper limit keeps infinity out of the curves' squares if the exposure is absurd. */
 static double expose(double value, double scale)
 {
     if (!isfinite(value) || value <= 0) return 0;
@@ -28,19 +28,19 @@ static void put(double x, const ec_raster *to, uint8_t *out, uint32_t channel)
     out[2 * channel + 1] = (uint8_t)value;
 }
 
-/* What ec_screen_pixels is given. */
+/* The arguments of ec_screen_pixels. */
 typedef struct showing {
     const ec_screen *screen;
     const float *rgb, *alpha;
     uint64_t stride, first;
     const ec_raster *to;
     uint8_t *out;
-    double scale;     /* of the exposure */
+    double scale;     /* exposure as a factor */
     double behind[3]; /* the background's colour, linear */
     const ec_srgb_rounder *rounder;
 } showing;
 
-/* A pixel's radiance after the exposure, not multiplied by how much of it is covered, which is returned. */
+/* Computes a pixel's radiance after exposure, multiplied back from its coverage, which is returned. */
 static double light_of(const showing *s, uint64_t i, double light[3])
 {
     const ec_screen *screen = s->screen;
@@ -51,7 +51,7 @@ static double light_of(const showing *s, uint64_t i, double light[3])
     return covered;
 }
 
-/* shown: from 0 to 1, before sRGB's curve. */
+/* Writes a pixel. shown: from 0 to 1, before the sRGB curve. */
 static void put_pixel(const showing *s, uint64_t i, const double shown[3], double covered)
 {
     uint8_t *pixel = s->out + i * ec_raster_pixel_bytes(s->to);
@@ -64,7 +64,7 @@ static void put_pixel(const showing *s, uint64_t i, const double shown[3], doubl
     if (s->to->channels == 4) put(covered, s->to, pixel, 3);
 }
 
-/* A view's values are taken for those of sRGB. */
+/* Writes a view's values, which are taken as sRGB. */
 static void put_view(const showing *s, uint64_t i, const float *view, double covered)
 {
     double shown[3];

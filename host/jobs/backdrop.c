@@ -3,7 +3,7 @@
 #include "device/camera.h"
 #include "scene/blur.h"
 
-/* As the kernels' rays through the middles of pixels: forward + x right + y up. */
+/* Sets the directions of the kernels' rays through the middles of pixels: forward + x right + y up. */
 static void look_through(const ec_camera *c, const ec_render_options *o, ec_behind *behind)
 {
     const bool is_flat = c->type == EC_CAMERA_ORTHOGRAPHIC, is_part = ec_has_screen_window(o);

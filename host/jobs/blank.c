@@ -24,7 +24,7 @@ bool ec_warn_of_blank(const ec_render_job *job)
     const ec_render_options *o = &job->request->options;
     const ec_camera *camera = &s->cameras[o->camera];
     double window[4];
-    if (!s->triangle_count || o->fstop > 0 || (o->without & EC_FEATURE_CULLING)) return false; /* no surfaces are told of where the file is read */
+    if (!s->triangle_count || o->fstop > 0 || (o->without & EC_FEATURE_CULLING)) return false; /* no triangles: reported on reading */
     find_window(camera, o, window);
     const ec_in_sight seen = ec_scene_in_sight(s, camera, window);
     if (seen == EC_SIGHT_FRONTS) return false;

@@ -46,7 +46,7 @@ uint32_t ec_channels_mattes(ec_channel_set set)
 
 static bool is_word(const char *word, size_t size, const char *name) { return strlen(name) == size && !strncmp(word, name, size); }
 
-/* Of this name, or of this layer; none: there is no such channel. */
+/* Returns the channels of this name or layer; none if there is no such channel. */
 static ec_channel_set named(const char *word, size_t size)
 {
     ec_channel_set set = 0;

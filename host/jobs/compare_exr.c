@@ -1,4 +1,4 @@
-/* An EXR that is compared, with its noise. */
+/* Reads an EXR to compare, with its noise. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "image/image.h"
 #include "jobs/compare_input.h"
 
-/* Names of a plane's first three floats. */
+/* Names of the first three channels of a plane. */
 typedef struct names {
     const char *of[3];
 } names;
@@ -33,7 +33,7 @@ static ec_result missing(const char *path, const ec_exr *exr, const char *name, 
                    strncmp(name, "stderr.", 7) ? "save it with R, G and B" : "render it with --channels stderr");
 }
 
-/* Woven together: `count` planes to as many floats a pixel. */
+/* Interleaves `count` planes into *out, `count` floats per pixel. Fails if a value is not finite. */
 static ec_result weave(const char *path, const ec_exr *exr, const char *const *names, uint32_t count, float **out, ec_error *err)
 {
     uint64_t pixels = (uint64_t)exr->width * exr->height, broken = 0, first = 0;
@@ -61,7 +61,7 @@ static double mean_of(const float *plane, uint64_t count)
     return sum / (double)count;
 }
 
-/* 1 means that the file says so: then its standard errors are none. */
+/* Returns the replicates that the file states; INFINITY if it does not. With 1, its standard errors are meaningless. */
 static double count_replicates(const char *path)
 {
     double replicates;

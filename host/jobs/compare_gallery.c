@@ -6,7 +6,7 @@
 #include "image/error_map.h"
 #include "report/page.h"
 
-enum { GREY = 128 }; /* of what is not compared, in maps */
+enum { GREY = 128 }; /* of pixels that are not compared, in maps */
 
 static ec_result add(cJSON *pair, const char *key, const ec_compare_job *job, const uint8_t *rgb, ec_error *err)
 {

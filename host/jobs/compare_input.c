@@ -16,7 +16,7 @@ static ec_result read_radiance(const char *path, ec_compare_input *input, ec_err
     input->measured = (ec_measured){.width = width, .height = height, .rgb = input->rgb, .replicates = INFINITY};
     if (!(input->slack = malloc(3ull * width * height * sizeof(float)))) return ec_fail(err, "out of memory for '%s'", path);
     for (uint64_t p = 0; p < (uint64_t)width * height; p++) {
-        const float *rgb = input->rgb + 3 * p, step = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2])) / 128; /* 8 bits of the largest, the first a 1 */
+        const float *rgb = input->rgb + 3 * p, step = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2])) / 128; /* 8 bits of the largest component, whose first bit is 1 */
         if (!isfinite(rgb[0] + rgb[1] + rgb[2])) return ec_fail(err, "cannot compare '%s': its values are not finite", path);
         for (uint64_t c = 0; c < 3; c++) input->slack[3 * p + c] = step;
     }
@@ -24,7 +24,7 @@ static ec_result read_radiance(const char *path, ec_compare_input *input, ec_err
     return EC_OK;
 }
 
-/* What cannot be opened, or is nothing known, goes by its name. */
+/* Reads any kind. A file that cannot be opened, or whose content is not recognised, is treated by its name. */
 ec_result ec_compare_read(const char *path, ec_compare_input *input, ec_error *err)
 {
     static const char *const endings[] = {".png", ".jpg", ".jpeg", ".webp", ".avif"};

@@ -26,7 +26,7 @@ static ec_result write_map(const char *path, const ec_compare_job *job, ec_error
     return result;
 }
 
-/* The pixels that count, of both: what is opaque in both and white in the mask. */
+/* Finds the pixels to compare: those that are opaque in both and white in the mask. */
 static ec_result find_mask(ec_compare_job *job, const char *path, ec_error *err)
 {
     ec_measured *a = &job->a.measured, *b = &job->b.measured;
@@ -42,7 +42,7 @@ static ec_result find_mask(ec_compare_job *job, const char *path, ec_error *err)
     return EC_OK;
 }
 
-/* As they are seen. What does not count is B's in both while they are compared, and A's own again after it. */
+/* Makes both as they are shown, and FLIP's map. Excluded pixels take B's values in both while they are compared, and A's own again afterwards. */
 static ec_result see(ec_compare_job *job, const ec_look *look, ec_error *err)
 {
     ec_compare_report *report = &job->report;

@@ -8,7 +8,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-/* The first is preferred where a folder has several of a name. */
+/* If a folder has several files of one name, the ending listed first is preferred. */
 static const char *const endings[] = {".exr", ".hdr", ".png", ".webp", ".avif", ".jpg", ".jpeg", NULL};
 
 static bool is_folder(const char *path)
@@ -17,7 +17,7 @@ static bool is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* Which ending the name has; -1: none of a picture's. */
+/* Returns the index of the name's ending; -1: not that of a picture. */
 static int ending_of(const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -61,7 +61,7 @@ static void free_list(struct dirent **list, int count)
     free(list);
 }
 
-/* Finds the entry called like name; if there are several, the one whose ending comes first in the table. */
+/* Finds the entry that is called like `name`; of several, the one whose ending is listed first. */
 static const struct dirent *find(struct dirent *const *list, int count, const char *name)
 {
     const struct dirent *found = NULL;

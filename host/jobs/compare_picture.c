@@ -1,4 +1,4 @@
-/* What a program shows, read for a comparison: values of 8 or 16 bits, taken for sRGB as colour profiles are not read. */
+/* Reads a picture made for a screen: values of 8 or 16 bits, taken as sRGB, since colour profiles are not read. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,10 +6,10 @@
 #include "gltf/image_decode.h"
 #include "jobs/compare_input.h"
 
-/* Values may be off by this share of a step: graphics cards may round so (Direct3D 11.3, section 3.2.3.6). */
+/* Values may be off by this share of a step, as graphics cards may round so (Direct3D 11.3, section 3.2.3.6). */
 static const double rounded = 0.6;
 
-/* Only lossless WebP has this chunk first. */
+/* Names the format of a file. Only lossless WebP begins with the chunk VP8L. */
 static void name_format(const uint8_t *bytes, size_t size, bool is_deep, ec_compare_input *input)
 {
     const bool is_png = bytes[0] == 0x89, is_jpeg = bytes[0] == 0xff, is_webp = bytes[0] == 'R', is_kept = is_webp && size >= 16 && !memcmp(bytes + 12, "VP8L", 4);
@@ -17,7 +17,7 @@ static void name_format(const uint8_t *bytes, size_t size, bool is_deep, ec_comp
     input->is_lossy = !is_png && !is_kept;
 }
 
-/* Pixels that are not opaque show what is behind them: they are not compared. */
+/* Excludes pixels that are not opaque, as they show what is behind them. */
 static void take_alpha(const ec_image *image, uint64_t pixels, uint8_t *mask)
 {
     for (uint64_t p = 0; p < pixels; p++) mask[p] = image->rgba8 ? image->rgba8[4 * p + 3] == 255 : image->rgba16[4 * p + 3] == 65535;

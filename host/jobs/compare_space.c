@@ -10,7 +10,7 @@ ec_result ec_compare_no_memory(const ec_compare_job *job, ec_error *err)
     return ec_fail(err, "out of memory for comparing '%s' with '%s'", job->a.path, job->b.path);
 }
 
-/* A linear picture becomes what is shown of it, with its noise. */
+/* Replaces a linear picture and its noise by what is shown of them. */
 static ec_result show(const ec_look *look, ec_compare_input *input, ec_error *err)
 {
     ec_measured *m = &input->measured;
@@ -30,7 +30,7 @@ static ec_result show(const ec_look *look, ec_compare_input *input, ec_error *er
     return EC_OK;
 }
 
-/* A's noise from how it differs from B, which both are as they are compared; linear: B before it was shown, NULL: it was not. */
+/* Estimates A's noise from its difference to B, in the space in which they are compared. linear: B before it was shown; NULL: it was not. */
 static ec_result estimate(ec_compare_job *job, const ec_look *look, const float *linear, ec_error *err)
 {
     ec_compare_input *a = &job->a;
@@ -58,7 +58,7 @@ static void scale(ec_compare_input *input, float factor)
     }
 }
 
-/* Finds the exposure of the linear picture, and changes its look by it. If both are linear A is multiplied, as B is the reference. */
+/* Fits the exposure of the linear picture and changes look by it. If both are linear, A is scaled, as B is the reference. */
 static ec_result fit_exposure(ec_compare_job *job, ec_look *look, ec_error *err)
 {
     if (job->a.format && job->b.format)
@@ -81,7 +81,7 @@ static ec_result fit_exposure(ec_compare_job *job, ec_look *look, ec_error *err)
     return EC_OK;
 }
 
-/* Into one space: A and B stay linear, or both become what is shown. *linear: a copy of B's values before that, if it is needed. */
+/* Brings A and B into one space. *linear: a copy of B's values before, if it is needed. */
 static ec_result bring_together(ec_compare_job *job, const ec_compare_options *options, ec_look *look, float **linear, ec_error *err)
 {
     ec_compare_report *report = &job->report;

@@ -47,7 +47,7 @@ ec_result ec_entry_give(ec_entry *entry, const ec_given_options *given, ec_error
 }
 
 typedef struct place {
-    const char *word, *from; /* that stands there */
+    const char *word, *from; /* what replaces the word */
     int length;
 } place;
 
@@ -56,7 +56,7 @@ static const char *const words[PLACES] = {"{name}", "{folder}"};
 
 bool ec_entries_has_place(const char *output) { return strstr(output, words[0]) || strstr(output, words[1]); }
 
-/* "models/fox.glb": fox and models. */
+/* Finds the replacements: fox and models for "models/fox.glb". */
 static void find_places(const char *scene, place places[PLACES])
 {
     const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene, *dot = strrchr(name, '.'), *folder = slash ? slash : scene;
@@ -98,7 +98,7 @@ static ec_result add_outputs(ec_entry *entry, const ec_given_options *given, boo
     return EC_OK;
 }
 
-/* A scene of many folders is often called scene.gltf in each. */
+/* Fails if several scenes would share an output, as happens easily: many a scene is called scene.gltf in a folder of its own. */
 static ec_result check_alike(const ec_entries *entries, ec_error *err)
 {
     for (uint32_t i = 1; i < entries->count; i++) {

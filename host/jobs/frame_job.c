@@ -16,7 +16,7 @@
 
 static void put(ec_identity *identity, const char *name, const char *value, bool repeats)
 {
-    for (uint32_t i = 0; i < identity->count; i++) { /* of what may be repeated, all; else the last */
+    for (uint32_t i = 0; i < identity->count; i++) { /* a repeated option keeps all values if `repeats`, otherwise the last */
         ec_trait *trait = &identity->traits[i];
         size_t used = strlen(trait->value);
         if (strcmp(trait->name, name)) continue;
@@ -32,7 +32,7 @@ static void put(ec_identity *identity, const char *name, const char *value, bool
 
 static void add(ec_identity *identity, const char *name, const char *value) { put(identity, name, value, false); }
 
-/* A file that an option names counts by its bytes, not by its name. */
+/* Adds a file that an option names by its content, not by its name. */
 static ec_result add_file(ec_identity *identity, const char *option, const char *environment, ec_error *err)
 {
     char hex[EC_SHA256_TEXT], text[96];

@@ -1,4 +1,4 @@
-/* What the pictures of one job have in common: its devices, an environment, acceleration structures. */
+/* What the pictures of one job share: devices, an environment, acceleration structures. */
 #ifndef EC_JOBS_FRAME_SHARE_H
 #define EC_JOBS_FRAME_SHARE_H
 
@@ -17,25 +17,25 @@ typedef struct ec_paths {
 
 /* Data that the pictures of one job share. */
 typedef struct ec_frame_share {
-    ec_animation *animation;     /* of a sequence of frames; NULL: pictures of different scenes */
+    ec_animation *animation;     /* of a sequence of frames; NULL: the pictures have different scenes */
     ec_device_info devices[EC_DEVICES_MOST];
     uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
-    ec_cl cl[EC_DEVICES_MOST];   /* of these, once they are open */
+    ec_cl cl[EC_DEVICES_MOST];   /* the devices, once they are open */
     bool is_open;
     ec_followed followed;        /* acceleration structures of the animation */
-    ec_environment environment;  /* that of all frames, or of all pictures with this key, once the first one has made it; its picture is owned */
+    ec_environment environment;  /* that of all frames, or of all pictures with this key, set by the first of them; owns its picture */
     char environment_key[400];
-    ec_packed_map packed;        /* of its picture */
+    ec_packed_map packed;        /* of the environment's picture */
     bool has_environment, environment_known;
-    ec_paths pictures;           /* that are there, one file of each */
+    ec_paths pictures;           /* one file of each picture that exists */
 } ec_frame_share;
 
-void ec_frame_share_close(ec_frame_share *share); /* the devices, with what they keep; the next picture opens them anew */
-void ec_frame_share_leave(ec_frame_share *share); /* frees what is of one scene, and the environment */
+void ec_frame_share_close(ec_frame_share *share); /* closes the devices; the next picture opens them anew */
+void ec_frame_share_leave(ec_frame_share *share); /* frees what belongs to one scene, and the environment */
 void ec_frame_share_drop_environment(ec_frame_share *share);
-void ec_frame_share_free(ec_frame_share *share);  /* all of it */
-/* One of these files, a PNG if there is any, is a picture that is there. Without memory it is left out. */
+void ec_frame_share_free(ec_frame_share *share);  /* frees everything */
+/* Remembers one of these files, a PNG if there is one, as a picture that exists; leaves it out if there is no memory. */
 void ec_frame_share_picture(ec_frame_share *share, const ec_outputs *outputs);
 
 #endif

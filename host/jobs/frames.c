@@ -35,7 +35,7 @@ ec_result ec_frame_range_parse(const char *option, const char *text, ec_frame_ra
 
 enum { WIDTH_MOST = 9 };
 
-/* After a '%': the width of %d, %4d or %04d into *width, and how long that is; 0: it is something else. */
+/* Reads what follows a '%': returns the length of d, 4d or 04d, and its width in *width; 0 for anything else. */
 static size_t scan_number(const char *text, int *width)
 {
     size_t size = 0;

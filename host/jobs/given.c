@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* vasprintf */
+#define _GNU_SOURCE /* for vasprintf */
 #include "jobs/given.h"
 
 #include <stdarg.h>
@@ -101,7 +101,7 @@ void ec_words_free(ec_words *words)
     words->list = NULL;
 }
 
-/* "--name", "--name=value" or "-n". */
+/* Finds the row of "--name", "--name=value" or "-n". */
 static const ec_option *find_word(const char *word, const ec_option *rows, int row_count)
 {
     const size_t size = strcspn(word, "=");
@@ -135,7 +135,7 @@ static int is_plain(const char *word)
     return *word && word[strspn(word, plain)] == '\0';
 }
 
-/* 'it'\''s': all is literal within single quotes but the quote itself. */
+/* Quotes as 'it'\''s': in single quotes everything but the quote itself is literal. */
 static char *put_quoted(char *to, const char *word)
 {
     *to++ = '\'';

@@ -32,7 +32,7 @@ static void put(FILE *to, const char *before, const char *text, const char *behi
     fputs(behind, to);
 }
 
-/* In a URL only letters, digits and these stand for themselves (RFC 3986, unreserved). */
+/* Writes a name into a URL, in which only letters, digits and these stand for themselves (RFC 3986, unreserved). */
 static void put_url(FILE *to, const char *before, const char *name, const char *behind)
 {
     fputs(before, to);

@@ -9,7 +9,7 @@
 #include "jobs/numbers.h"
 #include "report/scene_report.h"
 
-/* Without --size: a fixed height, and a width that shows what the camera is meant to. */
+/* Chooses the size without --size: the given height, and the width that fits the camera. */
 static void choose_size(ec_render_options *options, uint32_t height, const ec_camera *camera)
 {
     double aspect = camera->aspect;
@@ -22,8 +22,8 @@ static void choose_size(ec_render_options *options, uint32_t height, const ec_ca
     options->width = (uint32_t)fmin(fmax(round(options->height * aspect), 1), EC_SIZE_MAX_SIDE);
 }
 
-/* Changes that camera of the scene if an option asks for it. Options that are not given keep its values, but for what the help says. *v: where it stands
- * then, in the very numbers that were given. */
+/* Changes the camera if an option asks for it. Options that are not given keep its values, except as help says. *v: its viewpoint afterwards, in
+ * exactly the numbers that were given. */
 static ec_result change_camera(const ec_camera_change *change, ec_scene *s, uint32_t index, ec_viewpoint *v, ec_error *err)
 {
     ec_camera *camera = &s->cameras[index], changed;
@@ -46,7 +46,7 @@ static ec_result change_camera(const ec_camera_change *change, ec_scene *s, uint
     return EC_OK;
 }
 
-/* Round an axis through a point (Rodrigues 1840). */
+/* Rotates about an axis through a point (Rodrigues 1840). */
 static void turn(double p[3], const double axis[3], const double through[3], double angle)
 {
     double from[3], across[3];
@@ -56,7 +56,7 @@ static void turn(double p[3], const double axis[3], const double through[3], dou
     for (int k = 0; k < 3; k++) p[k] = through[k] + from[k] * cos(angle) + across[k] * sin(angle) + axis[k] * along;
 }
 
-/* As far round the scene as the request asks for. */
+/* Turns the camera around the scene by the request's angle. */
 static ec_result turn_camera(const ec_render_request *r, ec_scene *s, uint32_t index, ec_viewpoint *v, ec_error *err)
 {
     ec_camera *camera = &s->cameras[index], turned;

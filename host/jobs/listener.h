@@ -1,4 +1,4 @@
-/* Who hears of a job while it runs, and may stop it. */
+/* Receives what a job says while it runs, and may stop it. */
 #ifndef EC_JOBS_LISTENER_H
 #define EC_JOBS_LISTENER_H
 
@@ -6,27 +6,27 @@
 
 #include "render/render.h"
 
-/* How far a job is that does other things than one render. */
+/* Progress of a job that is not a single render. */
 typedef struct ec_step {
     const char *doing;
     uint32_t done, count;
-    double seconds, seconds_left, fraction; /* seconds_left < 0: not known */
+    double seconds, seconds_left, fraction; /* seconds_left < 0: unknown */
 } ec_step;
 
-/* All functions are there, and called from the thread that runs the job. */
+/* No function is NULL; all are called from the thread that runs the job. */
 typedef struct ec_listener {
     void *user;
     ec_log log;
-    /* A kill would lose something from now on. has_progress: it is told up to the end; options: of the render that it is of, or NULL. */
+    /* From here on a kill would lose something. has_progress: progress is reported until `end`; options: those of the render, or NULL. */
     void (*begin)(void *user, const ec_render_options *options, bool has_progress);
-    bool (*progress)(void *user, const ec_progress *progress);     /* false: stop and keep what there is */
+    bool (*progress)(void *user, const ec_progress *progress);     /* returning false stops the job, which keeps what there is */
     bool (*step)(void *user, const ec_step *step);                 /* likewise */
     void (*end)(void *user);                                       /* after the last progress */
     bool (*should_stop)(void *user);
-    void (*hint)(void *user, const char *line);                    /* what to say should the job be stopped from outside */
-    FILE *to;                                                      /* what came of the job, or of a part, is put here, */
-    ec_result (*report)(void *user, ec_error *err);                /* and told by this, or when the job ends. Else than EC_OK ends the job */
-    bool bold;                                                     /* what is put there may have the escape codes of a terminal */
+    void (*hint)(void *user, const char *line);                    /* gives the text to show if the job is stopped from outside */
+    FILE *to;                                                      /* the result of the job, or of a part, is written here, */
+    ec_result (*report)(void *user, ec_error *err);                /* and delivered by this, or when the job ends. Anything but EC_OK ends the job */
+    bool bold;                                                     /* what is written may contain a terminal's escape codes */
 } ec_listener;
 
 #endif

@@ -55,7 +55,7 @@ ec_result ec_merged_write(const ec_merged *m, ec_outputs *outputs, const ec_expo
 
 const ec_denoised *ec_merged_denoised(const ec_merged *m) { return m->denoiser ? &m->denoised : NULL; }
 
-/* The library is on the processor; the filter of eclat's own wants a device, which a merge has no other use for. */
+/* Denoises by the library, which runs on the processor, or by eclat's own filter, which needs a device; a merge has no other use for one. */
 static ec_result denoise(ec_merged *m, ec_denoiser found, ec_error *err)
 {
     ec_device_info device = {0};

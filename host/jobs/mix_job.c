@@ -1,7 +1,7 @@
-/* The error of a mix. Layers share paths, so that their noise is correlated in a way that standard errors do not tell. But for any number b the mix
- * is b times the picture and (g - b) times each layer, and a standard error is a norm: that of the sum is at most |b| times the picture's and |g - b|
- * times each layer's. The least of these bounds is at one of the gains, or at 0, since they are convex in b and linear in between. With all gains 1
- * it is the picture's own. */
+/* The error of a mix. Layers share paths, so their noise is correlated in a way that standard errors do not tell. But for any number b, the mix is b
+ * times the picture plus (g - b) times each layer, and a standard error is a norm: that of the sum is at most |b| times the picture's plus |g - b|
+ * times each layer's. This bound is convex and piecewise linear in b, so its minimum is at one of the gains or at 0. If all gains are 1, it is the
+ * picture's own error. */
 #include "jobs/mix_job.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@
 
 static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
 
-/* The light groups of a file. */
+/* Finds the light groups of a file. */
 static ec_result find_groups(const ec_exr *exr, const char *path, ec_layers *layers, ec_error *err)
 {
     for (uint32_t i = 0; i < exr->channel_count; i++) {
@@ -33,7 +33,7 @@ static ec_result find_groups(const ec_exr *exr, const char *path, ec_layers *lay
 
 static bool is_of(const char *text, const char *name) { return !strncmp(text, name, strlen(name)) && text[strlen(name)] == '='; }
 
-/* Which layers are weighed: direct and indirect light, if either is named; else light groups. */
+/* Chooses the layers to weight: direct and indirect light if either is named, otherwise light groups. */
 static ec_result choose_layers(const ec_exr *exr, const char *path, char **gains, int count, ec_layers *layers, ec_error *err)
 {
     bool halves = false;
@@ -52,7 +52,7 @@ static const char *name_of(const ec_layers *layers, uint32_t k)
     return layers->kinds ? k ? "indirect" : "direct" : layers->groups[k];
 }
 
-/* GAIN, or R,G,B. */
+/* Parses GAIN or R,G,B. */
 static ec_result read_gain(const char *text, const char *value, double gain[3], ec_error *err)
 {
     int c = 0;
@@ -96,7 +96,7 @@ static ec_result take_plane(const ec_exr *exr, const char *path, const char *nam
     return EC_OK;
 }
 
-/* Values and errors of the picture and its layers; a file without standard errors has none of either. */
+/* Reads values and errors of the picture and its layers; a file without standard errors has neither's. */
 static ec_result take_picture(const ec_exr *exr, const char *path, ec_picture *p, ec_error *err)
 {
     ec_channel_list channels;
@@ -109,7 +109,7 @@ static ec_result take_picture(const ec_exr *exr, const char *path, ec_picture *p
     return EC_OK;
 }
 
-/* The bound above with this b, for channel c; 3 is luminance. */
+/* Returns the bound above for one b and channel c; c = 3 is luminance. */
 static double bound_with(const ec_mix *mix, const float *layers, double whole, int c, double b)
 {
     double sum = fabs(b) * whole;
@@ -124,7 +124,7 @@ static double bound_with(const ec_mix *mix, const float *layers, double whole, i
     return sum;
 }
 
-/* Where all gains are one, no rounding of the file's errors makes a lesser one. */
+/* Returns the least bound. If all gains are equal, b is that gain, so that rounding of the file's errors cannot make it smaller. */
 static float bound(const ec_mix *mix, const float *layers, double whole, int c)
 {
     double least = mix->is_even ? INFINITY : bound_with(mix, layers, whole, c, 0);

@@ -11,10 +11,10 @@
 
 #include "jobs/option.h"
 
-/* A day is long, but a week is thinkable. */
+/* 116 days: renders of a day are long, and weeks are conceivable. */
 #define EC_MAX_SECONDS 1e7
 
-/* strtoull takes blanks, signs and what not; decimal digits are all that is meant here. *end is where they stop. */
+/* Reads decimal digits only, as strtoull also accepts blanks, signs and more. *end is where they stop. */
 static int scan_whole(const char *text, uint64_t *value, const char **end)
 {
     if (!isdigit((unsigned char)*text)) return 0;
@@ -25,7 +25,7 @@ static int scan_whole(const char *text, uint64_t *value, const char **end)
     return errno == 0;
 }
 
-/* Digits, sign, point and exponent only: no hexadecimal, no "inf", no "nan", no blanks. */
+/* Reads digits, sign, point and exponent only: no hexadecimal, "inf", "nan" or blanks. */
 static int scan_real(const char *text, double *value, const char **end)
 {
     size_t size = strspn(text, "0123456789+-.eE");
@@ -33,7 +33,7 @@ static int scan_real(const char *text, double *value, const char **end)
     char *stop;
     *value = strtod(text, &stop);
     *end = stop;
-    return stop != text && stop <= text + size && isfinite(*value); /* strtod goes on behind 0x */
+    return stop != text && stop <= text + size && isfinite(*value); /* strtod would read on after 0x */
 }
 
 ec_result ec_parse_whole(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value,
@@ -87,7 +87,7 @@ ec_result ec_parse_seconds(const char *option, const char *text, double *seconds
     return EC_OK;
 }
 
-/* "4G" and "4GB" are 4 10^9, "4Gi" and "4GiB" 4 2^30; 0: no unit. */
+/* Returns the bytes in a unit: "4G" and "4GB" are 4 10^9, "4Gi" and "4GiB" 4 2^30; 0: not a unit. */
 static double bytes_in(const char *unit)
 {
     static const char letters[] = "kKmMgGtT";

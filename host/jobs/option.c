@@ -21,14 +21,14 @@ const ec_option *ec_options_find(const ec_option *options, int count, const char
 
 static ec_result store_choice(const ec_option *o, void *field, const char *value, ec_error *err)
 {
-    uint32_t index = 0; /* EC_TYPE_CHOICE is as large */
+    uint32_t index = 0; /* as large as EC_TYPE_CHOICE */
     EC_TRY(ec_parse_choice(o->name, value, o->choices, &index, err));
     if (o->kind == EC_AS_WORD) *(const char **)field = o->choices[index];
     else memcpy(field, &index, sizeof index);
     return EC_OK;
 }
 
-/* A checkpoint is an EXR, and its name says so, since viewers go by that. */
+/* Stores the path of a checkpoint or the like, an EXR whose name must say so, since viewers go by that. */
 static ec_result store_file(const ec_option *o, const char **field, const char *value, ec_error *err)
 {
     const size_t size = strlen(value), ending = strlen(o->ending);

@@ -135,7 +135,7 @@ ec_result ec_outputs_check(const ec_outputs *outputs, ec_inputs *inputs, ec_erro
     return EC_OK;
 }
 
-/* Free bytes of the file system that path's folder is on; UINT64_MAX: unknown. */
+/* Returns the free bytes of the file system of path's folder; UINT64_MAX: unknown. */
 static uint64_t room_for(const char *path)
 {
     char folder[PATH_MAX];

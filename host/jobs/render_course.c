@@ -1,4 +1,4 @@
-/* Checkpoints and slices: where a render starts, and what it keeps on the way. */
+/* Where a render starts, and what it keeps on the way: checkpoints and slices. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "jobs/snapshot.h"
 #include "jobs/write_report.h"
 
-/* The value of --adaptive that a command with other limits needs to allot samples as before; NULL: none. */
+/* Returns the value of --adaptive with which a command with other limits allots samples in the same way; NULL: none needed. */
 static const char *adaptive_word(const ec_render_options *o, const ec_given_options *given)
 {
     bool is_told = o->adaptive == (o->error_target > 0);
@@ -19,7 +19,7 @@ static const char *adaptive_word(const ec_render_options *o, const ec_given_opti
     return is_told ? NULL : o->adaptive ? "on" : "off";
 }
 
-/* The job's command with the options of now in place of those that they replace: what renders the picture without a break. */
+/* Makes the command that would render the whole picture without a break: the job's, with the present options instead of those that they replace. */
 static ec_result make_command(ec_render_job *job, const ec_given_options *now, ec_error *err)
 {
     const ec_option *rows = ec_render_rows;
@@ -62,8 +62,8 @@ ec_result ec_render_job_take_up(ec_render_job *job, const ec_given_options *now,
     return EC_OK;
 }
 
-/* A render that is begun anew by mistake, instead of being resumed, would write over hours of samples: others' files are replaced like
- * any output. */
+/* Warns if a checkpoint of this very render is about to be overwritten: one begun anew by mistake would cost hours of samples. Files of other renders
+ * are replaced like any output. */
 static void warn_of_older(const ec_render_job *job, const ec_log *log)
 {
     const char *path = job->request->checkpoint;
@@ -77,7 +77,7 @@ static void warn_of_older(const ec_render_job *job, const ec_log *log)
     ec_stored_free(&old);
 }
 
-/* Checks, once it is known what is rendered, that it is what the checkpoint holds. */
+/* Checks that the checkpoint belongs to what is rendered, once that is known. */
 static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
 {
     ec_render_job *job = user;
@@ -100,7 +100,7 @@ static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
     return EC_OK;
 }
 
-/* A frame's scene shares data with the next one's: those of one animation. */
+/* Frees the scene's data, unless they are shared with the next frame of an animation, or needed for shadows. */
 static void drop_scene(void *user)
 {
     ec_render_job *job = user;
@@ -132,10 +132,10 @@ static bool keep(void *user, const ec_film *film, const ec_past *past)
     return !job->request->checkpoint || keep_all(job, film, past);
 }
 
-/* Strips go to the files as they come. */
+/* Writes a strip to the files. */
 static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row, const ec_render_stats *stats, ec_error *err)
 {
-    enum { ROOM = 256 }; /* for how it ended, and counts that grow beyond a number's size */
+    enum { ROOM = 256 }; /* bytes for how the render ended, and for counts that get more digits */
     ec_render_job *job = user;
     const char *outputs[EC_OUTPUTS_MAX];
     if (first_row == 0) {
@@ -147,7 +147,7 @@ static ec_result take_strip(void *user, const ec_film *film, uint32_t first_row,
     }
     ec_result result = ec_row_writer_put(job->rows, film, err);
     if (result == EC_OK) return EC_OK;
-    ec_row_writer_abort(job->rows); /* no file is left */
+    ec_row_writer_abort(job->rows); /* no file can be written any more */
     job->rows = NULL;
     return result;
 }

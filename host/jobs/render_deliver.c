@@ -1,4 +1,4 @@
-/* A film that is rendered goes to its files. */
+/* Delivers a rendered film to its files. */
 #include <stdio.h>
 
 #include "base/clock.h"
@@ -6,7 +6,7 @@
 #include "jobs/write_report.h"
 #include "report/error_text.h"
 
-/* Statistics that a slice keeps beside its sums. */
+/* Collects the statistics that a slice keeps beside its sums. */
 static ec_past past_of(const ec_render_job *job)
 {
     const ec_render_stats *s = &job->stats;
@@ -44,7 +44,7 @@ ec_result ec_render_job_tell(const ec_render_job *job, const ec_render_report *r
     return listener->report(listener->user, err);
 }
 
-/* For a picture in strips, whose rows are in the files already. */
+/* Finishes a picture rendered in strips, whose rows are already in the files. */
 static ec_result finish_rows(ec_render_job *job, ec_render_report *report, ec_error *err)
 {
     const uint32_t height = job->request->options.height;
@@ -56,7 +56,7 @@ static ec_result finish_rows(ec_render_job *job, ec_render_report *report, ec_er
     job->stats.film = told.error;
     report->mean_luminance = told.error.mean_luminance;
     report->replicates = told.replicates;
-    job->rows = NULL; /* closing frees it */
+    job->rows = NULL; /* it is freed on closing */
     ec_result result = ec_report_rows_close(rows, report, &told, err);
     snprintf(job->image_sha256, sizeof job->image_sha256, "%s", told.sha256);
     report->image_sha256 = job->image_sha256;
@@ -81,7 +81,7 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
     return denoised == EC_OK ? EC_OK : ec_fail(err, "%s; the picture is written as it is", undenoised.text);
 }
 
-/* Hours of samples are not to be lost with the device. */
+/* Delivers the picture so far if the device fails, so that hours of samples are not lost. */
 ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err)
 {
     ec_error why = {0};
@@ -89,7 +89,7 @@ ec_result ec_render_job_complete(ec_render_job *job, double start, ec_error *err
         EC_TRY(ec_render_job_deliver(job, start, err));
         return *job->keep_error.text ? ec_fail(err, "%s; the picture is written", job->keep_error.text) : EC_OK;
     }
-    bool is_empty = (job->film.batch_count == 0 && !job->rows) || job->stats.samples == 0; /* no samples: a checkpoint that does not fit */
+    bool is_empty = (job->film.batch_count == 0 && !job->rows) || job->stats.samples == 0; /* no samples of its own: the checkpoint did not fit */
     if (is_empty) return ec_fail(err, "%s", why.text);
     if (job->rows)
         ec_fail(err, "the render failed after %u of %u rows: %s", ec_row_writer_rows(job->rows),

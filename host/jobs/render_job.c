@@ -21,13 +21,13 @@
 #include "scene/built_in.h"
 #include "scene/ground.h"
 
-/* A slice is its sums: a PNG alone would throw them away. */
+/* Demands an EXR for a slice, which consists of its sums; a PNG alone would discard them. */
 static ec_result check_slice_output(const ec_render_request *request, ec_error *err)
 {
     return !request->has_slice || ec_outputs_have_exr(&request->outputs) ? EC_OK : ec_usage(err, "--samples: a slice is an .exr, which eclat merge adds to others; give -o NAME.exr");
 }
 
-/* A file that is written on the way, by the option of that name. */
+/* Checks a file written on the way, which this option names. */
 static ec_result check_kept(const ec_render_request *request, const char *option, const char *path, ec_inputs *inputs, ec_error *err)
 {
     if (!path) return EC_OK;
@@ -39,7 +39,7 @@ static ec_result check_kept(const ec_render_request *request, const char *option
     return ec_image_check_writable(path, err);
 }
 
-/* The checkpoint that is resumed may be the next checkpoint too, but no picture. */
+/* Checks the files. The checkpoint that is resumed may be the next checkpoint too, but not a picture. */
 ec_result ec_render_check_files(const ec_render_request *request, ec_error *err)
 {
     const char *const files[] = {request->environment, request->resume};
@@ -79,7 +79,7 @@ static bool is_environment_there(const ec_render_job *job)
     return job->share->animation || (job->request->environment && !strcmp(key, job->share->environment_key));
 }
 
-/* The map of all pictures is read, scaled and turned once; a sky that is only there because one of them has no light is that one's. */
+/* Shares an environment map, which is read, scaled and turned once for all pictures. A sky made only because one picture has no light is not shared. */
 static ec_result share_environment(ec_render_job *job, bool is_of_all, ec_error *err)
 {
     ec_frame_share *share = job->share;
@@ -131,8 +131,8 @@ ec_result ec_render_job_light(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* Memory is promised before it is there: a picture that cannot fit would otherwise end in a killed process. Checked here early, and
- * again when the scene is on the device. */
+/* Fails if the picture cannot fit into memory, as memory is promised before it exists, and the process would be killed. Checked here early, and again
+ * when the scene is on the device. */
 static ec_result check_memory(const ec_render_job *job, ec_error *err)
 {
     const ec_render_options *options = &job->request->options;
@@ -158,7 +158,8 @@ ec_result ec_render_job_prepare(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* A picture that takes a hundred times as long as it need is worth a word. */
+/* If a processor was chosen, warns of an installed driver that the OpenCL loader does not know: the render may take a hundred times as long as it
+ * need. */
 static void warn_of_unnamed(const ec_render_job *job)
 {
     char text[256];
@@ -177,7 +178,7 @@ ec_result ec_render_job_find_devices(ec_render_job *job, ec_error *err)
     return EC_OK;
 }
 
-/* Those of all pictures. */
+/* Takes the devices of all pictures. */
 static void take_devices(ec_render_job *job)
 {
     const ec_frame_share *share = job->share;
@@ -198,8 +199,8 @@ static ec_result load_scene(ec_render_job *job, ec_error *err)
     return request->ground == EC_GROUND_SHADOW ? ec_shadow_check(job->scene, err) : EC_OK;
 }
 
-/* Opens the device meanwhile, where its driver lets kernels be built while the scene is loaded. Others gain nothing by it, and Oclgrind's contexts work
- * only in the thread that makes them. */
+/* Finds the device and opens it, if its driver lets kernels be built while the scene is loaded. Others gain nothing by that, and contexts of Oclgrind
+ * work only in the thread that makes them. */
 static ec_result find_and_open(ec_render_job *job, ec_error *err)
 {
     EC_TRY(ec_render_job_find_devices(job, err));
@@ -222,14 +223,14 @@ static void *find_devices(void *user)
     return NULL;
 }
 
-/* The threads that load a scene. They must be there before a driver's libraries are: while these are linked, no thread can begin. */
+/* Starts the threads that load a scene. They must exist before a driver's libraries are loaded, since no thread can begin while these are linked. */
 static void begin_threads(void)
 {
 #pragma omp parallel
     (void)omp_get_thread_num();
 }
 
-/* Drivers take as long to load as many a scene, so both are loaded at once; but a name that no device has is told before a scene is loaded. */
+/* Loads drivers and scene at once, as drivers take as long to load as many a scene. An unknown device name is reported before a scene is loaded. */
 static ec_result load_both(ec_render_job *job, ec_error *err)
 {
     finder f = {.job = job};
@@ -280,7 +281,7 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     return check_memory(job, err);
 }
 
-/* With what the request left open as the render has chosen it. */
+/* Copies the options, with what the request left open as the render has chosen it. */
 static void find_rendered(const ec_render_job *job, ec_render_options *o)
 {
     *o = job->request->options;
@@ -331,7 +332,7 @@ ec_render_report ec_render_job_report(ec_render_job *job, const char *outputs[EC
 ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err)
 {
     if (!job->request->options.denoise || job->stats.is_clean) return EC_OK;
-    job->stats.is_clean = true; /* once, whatever comes of it */
+    job->stats.is_clean = true; /* only one attempt, whatever its result */
     return ec_denoise(&job->film, job->request->options.denoise, &job->devices[0], &job->denoised, err);
 }
 

@@ -1,5 +1,5 @@
-/* Every option of `eclat render`: how it is read, what help says of it, and who takes it. Help, completion, man page, refusals, the commands
- * that borrow options, the library and frames' identities are walks over these rows; report/settings.c has what reports say of the values. */
+/* All options of `eclat render`: how each is read, how help describes it, and which commands take it. Help, completion, man page, refusals, commands
+ * that borrow options, the library and frames' identities use these rows; report/settings.c has what reports say of the values. */
 #include "accel/accel.h"
 #include "film/denoiser.h"
 #include "jobs/defaults.h"

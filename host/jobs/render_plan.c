@@ -6,16 +6,16 @@
 #include "base/clock.h"
 #include "render/goal.h"
 
-enum { ROUNDS_MORE = 2 }; /* that are measured after those that a forecast wants */
+enum { ROUNDS_MORE = 2 }; /* rounds measured beyond those that a forecast needs */
 
 #define ENOUGH_SECONDS 5.0
 
 typedef struct pilot {
     const ec_listener *listener;
     uint64_t pixels;
-    double one, two, most;       /* samples in all after the first round, the second, and as many as are measured */
-    bool is_foretold;            /* by its film */
-    ec_mark first, last;         /* when the first round was done, and what was done last */
+    double one, two, most;       /* samples of the picture after the first round, the second, and all that are measured */
+    bool is_foretold;            /* the number of samples is foretold by the film */
+    ec_mark first, last;         /* the end of the first round, and of the last one so far */
 } pilot;
 
 static bool watch(void *user, const ec_progress *progress)
@@ -28,9 +28,9 @@ static bool watch(void *user, const ec_progress *progress)
     return done < p->most && !suffices && !p->listener->should_stop(p->listener->user);
 }
 
-enum { TIMES = 3 }; /* and once before, which touches the memory */
+enum { TIMES = 3 }; /* timed, after one untimed run that touches the memory */
 
-/* As the render does with each batch. */
+/* Times what the render does with each batch. */
 static ec_result time_batches(ec_film *film, const float *batch, const float *features, double *seconds, ec_error *err)
 {
     double start = 0;
@@ -43,7 +43,7 @@ static ec_result time_batches(ec_film *film, const float *batch, const float *fe
     return EC_OK;
 }
 
-/* And with each block. */
+/* Times what the render does with each block of batches. */
 static ec_result time_blocks(ec_film *film, double *seconds, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
@@ -85,7 +85,7 @@ static void set_rounds(pilot *p, uint32_t replicates)
     uint32_t last = second;
     while (!ec_schedule_has_pilot(replicates, last)) last = (uint32_t)ec_schedule_round(replicates, last);
     for (int more = 0; more < ROUNDS_MORE; more++) last = (uint32_t)ec_schedule_round(replicates, last);
-    p->one = (double)(ec_schedule_samples(replicates, first) * p->pixels); /* which also warms the device up */
+    p->one = (double)(ec_schedule_samples(replicates, first) * p->pixels); /* the first round also warms up the device */
     p->two = (double)(ec_schedule_samples(replicates, second) * p->pixels);
     p->most = (double)(ec_schedule_samples(replicates, last) * p->pixels);
 }
@@ -98,7 +98,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
     pilot p = {.listener = listener, .pixels = (uint64_t)options.width * options.height, .is_foretold = !options.spp};
     set_rounds(&p, replicates);
     options.adaptive = false;
-    options.compile = EC_COMPILE_FIRST; /* what is measured is what all will do */
+    options.compile = EC_COMPILE_FIRST; /* so that the kernels measured are those that all will use */
     ec_cl cl = {0};
     EC_TRY(ec_cl_open(job->devices, &cl, err));
     listener->begin(listener->user, &options, true);
@@ -119,7 +119,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
                     .batches = batches, .batches_foretold = !options.spp, .samples = a_batch, .replicates = replicates,
                     .feature_sets = ec_render_feature_end(&options) == UINT32_MAX ? ec_render_feature_sets(&options) : 0,
                     .gbit = job->request->plan_gbit, .microseconds = job->request->plan_microseconds, .ranks = job->request->plan_ranks};
-    const uint64_t rows = 8ull * options.width, wave = (uint64_t)(s->wave / a_batch); /* as render/team.c cuts them */
+    const uint64_t rows = 8ull * options.width, wave = (uint64_t)(s->wave / a_batch); /* cut as in render/team.c */
     plan->least = (uint64_t)fmin(fmax((double)rows, (double)wave), (double)plan->pixels);
     return time_sums(&job->film, plan, err);
 }

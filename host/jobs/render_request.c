@@ -40,6 +40,6 @@ ec_result ec_render_request_resume(const ec_job *job, const ec_given_options *no
     if (!request->checkpoint) request->checkpoint = request->resume;
     EC_TRY(ec_render_request_settle(request, ec_render_rows, ec_render_row_count, given, err));
     const char *light_paths = ec_identity_value(&job->identity, "--light-paths");
-    if (light_paths && !strcmp(light_paths, "auto")) o->light_paths = EC_LIGHT_PATHS_AUTO; /* with --adaptive that is on by itself */
+    if (light_paths && !strcmp(light_paths, "auto")) o->light_paths = EC_LIGHT_PATHS_AUTO; /* the default with --adaptive */
     return EC_OK;
 }

@@ -1,4 +1,4 @@
-/* A job that is ready is rendered: on which devices, and what is said of it before. */
+/* Runs a job that is ready: opens its devices, and says beforehand what will be rendered. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,16 +10,16 @@
 #include "jobs/render_job.h"
 #include "jobs/shadow.h"
 
-enum { LEAST_OF_SHADOW = 16 }; /* samples a pixel: two of each replicate */
+enum { LEAST_OF_SHADOW = 16 }; /* samples per pixel: two for each replicate */
 
-/* Samples a pixel that a checkpoint has; 0: there is none. */
+/* Returns the samples per pixel of the checkpoint; 0: none. */
 static uint64_t samples_there(const ec_render_job *job)
 {
     const ec_render_options *options = &job->request->options;
     return job->stored.past.samples / ((uint64_t)options->width * options->height);
 }
 
-/* The most that are asked for; 0: other limits end the render. */
+/* Returns the most samples asked for; 0: other limits end the render. */
 static uint32_t samples_asked(const ec_render_request *request)
 {
     return request->has_slice ? request->slice_end - request->slice_first : request->options.spp;
@@ -31,7 +31,8 @@ static bool is_complete(const ec_render_job *job)
     return asked && samples_there(job) >= asked;
 }
 
-/* The command that resumes from the checkpoint; malloc'ed. It is printed before there is a checkpoint, since a SIGKILL leaves no time for words. */
+/* Returns the command that resumes from the checkpoint, malloc'ed, and prints it before there is a checkpoint, since a SIGKILL leaves no time for
+ * words. */
 static char *say_how_to_go_on(const ec_render_job *job)
 {
     char *words[] = {(char *)job->program, (char[]){"render"}, (char[]){"--resume"}, (char *)job->request->checkpoint};
@@ -40,7 +41,7 @@ static char *say_how_to_go_on(const ec_render_job *job)
     return command;
 }
 
-/* Where a rank dies, mpirun ends all others: a signal is the last that rank 0 hears of it. */
+/* Gives the hint shown on a signal: when a rank dies, mpirun ends all others, and a signal is the last that rank 0 hears of it. */
 static void hint_at_resume(const ec_render_job *job, const char *command)
 {
     char hint[5000];
@@ -51,7 +52,7 @@ static void hint_at_resume(const ec_render_job *job, const char *command)
     job->listener->hint(job->listener->user, hint);
 }
 
-/* ", with 3 more processes,": who renders beside the first device. */
+/* Describes who renders beside the first device: ", with 3 more processes,". */
 static void describe_helpers(const ec_render_job *job, char *text, size_t size)
 {
     const int ranks = job->ranks ? ec_ranks_count(job->ranks) - 1 : 0;
@@ -95,7 +96,7 @@ static void announce(const ec_render_job *job)
                    job->devices[0].name, more, limits);
 }
 
-/* Bits are the same wherever division and square root are correctly rounded. */
+/* Warns of devices that do not round division and square root correctly: bits are the same on all others. */
 static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
 {
     for (uint32_t i = 0; i < job->device_count; i++) {
@@ -109,7 +110,7 @@ static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
     }
 }
 
-/* Those that do not open are left out, if there are others. */
+/* Opens the devices. Those that fail are left out, if there are others. */
 static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *log, ec_error *err)
 {
     uint32_t count = 0, wanted = job->device_count;
@@ -129,7 +130,7 @@ static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *
     return count ? EC_OK : EC_FAILED;
 }
 
-/* Once for all pictures, and again after one that failed; what does not open is out for the rest of them. */
+/* Opens the devices once for all pictures, and again after a picture that failed; those that do not open are left out for the rest. */
 static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *err)
 {
     ec_frame_share *share = job->share;
@@ -144,7 +145,7 @@ static ec_result open_shared(ec_render_job *job, const ec_log *log, ec_error *er
     return EC_OK;
 }
 
-/* The picture is worth more than its shadow. */
+/* Adds the shadow; a failure is only a warning, as the picture is worth more. */
 static void cast_shadow(ec_render_job *job, ec_cl *cl)
 {
     const ec_listener *listener = job->listener;
@@ -166,7 +167,7 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     ec_cl own[EC_DEVICES_MOST], *devices = job->share ? job->share->cl : job->early.context ? &job->early : own;
     if (job->share) EC_TRY(open_shared(job, log, err));
     else if (devices == own) EC_TRY(open_devices(job, devices, log, err));
-    listener->begin(listener->user, &job->request->options, true); /* until here there is nothing to save */
+    listener->begin(listener->user, &job->request->options, true); /* before this there is nothing to save */
     if (job->ranks) ec_ranks_note_binding(job->ranks, job->devices, job->device_count, log);
     else if (!job->share && !job->request->has_slice && ec_ranks_apart() > 1)
         ec_warn(log, "srun started %d processes that know nothing of one another: each renders all of the picture; with 'srun --mpi=pmix', or what "

@@ -17,7 +17,7 @@
 #define REQUEST ((ec_render_request *)target)
 #define MOMENT_MOST 1e9 /* seconds */
 #define SHARDS_MOST 1000000
-#define SCREEN_MOST 1e4 /* half heights */
+#define SCREEN_MOST 1e4 /* in half heights of the picture */
 
 const char *const ec_adaptive_names[] = {[EC_ADAPTIVE_AUTO] = "auto", [EC_ADAPTIVE_ON] = "on", [EC_ADAPTIVE_OFF] = "off", NULL};
 const char *const ec_png_depths[] = {"8", "16", NULL};
@@ -98,7 +98,7 @@ SETTER(adaptive)
     return EC_OK;
 }
 
-/* transparent, env, blur[:R], a name or six hexadecimal digits. */
+/* Parses transparent, env, blur[:R], a colour's name, or six hexadecimal digits. */
 SETTER(background)
 {
     static const struct { const char *name; ec_background is; } names[] = {
@@ -123,7 +123,7 @@ SETTER(background)
 
 SETTER(frames) { return ec_frame_range_parse(option, value, &REQUEST->frames, err); }
 
-/* RANKS[,GBIT[,MICROSECONDS]] */
+/* Parses RANKS[,GBIT[,MICROSECONDS]]. */
 SETTER(plan)
 {
     char text[64], *rest = text;
@@ -212,7 +212,7 @@ SETTER(effects)
     return EC_OK;
 }
 
-/* May be repeated. */
+/* The option may be repeated. */
 SETTER(without)
 {
     char names[EC_EFFECT_NAMES];

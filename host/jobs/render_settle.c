@@ -1,4 +1,4 @@
-/* Completes a render's options once all are read, and refuses those that do not go together, so that no option is ever silently without effect. */
+/* Completes a render's options once all are read, and refuses those that do not go together, so that no option is silently without effect. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -88,7 +88,7 @@ static ec_result check_combinations(const ec_option *options, int count, const b
     return EC_OK;
 }
 
-/* Where so many samples of the job end: batches, and what its last one lacks of that number. False within a batch. */
+/* Finds where this many samples of the job end: *batch batches, the last of which is *cut samples short. Returns false if that is within a batch. */
 static bool find_end(const ec_render_options *o, uint32_t samples, uint32_t *batch, uint32_t *cut)
 {
     const uint32_t replicates = ec_render_replicates(o);
@@ -101,8 +101,8 @@ static bool find_end(const ec_render_options *o, uint32_t samples, uint32_t *bat
     return samples == o->spp;
 }
 
-/* Slices begin and end with a batch, or end with the job. None begins or ends among the batches that first-hit features are of: these are
- * the mean of all of them, taken one after the other. */
+/* Checks that a slice begins with a batch, and ends with a batch or with the job. It may not begin or end among the batches that contribute to
+ * first-hit features, which are a mean over all of these, taken in order. */
 static ec_result settle_slice(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
@@ -126,7 +126,7 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
                     EC_BATCH_MOST);
 }
 
-/* By itself where an error is asked for, and the samples of every pixel may differ. */
+/* Turns adaptive sampling on by itself if an error is asked for and the integrator allows it. */
 static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
@@ -138,7 +138,7 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
-/* None where light paths cannot be had. */
+/* Turns automatic light paths off if other options exclude them. */
 static void settle_light_paths(ec_render_request *request)
 {
     ec_render_options *o = &request->options;
@@ -146,7 +146,7 @@ static void settle_light_paths(ec_render_request *request)
     if (o->light_paths == EC_LIGHT_PATHS_AUTO && !can) o->light_paths = 0;
 }
 
-/* A shadow is a part of the alpha, of the whole picture. */
+/* Checks --ground=shadow: the shadow becomes part of the alpha of the whole picture. */
 static ec_result check_ground(const ec_render_request *request, ec_error *err)
 {
     if (request->ground != EC_GROUND_SHADOW) return EC_OK;
@@ -165,7 +165,7 @@ static ec_result settle_denoise(const ec_render_request *request, ec_error *err)
     return EC_OK;
 }
 
-/* A frame is done or not: it is the sequence that goes on. */
+/* Checks options of sequences. Frames are rendered whole or not at all: a sequence goes on, a frame does not. */
 static ec_result settle_frames(ec_render_request *request, ec_error *err)
 {
     if (request->orbit && !request->frames.given)
@@ -196,10 +196,10 @@ static ec_result check_scenarios(const ec_render_request *request, ec_error *err
     return EC_OK;
 }
 
-/* Without -o one is. */
+/* Tells whether an EXR is written, as it is by default. */
 static bool writes_exr(const ec_outputs *outputs) { return outputs->count == 0 || ec_outputs_have_exr(outputs); }
 
-/* No option is without effect. */
+/* Refuses --channels where it would have no effect. */
 static ec_result settle_channels(const ec_render_request *request, ec_error *err)
 {
     if (!request->channels) return EC_OK;
@@ -208,7 +208,7 @@ static ec_result settle_channels(const ec_render_request *request, ec_error *err
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
 }
 
-/* What one rank sends another has no layers, nor have sums of the past what samples meet. */
+/* Finds layers and mattes, and refuses options that do not go with them. */
 static ec_result settle_layers(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
@@ -230,7 +230,7 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
 }
 
-/* Views are of pictures for the screen. */
+/* Checks --ocio, whose views are for pictures shown on a screen. */
 static ec_result settle_ocio(const ec_render_request *request, const ec_option *options, int count, const bool *given, ec_error *err)
 {
     const ec_option *curve = ec_options_find(options, count, "tonemap");
@@ -240,7 +240,7 @@ static ec_result settle_ocio(const ec_render_request *request, const ec_option *
     return curve && given[curve - options] ? ec_usage(err, "--ocio and --tonemap: a view has a curve of its own; leave one out") : EC_OK;
 }
 
-/* An alpha wants a place, and a frame says of what job it is. */
+/* Checks that the output formats can hold an alpha, and the identity of a frame. */
 static ec_result settle_files(const ec_render_request *request, ec_error *err)
 {
     const bool is_clear = request->background.kind == EC_BACKDROP_TRANSPARENT;
@@ -285,17 +285,17 @@ ec_result ec_render_request_settle(ec_render_request *request, const ec_option *
     return EC_OK;
 }
 
-/* Names the option that cannot be had strip by strip. */
+/* Returns the option that prevents rendering strip by strip. */
 const char *ec_render_whole_for(const ec_render_request *r)
 {
-    if (r->options.denoise) return "--denoise"; /* looks at pixels around */
+    if (r->options.denoise) return "--denoise"; /* it looks at neighbouring pixels */
     if (r->adaptive == EC_ADAPTIVE_ON) return "--adaptive"; /* the allotment looks at all pixels */
-    if (r->options.error_target > 0) return "--error"; /* of the whole image */
+    if (r->options.error_target > 0) return "--error"; /* it is the error of the whole image */
     if (r->options.time_limit > 0 || r->capped) return "--time";
     if (r->resume) return "--resume";
-    if (r->ground == EC_GROUND_SHADOW) return "--ground=shadow"; /* two more pictures */
-    if (ec_channels_mattes(r->channels)) return "--channels cryptomatte"; /* what each pixel has met waits for the last sample */
-    if (r->exposure.is_auto) return "--exposure auto"; /* by all pixels */
+    if (r->ground == EC_GROUND_SHADOW) return "--ground=shadow"; /* it renders two more pictures */
+    if (ec_channels_mattes(r->channels)) return "--channels cryptomatte"; /* mattes of each pixel are only final after the last sample */
+    if (r->exposure.is_auto) return "--exposure auto"; /* it depends on all pixels */
     if (r->checkpoint) return "--checkpoint";
     if (r->snapshot) return "--snapshot";
     return r->has_slice ? "--samples" : NULL;

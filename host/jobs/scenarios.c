@@ -16,12 +16,12 @@
 
 typedef struct reading {
     const char *file, *folder;
-    int base; /* length of the file's own folder, the slash included */
+    int base; /* length of the file's folder, including the slash */
     const ec_given_options *given;
     const cJSON *defaults;
 } reading;
 
-/* A scenario's own, or the one of all. */
+/* Returns a member of the scenario or, if it has none, of the defaults. */
 static const cJSON *find(const reading *r, const cJSON *scenario, const char *key)
 {
     const cJSON *own = cJSON_GetObjectItemCaseSensitive(scenario, key);
@@ -30,7 +30,7 @@ static const cJSON *find(const reading *r, const cJSON *scenario, const char *ke
 
 static const char *text_of(const reading *r, const cJSON *scenario, const char *key) { return cJSON_GetStringValue(find(r, scenario, key)); }
 
-/* "target": {"y": 1} or [0, 1, 0]: what a scenario leaves out the defaults have, and else it stays. */
+/* Reads "target": {"y": 1} or [0, 1, 0]. Numbers missing in the scenario come from the defaults, or else stay unchanged. */
 static ec_result take_numbers(const reading *r, const cJSON *scenario, const char *key, const char *const *names, int count, double *values, ec_error *err)
 {
     const cJSON *const in[] = {cJSON_GetObjectItemCaseSensitive(r->defaults, key), cJSON_GetObjectItemCaseSensitive(scenario, key)};
@@ -44,7 +44,7 @@ static ec_result take_numbers(const reading *r, const cJSON *scenario, const cha
     return EC_OK;
 }
 
-/* Unless the command line has this option. A value that it does not take is told of as it would be there. */
+/* Gives the entry an option, unless the command line has it. Invalid values are reported as for the command line. */
 static __attribute__((format(printf, 5, 6))) ec_result give(const reading *r, ec_entry *entry, const char *option, ec_error *err, const char *format, ...)
 {
     char value[PATH_MAX];
@@ -77,7 +77,7 @@ static ec_result give_camera(const reading *r, const cJSON *scenario, ec_entry *
         EC_TRY(take_numbers(r, scenario, "orbit", angles, 3, orbit, err));
         const double theta = orbit[0] * RADIANS, phi = orbit[1] * RADIANS, out[3] = {sin(phi) * sin(theta), cos(phi), sin(phi) * cos(theta)};
         for (int k = 0; k < 3; k++) eye[k] = target[k] + orbit[2] * out[k];
-        for (int k = 0; k < 3 && !(orbit[2] > 0); k++) target[k] = eye[k] - out[k]; /* it stands in what it orbits, as in a room */
+        for (int k = 0; k < 3 && !(orbit[2] > 0); k++) target[k] = eye[k] - out[k]; /* the camera is inside what it orbits, as in a room */
     }
     EC_TRY(give(r, entry, "eye", err, "%.9g,%.9g,%.9g", eye[0], eye[1], eye[2]));
     EC_TRY(give(r, entry, "look-at", err, "%.9g,%.9g,%.9g", target[0], target[1], target[2]));
@@ -85,7 +85,7 @@ static ec_result give_camera(const reading *r, const cJSON *scenario, ec_entry *
     return ec_given_has(r->given, "parallel") ? EC_OK : give(r, entry, "fov", err, "%.9g", fov ? cJSON_GetNumberValue(fov) : 45);
 }
 
-/* Curves that viewers know by other names. */
+/* Translates tone curves that viewers know by other names. */
 static const char *tone_curve(const char *name)
 {
     static const char *const names[][2] = {{"commerce", "neutral"}, {"pbr-neutral", "neutral"}, {"linear", "none"}, {"ACESFilmic", "aces"}};

@@ -14,11 +14,11 @@
 typedef struct sequence {
     const ec_listener *listener;
     const ec_render_request *request;
-    ec_ranks *ranks;            /* the other processes of an MPI job; NULL: there are none */
+    ec_ranks *ranks;            /* the other processes of an MPI job; NULL: none */
     const ec_given_options *given;
-    ec_identity identity;       /* of all frames */
+    ec_identity identity;       /* common to all frames */
     ec_frame_share *share;
-    ec_frame_state *states;     /* by frame, as they were found */
+    ec_frame_state *states;     /* by frame, as found at the beginning */
     uint32_t count, rendered, skipped, failed;
 } sequence;
 
@@ -39,12 +39,12 @@ static ec_scene_choice choice_of(const sequence *s, uint32_t frame)
     if (!(s->request->frames.fps > 0)) return choice;
     choice.animated = true;
     choice.at = at;
-    choice.opens += at; /* a shutter is told from where the frame is */
+    choice.opens += at; /* the shutter is relative to the frame's time */
     choice.closes += at;
     return choice;
 }
 
-/* Before anything is rendered: names, folders, what is there already. */
+/* Checks names, folders and existing files before anything is rendered. */
 static ec_result look_around(sequence *s, ec_inputs *inputs, ec_error *err)
 {
     const ec_render_request *r = s->request;
@@ -74,7 +74,7 @@ static ec_result tell_json(const ec_listener *listener, cJSON *object, ec_error 
     return listener->report(listener->user, err);
 }
 
-/* A frame without a new picture. failure: why; NULL: it was skipped. */
+/* Reports a frame without a new picture. failure: why; NULL: it was skipped. */
 static ec_result tell_frame(const sequence *s, uint32_t frame, const char *failure, const ec_outputs *outputs, ec_error *err)
 {
     if (!s->request->json) return EC_OK;
@@ -88,7 +88,7 @@ static ec_result tell_frame(const sequence *s, uint32_t frame, const char *failu
     return tell_json(s->listener, object, err);
 }
 
-/* *stopped: by the listener, before it was done; nothing of it is written then. */
+/* Renders a frame. *stopped: the listener ended it before it was done, and nothing of it is written. */
 static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t i, bool *stopped, ec_error *err)
 {
     uint32_t frame = ec_frame_number(&s->request->frames, i);
@@ -113,7 +113,7 @@ static ec_result render_frame(sequence *s, ec_render_request *request, uint32_t 
 static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *err)
 {
     uint32_t frame = ec_frame_number(&s->request->frames, i);
-    ec_render_request *request = malloc(sizeof *request); /* what a frame finds out, as its size, is its own */
+    ec_render_request *request = malloc(sizeof *request); /* what is found out for a frame, such as its size, is not for the others */
     if (!request) return ec_fail(err, "out of memory");
     *request = *s->request;
     request->choice = choice_of(s, frame);
@@ -135,7 +135,7 @@ static ec_result take_frame(sequence *s, uint32_t i, bool *stopped, ec_error *er
             ec_tell(&s->listener->log, EC_FAILURE, "frame %u: %s", frame, why.text);
             s->failed++;
             told = tell_frame(s, frame, why.text, &request->outputs, err);
-            ec_frame_share_close(s->share); /* what a device has forgotten or not done right is not to be taken for there */
+            ec_frame_share_close(s->share); /* a device that failed may have lost buffers: the next frame opens it anew */
         }
     }
     free(request);
@@ -172,7 +172,7 @@ static ec_result begin(sequence *s, ec_error *err)
     ec_scene_choice first = choice_of(s, r->frames.first);
     ec_outputs outputs;
     char files[65];
-    EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* patterns first of all */
+    EC_TRY(outputs_of(s, r->frames.first, &outputs, err)); /* reports invalid patterns before the file is read */
     EC_TRY(ec_animation_open(r->scene, &first, &s->share->animation, log, err));
     if (r->ground != EC_GROUND_NONE) EC_TRY(ec_animation_find_span(s->share->animation, &first, err));
     ec_animation_digest(s->share->animation, files);

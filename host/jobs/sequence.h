@@ -1,4 +1,4 @@
-/* --frames: one picture after the other. */
+/* --frames: renders one picture after the other. */
 #ifndef EC_JOBS_SEQUENCE_H
 #define EC_JOBS_SEQUENCE_H
 
@@ -8,8 +8,8 @@
 #include "jobs/render_request.h"
 #include "ranks/ranks.h"
 
-/* given: the options of the request; share: with devices; start: when the command began. All that can be wrong with the sequence is said
- * before its first sample. A frame that fails leaves the others; the result is EC_FAILED then, and where the listener ended it. */
+/* Renders the frames. given: options of the request; share: with devices; start: when the command began. Errors of the sequence are reported before
+ * its first sample. A frame that fails does not stop the others, but the result is then EC_FAILED, as it is if the listener ended the job. */
 ec_result ec_frames_render(const ec_listener *listener, const ec_render_request *request, ec_ranks *ranks,
                            const ec_given_options *given, ec_frame_share *share, double start, ec_error *err);
 

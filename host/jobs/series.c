@@ -17,21 +17,21 @@
 #include "store/identity_text.h"
 
 typedef struct series {
-    const ec_listener *listener;  /* that names the entry in what it hears */
+    const ec_listener *listener;  /* passes messages on with the entry's name in front */
     ec_listener named;
-    const ec_log *log;            /* of who called */
-    const ec_render_request *all; /* what was asked for */
+    const ec_log *log;            /* the caller's */
+    const ec_render_request *all; /* the request for all pictures */
     ec_ranks *ranks;
-    ec_entries *entries;          /* what fails gets its why_not */
+    ec_entries *entries;          /* those that fail get a why_not */
     double start;
     ec_frame_share share;
-    bool *blanks;                 /* by entry: it shows no surface */
-    uint32_t current;             /* the entry under way, from 1; 0: none */
-    uint32_t count, place;        /* of the shard */
+    bool *blanks;                 /* by entry: the picture shows no surface */
+    uint32_t current;             /* the entry being rendered, from 1; 0: none */
+    uint32_t count, place;        /* within the shard */
     uint32_t rendered, skipped, failed, blank;
 } series;
 
-/* Notes and warnings say which of several scenes they are of. */
+/* Puts the scene's name in front of notes and warnings, if there are several scenes. */
 static void write_named(void *user, ec_severity severity, const char *text)
 {
     const series *s = user;
@@ -52,7 +52,7 @@ static ec_result settle(const ec_entry *entry, ec_render_request *r, ec_error *e
     return r->outputs.count || r->frames.given ? EC_OK : ec_outputs_add_default(&r->outputs, r->scene, err);
 }
 
-/* Before anything is rendered; of frames their sequence looks. */
+/* Checks the outputs of all entries before anything is rendered; sequences check their frames themselves. */
 static ec_result look_around(series *s, ec_render_request *r, ec_error *err)
 {
     for (uint32_t i = 0; i < s->entries->count; i++) {
@@ -84,7 +84,7 @@ static ec_result find_devices(series *s, ec_error *err)
     return result;
 }
 
-/* Of the bytes of all files that a scene is made of; what is not there is told of when it is loaded. */
+/* Computes a digest of all files of a scene; missing files are reported when it is loaded. */
 static void digest_scene(const char *scene, char hex[EC_SHA256_TEXT])
 {
     ec_scene_files files = {0};
@@ -108,7 +108,7 @@ static ec_result tell_json(const series *s, cJSON *object, ec_error *err)
     return s->listener->report(s->listener->user, err);
 }
 
-/* A picture that was not rendered. failure: why; NULL: it was skipped. */
+/* Reports a picture that was not rendered. failure: why; NULL: it was skipped. */
 static ec_result tell(const series *s, const ec_entry *entry, const char *failure, const ec_outputs *outputs, ec_error *err)
 {
     if (!s->all->json) return EC_OK;
@@ -129,7 +129,7 @@ static ec_result render(series *s, uint32_t i, ec_render_request *r, const ec_id
                          .frame = {.name = entry->name, .place = s->place, .count = s->count, .job = words}};
     ec_result result = words && command ? EC_OK : ec_fail(err, "out of memory");
     if (result == EC_OK) result = ec_render_job_load(&job, err);
-    if (result == EC_OK && (result = ec_render_job_run(&job, err)) != EC_OK) ec_frame_share_close(&s->share); /* its device may have failed */
+    if (result == EC_OK && (result = ec_render_job_run(&job, err)) != EC_OK) ec_frame_share_close(&s->share); /* the device may have failed */
     *stopped = s->listener->should_stop(s->listener->user) && (result != EC_OK || !strcmp(job.stats.stopped_by, "user"));
     if (result == EC_OK && !*stopped) result = ec_render_job_deliver(&job, start, err);
     s->blank += s->blanks[i] = result == EC_OK && job.is_blank;
@@ -165,7 +165,7 @@ static ec_result take_frames(series *s, uint32_t i, const ec_render_request *r, 
     return EC_OK;
 }
 
-/* When it happens, and once more at the end. */
+/* Reports a failure: once when it happens, once at the end. */
 static void say_failure(const series *s, const ec_entry *entry, const char *why, ec_severity severity)
 {
     const bool is_named = !strncmp(why, entry->name, strlen(entry->name));
@@ -192,7 +192,7 @@ static ec_result take(series *s, uint32_t i, ec_render_request *r, bool *stopped
     return tell(s, entry, why.text, &r->outputs, err);
 }
 
-/* Names of these entries, at most some, with commas. */
+/* Lists names of blank entries, separated by commas, as many as fit. */
 static void list_blanks(const series *s, char *text, size_t size)
 {
     size_t used = 0;

@@ -9,7 +9,7 @@
 #include "scene/ground.h"
 #include "scene/material_fields.h"
 
-/* Black, but where it covers, and what shadow rays pass, they pass: panes, but no bodies. */
+/* Returns a black material with the coverage of m. Shadow rays pass through panes as they do through m, but not into bodies. */
 static ec_material blackened(const ec_material *m)
 {
     ec_material black = ec_material_default();
@@ -25,7 +25,7 @@ static ec_material blackened(const ec_material *m)
     return black;
 }
 
-/* The last two triangles of a scene that has nothing but triangles. */
+/* Makes a scene of only the ground: the last two triangles of a scene that consists of triangles. */
 static ec_result leave_ground(const ec_scene *with, ec_scene *alone, ec_error *err)
 {
     const size_t first = with->vertex_count - 4, triangle = with->triangle_count - 2;
@@ -53,7 +53,7 @@ ec_result ec_shadow_check(const ec_scene *scene, ec_error *err)
 }
 
 typedef struct shadow_scenes {
-    ec_scene with, without; /* own their geometry, and `with` the materials of both */
+    ec_scene with, without; /* each owns its geometry, and `with` also the materials of both */
 } shadow_scenes;
 
 static void free_scenes(shadow_scenes *s)
@@ -65,8 +65,8 @@ static void free_scenes(shadow_scenes *s)
     ec_scene_free_geometry(&s->without);
 }
 
-/* Under surfaces that are black to the eye, cover and let pass as those of the scene; and alone. What glows is black too: its light would have to fall
- * on both. The rest is shared with the scene. */
+/* Makes the ground under the scene, whose surfaces are black but cover and transmit as before, and the ground alone. Emissive surfaces are black too,
+ * as their light would have to fall on both. Everything else is shared with the scene. */
 static ec_result prepare(const ec_scene *scene, shadow_scenes *made, ec_error *err)
 {
     ec_scene *with = &made->with;
@@ -80,8 +80,8 @@ static ec_result prepare(const ec_scene *scene, shadow_scenes *made, ec_error *e
     return leave_ground(with, &made->without, err);
 }
 
-/* The ratio of a pixel's light with and without the scene; *se2: its squared standard error, linearised in the replicates' means (Cochran 1977,
- * 2.11). */
+/* Returns the ratio of a pixel's light with and without the scene; *se2: its squared standard error, linearised in the replicates' means (Cochran
+ * 1977, 2.11). */
 static double ratio_of(const double *with, const double *without, uint32_t n, double *se2)
 {
     double a = 0, b = 0, sum = 0;
@@ -105,7 +105,7 @@ static void lay(const ec_film films[2], ec_film *film, double *error)
                 light[f][r] = ec_luminance(rgb);
             }
         const double ratio = ratio_of(light[0], light[1], n, &se2);
-        if (!(ratio >= 0)) continue; /* no ground there */
+        if (!(ratio >= 0)) continue; /* no ground in this pixel */
         film->shadow[p] = (float)fmin(fmax(1 - ratio, 0), 1);
         sum += se2;
         seen++;
@@ -123,7 +123,7 @@ ec_result ec_shadow_cast(ec_cl *cl, const ec_scene *scene, const ec_render_optio
     if (!(ec_film_feature_samples(film) > 0)) return ec_fail(err, "--ground=shadow: the picture ended before its first hits were known");
     o.spp = spp;
     o.time_limit = o.error_target = o.clamp = o.light_paths = o.survival = 0;
-    o.max_depth = 2; /* direct light alone: a ground by itself has no other */
+    o.max_depth = 2; /* direct light only: a ground by itself receives no other */
     o.denoise = EC_DENOISER_NONE;
     o.layers = (ec_layers){.count = 0};
     o.adaptive = o.guiding = false;

@@ -17,7 +17,7 @@ enum { CELL = 192, GAP = 8, GROUND = 32, INK = 208, SIDE_MOST = 32768 };
 
 typedef struct small {
     uint32_t width, height;
-    uint8_t *rgb; /* sRGB. Owned */
+    uint8_t *rgb; /* sRGB, owned */
 } small;
 
 static bool read_png(const char *path, small *picture)
@@ -33,7 +33,7 @@ static bool read_png(const char *path, small *picture)
     return is_read;
 }
 
-/* As the PNG beside it would show it. */
+/* Reads an EXR as the PNG beside it would show it. */
 static bool read_exr(const char *path, small *picture)
 {
     double exposure = 0;
@@ -52,7 +52,7 @@ static bool read_exr(const char *path, small *picture)
     return picture->rgb;
 }
 
-/* The mean of the light in the part of a picture that a pixel covers. */
+/* Averages the light in the part of a picture that a pixel covers. */
 static void mean_of(const small *from, uint32_t width, uint32_t height, uint32_t x, uint32_t y, float mean[3])
 {
     const uint64_t x0 = (uint64_t)x * from->width / width, x1 = (uint64_t)(x + 1) * from->width / width;
@@ -65,7 +65,7 @@ static void mean_of(const small *from, uint32_t width, uint32_t height, uint32_t
     for (int c = 0; c < 3; c++) mean[c] = (float)(sum[c] / (double)((x1 - x0) * (y1 - y0)));
 }
 
-/* To a cell's size, if it is larger. Without memory it is left out. */
+/* Shrinks a picture to a cell's size, if it is larger; drops it if there is no memory. */
 static void shrink(small *picture)
 {
     const double scale = fmin(1, (double)CELL / fmax(picture->width, picture->height));
@@ -81,7 +81,7 @@ static void shrink(small *picture)
     *picture = less;
 }
 
-/* A file's name without its folder and ending. */
+/* Draws a file's name, without its folder and ending. */
 static void draw_name(const char *file, uint32_t x, uint32_t y, uint32_t width, uint8_t *sheet, uint64_t stride)
 {
     char name[256];
@@ -92,7 +92,7 @@ static void draw_name(const char *file, uint32_t x, uint32_t y, uint32_t width, 
     ec_label_draw(name, x, y, width, INK, sheet, stride);
 }
 
-/* In cells that the largest one fills, each in the middle of its own, with its name below. */
+/* Places the pictures in cells as large as the largest one, each centred, with its name below. */
 static ec_result write(const char *path, const small *pictures, char *const *files, uint32_t count, ec_error *err)
 {
     const uint32_t line = ec_label_height();

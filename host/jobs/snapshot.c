@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* The first attributes of the final picture that are known by now. */
+/* Those of the final picture's first attributes that are known so far. */
 enum { ATTRIBUTES = 7 };
 
 static uint32_t list(const ec_render_job *job, const ec_film_error *error, const ec_past *past, ec_attribute attributes[ATTRIBUTES])

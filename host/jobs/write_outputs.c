@@ -103,7 +103,7 @@ void ec_picture_free(ec_picture *picture)
     *picture = (ec_picture){0};
 }
 
-/* A plane's floats, *stride of them a pixel; NULL: the picture has none. */
+/* Returns a plane's floats, *stride per pixel; NULL: the picture has none. */
 static const float *plane_of(const ec_picture *p, ec_plane plane, uint32_t *stride)
 {
     if (plane >= EC_PLANE_LAYER) {
@@ -167,7 +167,7 @@ void ec_picture_channels(const ec_picture *picture, ec_channel_list *channels)
     add_groups(picture, channels);
 }
 
-/* Those of a light group are always wanted. */
+/* Tells whether a channel is wanted; those of light groups always are. */
 static bool is_in(ec_channel_set set, const ec_channel_row *row)
 {
     return row->plane == ec_group_rows[0].plane || set >> (row - ec_channel_rows) & 1;
@@ -208,7 +208,7 @@ void ec_picture_pixels(const ec_picture *p, const ec_picture_style *style, const
 {
     const uint64_t count = (uint64_t)p->width * p->height;
     const float *rgb = p->clean.best ? p->clean.best : p->rgb;
-    const float *alpha = p->aov ? p->aov + EC_FILM_ALPHA : p->constants + 1; /* 1 without first hits */
+    const float *alpha = p->aov ? p->aov + EC_FILM_ALPHA : p->constants + 1; /* 1 if there are no first hits */
     if (to->bits == 32) memcpy(out, rgb, 3 * sizeof *rgb * count);
     else ec_screen_pixels(&style->screen, rgb, alpha, p->aov ? EC_FILM_FEATURES : 2, (uint64_t)p->first * p->width, count, to, out);
 }
@@ -237,7 +237,7 @@ ec_result ec_outputs_write(ec_outputs *outputs, const ec_picture *picture, const
     ec_result result = EC_OK;
     for (int i = 0; i < outputs->count; i++) {
         ec_output *output = &outputs->file[i];
-        ec_error *first = result == EC_OK ? err : NULL; /* the first failure is told */
+        ec_error *first = result == EC_OK ? err : NULL; /* the first failure is reported */
         const ec_format *format = ec_output_format(output);
         ec_result written = format ? write_pixels(output->path, format, picture, style, first) : ec_picture_write_exr(output->path, picture, style, first);
         if (written != EC_OK) {

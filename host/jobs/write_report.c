@@ -10,7 +10,7 @@ static ec_screen screen_of(const ec_render_report *report)
     return (ec_screen){.exposure = (float)report->exposure, .tonemap = report->tonemap, .background = report->background, .behind = report->behind, .ocio = report->ocio};
 }
 
-/* All of it at once, with its sums. */
+/* Writes the whole picture with its sums. */
 static ec_result write_slice(ec_outputs *outputs, const ec_film *film, const ec_slice *slice, ec_render_report *report,
                              char sha256[EC_HASH_SIZE], ec_error *err)
 {
@@ -41,7 +41,7 @@ ec_result ec_report_rows_open(ec_row_writer **writer, ec_outputs *outputs, ec_ch
 {
     char no_hash[EC_HASH_SIZE] = "";
     ec_report_attributes attributes;
-    memset(no_hash, '0', EC_HASH_SIZE - 1); /* as long as the one that will be known */
+    memset(no_hash, '0', EC_HASH_SIZE - 1); /* a placeholder as long as the hash that will be known */
     report->image_sha256 = no_hash;
     ec_render_report_attributes(report, &attributes);
     const ec_picture_style style = {.screen = screen_of(report),

@@ -1,5 +1,5 @@
-/* A band of rows is resolved, hashed and handed to every file, by all threads. A pixel's interval looks at the rows around it, so that the last
- * SEAM rows of what has come wait for the rows below; with them, and what they look at above, wait SEAM + REACH rows of the film. */
+/* Resolves a band of rows, hashes it and hands it to every file, with all threads. A pixel's interval depends on rows around it, so that the last
+ * SEAM rows wait for the rows below. With them, SEAM + REACH rows of the film are kept, as those above are looked at too. */
 #include "jobs/write_rows.h"
 
 #include <float.h>
@@ -15,23 +15,23 @@ enum { CHUNKS_A_THREAD = 4, SEAM = EC_EXR_ROWS, REACH = EC_INTERVAL_REACH, WAITI
 
 struct ec_row_writer {
     ec_outputs *outputs;
-    ec_exr_rows *exr[EC_OUTPUTS_MAX]; /* NULL: no EXR, or one that failed */
-    void *pixels[EC_OUTPUTS_MAX];     /* of the output's format; likewise */
-    ec_error why;                     /* what failed first; empty: nothing */
+    ec_exr_rows *exr[EC_OUTPUTS_MAX]; /* NULL: not an EXR, or it failed */
+    void *pixels[EC_OUTPUTS_MAX];     /* writer of the output's format; NULL likewise */
+    ec_error why;                     /* the first failure; empty: none */
     uint32_t width, height, replicates;
     ec_rare rare;
     double limit;
     uint32_t band_rows;               /* a multiple of SEAM */
-    uint32_t come, written;           /* rows */
-    ec_film waiting, around;          /* the last rows that have come, at most WAITING; room for what a band looks at */
+    uint32_t come, written;           /* rows received, rows written */
+    ec_film waiting, around;          /* the last rows received, at most WAITING; room for what a band looks at */
     ec_picture band;
-    ec_pixel *rooms;                  /* for ec_film_resolve_rows, of each thread */
-    ec_channel_list channels;         /* of the EXRs' header */
+    ec_pixel *rooms;                  /* for ec_film_resolve_rows, one per thread */
+    ec_channel_list channels;         /* those in the EXRs' header */
     ec_channel_set wanted;
-    bool wide_errors;                 /* half floats do not hold standard errors like these */
+    bool wide_errors;                 /* halves cannot hold these standard errors */
     ec_exr_part part;
-    void *bytes;                      /* the band as a file for the screen has it */
-    ec_picture_style style;           /* of the beginning; its texts are the caller's */
+    void *bytes;                      /* the band in the format of other files */
+    ec_picture_style style;           /* that of the beginning; its texts belong to the caller */
     ec_hash hash;
     ec_error_sums sums;
     ec_cut_sums cut;
@@ -66,7 +66,8 @@ static ec_result fail_without_files(const ec_row_writer *w, ec_error *err)
     return EC_FAILED;
 }
 
-/* Halves have 11 significant bits from 2^-14 on, and steps of 2^-24 below: 11 bits of what is typical. The rows that are known have to decide. */
+/* Tells whether standard errors need floats. Halves have 11 significant bits from 2^-14 on, and steps of 2^-24 below; typical errors should have 11
+ * bits. The first rows have to decide. */
 static bool are_errors_wide(const ec_error_sums *sums, uint64_t pixels)
 {
     const double most = 65504, typical = sqrt(sums->s2 / (double)pixels);
@@ -91,11 +92,11 @@ static ec_result create(ec_row_writer *w, const ec_film *film, const ec_error_su
     else ec_film_sum_errors(film, &w->sums);
     w->wide_errors = are_errors_wide(&w->sums, (uint64_t)film->width * film->height);
     list_channels(w, &w->channels);
-    w->bytes = malloc((size_t)w->width * rows * 12); /* floats at most */
+    w->bytes = malloc((size_t)w->width * rows * 12); /* enough for floats, the largest */
     return w->bytes ? EC_OK : ec_fail(err, "out of memory for a row of pictures %u pixels wide", w->width);
 }
 
-/* SEAM rows by each thread in turn: the film is only looked at. */
+/* Resolves SEAM rows per thread in turn; the film is only read. */
 static void fill_band(ec_row_writer *w, const ec_film *film, uint32_t first, uint32_t rows)
 {
     uint64_t heavy = 0;
@@ -118,7 +119,7 @@ typedef struct hash_task {
     uint64_t pixels;
 } hash_task;
 
-/* One hash cannot be shared out, so that it goes beside the files. */
+/* Hashes in a thread beside the files, since a hash cannot be divided among threads. */
 static void *hash_band(void *user)
 {
     const hash_task *task = user;
@@ -126,7 +127,7 @@ static void *hash_band(void *user)
     return NULL;
 }
 
-/* The band, to all files. */
+/* Writes the band to all files. */
 static void write_band(ec_row_writer *w)
 {
     const uint32_t rows = w->band.height;
@@ -155,7 +156,7 @@ static void write_band(ec_row_writer *w)
 
 static uint32_t first_waiting(const ec_row_writer *w) { return w->come < WAITING ? 0 : w->come - WAITING; }
 
-/* Rows [from, to) of the picture into the first of `to_film`: of those that wait, and of `film`, which comes after them (NULL: nothing does). */
+/* Copies rows [from, to) of the picture to the beginning of `to_film`, from those that wait and from `film`, which follows them (NULL: nothing does). */
 static void gather(const ec_row_writer *w, const ec_film *film, uint32_t from, uint32_t to, ec_film *to_film)
 {
     uint32_t seam = to < w->come ? to : w->come < from ? from : w->come;
@@ -163,7 +164,7 @@ static void gather(const ec_row_writer *w, const ec_film *film, uint32_t from, u
     if (seam < to) ec_film_copy_rows(to_film, seam - from, film, seam - w->come, to - seam);
 }
 
-/* A film of the picture's rows from `first_row` on. */
+/* Fills the band from a film that begins at row `first_row` of the picture. */
 static void fill_band_from(ec_row_writer *w, const ec_film *film, uint32_t first_row, uint32_t first, uint32_t rows)
 {
     ec_rare rare = w->rare;
@@ -173,7 +174,7 @@ static void fill_band_from(ec_row_writer *w, const ec_film *film, uint32_t first
     fill_band(w, &here, first, rows);
 }
 
-/* Up to row `end`; the film's rows come after those that wait. */
+/* Writes rows up to `end`; the film's rows follow those that wait. */
 static void write_up_to(ec_row_writer *w, const ec_film *film, uint32_t end)
 {
     const uint32_t all = w->come + (film ? film->height : 0);
@@ -197,7 +198,7 @@ static ec_result make_room(const ec_film *like, ec_film *film, ec_error *err)
     return film->width ? EC_OK : ec_film_create_like(film, like, AROUND, err);
 }
 
-/* The last rows, for what comes after them. */
+/* Keeps the last rows for those that come after them. */
 static ec_result keep_waiting(ec_row_writer *w, const ec_film *film, ec_error *err)
 {
     const uint32_t all = w->come + film->height, from = all < WAITING ? 0 : all - WAITING;
@@ -210,7 +211,7 @@ static ec_result keep_waiting(ec_row_writer *w, const ec_film *film, ec_error *e
     return EC_OK;
 }
 
-/* Rows whose errors are summed up. */
+/* Takes rows whose errors have been summed. */
 static ec_result take(ec_row_writer *w, const ec_film *film, ec_error *err)
 {
     const uint32_t all = w->come + film->height;
@@ -252,7 +253,7 @@ ec_result ec_row_writer_open(ec_row_writer **made, ec_outputs *outputs, const ec
                                  : ec_exr_rows_begin(&w->exr[i], path, w->width, height, &w->part, 1, room, &why);
         if (begun != EC_OK) fail_file(w, i, &why);
     }
-    w->part.attributes = NULL; /* those of the end are given then */
+    w->part.attributes = NULL; /* the final ones are given on closing */
     w->part.attribute_count = 0;
     if (fail_without_files(w, err) != EC_OK || take(w, film, err) != EC_OK) {
         ec_row_writer_abort(w);
@@ -270,7 +271,7 @@ ec_result ec_row_writer_put(ec_row_writer *w, const ec_film *film, ec_error *err
 
 uint32_t ec_row_writer_rows(const ec_row_writer *w) { return w->come; }
 
-/* Nothing is known of these: an error of 0 in a pixel that is heavy is a lower bound. */
+/* Fills the band with unknown pixels: an error of 0 in a heavy pixel is a lower bound. */
 static void blank_band(ec_row_writer *w, uint32_t rows, const float *no_features)
 {
     const size_t pixels = (size_t)w->width * rows;

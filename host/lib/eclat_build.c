@@ -1,4 +1,4 @@
-/* How this library was built, and which of its modules are there. */
+/* Tells how this library was built, and which of its modules are installed. */
 #include <limits.h>
 
 #include "base/module.h"

@@ -1,4 +1,4 @@
-/* The tables of commands and their options. */
+/* Gives access to the tables of commands and their options. */
 #include "lib/internal.h"
 
 const eclat_command *eclat_command_at(size_t i)
@@ -8,7 +8,7 @@ const eclat_command *eclat_command_at(size_t i)
     return NULL;
 }
 
-/* The i-th by group, in the order of the rows within one. */
+/* Returns row i in the order of groups, and within a group in the order of the table. */
 static const ec_option *row_at(const ec_option *rows, int count, size_t i)
 {
     for (int group = 0; group < EC_GROUP_COUNT; group++)

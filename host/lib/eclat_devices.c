@@ -3,7 +3,7 @@
 #include "cl/cl.h"
 #include "lib/internal.h"
 
-/* The list that a caller gets, and the texts it points to. */
+/* The list that a caller gets, together with the texts it points to. */
 typedef struct device_list {
     ec_device_info *infos; /* owned */
     eclat_device devices[];

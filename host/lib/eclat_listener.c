@@ -4,7 +4,7 @@
 #include "lib/internal.h"
 #include "report/progress_text.h"
 
-/* FNV-1a. Where more is said than is remembered, it is said again. */
+/* Tells whether a text was said before, by its FNV-1a hash; if too many were, they are said again. */
 static bool was_said(ec_lib_ear *ear, const char *text)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
@@ -83,13 +83,13 @@ static void hint(void *user, const char *line)
     if (to->hint) to->hint(to->user, line);
 }
 
-/* The next one takes the place of what is there. */
+/* Delivers the report; the next one will overwrite it. */
 static ec_result report(void *user, ec_error *err)
 {
     ec_lib_ear *ear = user;
     const eclat_listener *to = ear->listener;
     if (fflush(ear->to) != 0 || ferror(ear->to)) return ec_fail(err, "out of memory for a report");
-    ear->text[ear->size] = 0; /* a longer one was there */
+    ear->text[ear->size] = 0; /* a longer one may have been there */
     const char *why = ear->size && to->report ? to->report(to->user, ear->text, ear->size) : NULL;
     rewind(ear->to);
     return why ? ec_fail(err, "%s", why) : EC_OK;

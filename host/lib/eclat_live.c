@@ -1,4 +1,4 @@
-/* A job becomes a live session. */
+/* Makes a live session of a job. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,11 +7,11 @@
 
 struct eclat_live {
     ec_live session;
-    char *scene_path;         /* owned; the request points to it, and into the session's options */
+    char *scene_path;         /* owned; the request points to it and into the session's options */
     eclat_listener listener;
     ec_lib_ear ear;
-    eclat_facts facts;        /* as the caller got them */
-    ec_live_scene *scene;     /* theirs; a user of it */
+    eclat_facts facts;        /* as last returned to the caller */
+    ec_live_scene *scene;     /* the scene of these facts, of which this is a user */
 };
 
 static ec_result read_job(eclat_live *live, const eclat_job *job, ec_error *err)
@@ -64,10 +64,10 @@ void eclat_live_close(eclat_live *live)
     free_live(live);
 }
 
-/* The caller alone changes it. */
+/* No lock is needed, as only the caller changes it. */
 eclat_wish eclat_live_wished(const eclat_live *live) { return live->session.asked.wish; }
 
-/* is_saved: its picture is to be. Returns the number of saves that were asked for. */
+/* Replaces the wish. is_saved: its picture is to be saved. Returns the number of saves asked for so far. */
 static uint32_t wish_for(ec_live *session, eclat_wish *wish, bool is_saved)
 {
     ec_live_asked *asked = &session->asked;

@@ -61,7 +61,7 @@ ec_result ec_lib_picture_finish(eclat_picture *p, ec_error *err)
     else EC_TRY(take_render(p, err));
     ec_picture_channels(planes_of(p), &p->channels);
     if (!is_mix) ec_error_why(&p->error, p->why, sizeof p->why);
-    p->call.listener = p->call.render.listener = NULL; /* it ends here */
+    p->call.listener = p->call.render.listener = NULL; /* it is valid only during the run */
     return EC_OK;
 }
 

@@ -15,7 +15,7 @@ int eclat_ranks_number(const eclat_ranks *ranks)
     return ranks ? ec_ranks_number((const ec_ranks *)ranks) : !ec_ranks_launched_first();
 }
 
-/* One that fails does not leave, so that the launcher ends the others, which may be waiting for it. */
+/* A rank that fails does not leave, so that the launcher ends the others, which may be waiting for it. */
 eclat_result eclat_ranks_serve(eclat_ranks *ranks, const eclat_listener *listener, eclat_error *err)
 {
     ec_error why = {0};

@@ -1,4 +1,4 @@
-/* A job runs: a call of its command. */
+/* Runs a job as a call of its command. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
@@ -6,7 +6,7 @@
 #include "jobs/given.h"
 #include "lib/internal.h"
 
-/* All of the job that a picture keeps. */
+/* Copies everything of the job that a picture keeps. */
 static ec_result copy(const eclat_job *job, eclat_picture *p, ec_error *err)
 {
     ec_call *call = &p->call;
@@ -20,12 +20,12 @@ static ec_result copy(const eclat_job *job, eclat_picture *p, ec_error *err)
     return ec_given_apply(&call->given, job->rows, job->row_count, call->request, call->is_given, err);
 }
 
-/* Unread until it is to stop. */
+/* Returns a descriptor that becomes readable when the job has to stop. */
 static int find_descriptor(eclat_job *job)
 {
     eventfd_t stops;
     if (job->wakes < 0) atomic_store(&job->wakes, eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-    eventfd_read(job->wakes, &stops); /* of a run before */
+    eventfd_read(job->wakes, &stops); /* clears that of a previous run */
     if (atomic_load(&job->is_stopped)) eventfd_write(job->wakes, 1);
     return job->wakes;
 }
@@ -46,7 +46,7 @@ static ec_result run(eclat_job *job, eclat_picture *p, const ec_listener *listen
     return result == EC_OK ? told : result;
 }
 
-/* Is there one? On failure too, where a device has failed halfway. */
+/* Tells whether there is a picture: also after a failure, if there are samples already. */
 static bool has_picture(const ec_call *call, ec_result result)
 {
     const bool has_film = call->render.film.batch_count && call->render.stats.samples;
@@ -57,7 +57,7 @@ eclat_result eclat_job_run(eclat_job *job, eclat_picture **picture, eclat_error 
 {
     ec_error why = {0}, unfinished = {0};
     ec_lib_ear ear = {.listener = &job->listener, .is_stopped = &job->is_stopped, .is_quiet = ec_given_has(&job->given, "quiet"),
-                      .says_once = ec_given_has(&job->given, "frames") || ec_given_has(&job->given, "orbit")}; /* frames are much alike */
+                      .says_once = ec_given_has(&job->given, "frames") || ec_given_has(&job->given, "orbit")}; /* messages of frames are much alike */
     eclat_picture *made = calloc(1, sizeof *made);
     if (picture) *picture = NULL;
     ear.to = open_memstream(&ear.text, &ear.size);

@@ -1,4 +1,4 @@
-/* The command "view": the window, a program of this header's own in a module, gets a job and what it has to tell a listener. */
+/* Runs the command "view": gives the window, a client of the public header in a module, a job and the functions by which it reports to the listener. */
 #include <poll.h>
 #include <pthread.h>
 #include <string.h>
@@ -26,7 +26,7 @@ eclat_note eclat_view_key_at(size_t i)
     return load(&window, NULL) == EC_OK && window->key_at(i, &key.term, &key.text) ? key : (eclat_note){0};
 }
 
-/* The job that the window shows: of the options those that `render` has too. */
+/* Makes the job that the window shows, with the options that `render` has too. */
 static eclat_result make_job(const eclat_job *view, const char *scene, eclat_job **job, eclat_error *err)
 {
     eclat_result result = eclat_job_new("render", job, err);
@@ -39,10 +39,10 @@ static eclat_result make_job(const eclat_job *view, const char *scene, eclat_job
     return result;
 }
 
-/* Wakes the window when the job is to stop. */
+/* Wakes the window when the job has to stop. */
 typedef struct stopper {
     const ec_view_module *window;
-    int stop, end; /* descriptors: of the job; readable when there is nothing left to stop */
+    int stop, end; /* descriptors; stop: that of the job; end: readable when there is nothing left to stop */
 } stopper;
 
 static void *wait_for_stop(void *user)

@@ -1,5 +1,5 @@
-/* glibc 2.35 gave hypot a version of its own, with the same values. By the older one a library that is built with it runs with glibc 2.34 too, as on
- * RHEL 9. The linker puts this function in the place of the other: --wrap in CMakeLists.txt. */
+/* glibc 2.35 introduced a new version of hypot with the same values. With the old one, a library that is built with it runs with glibc 2.34 too, as
+ * on RHEL 9. The linker replaces hypot by this function: --wrap in CMakeLists.txt. */
 #include <features.h>
 
 #if defined(__x86_64__) && defined(__GLIBC__)

@@ -1,4 +1,4 @@
-/* A session begins and ends. */
+/* Begins and ends a session. */
 #include <math.h>
 #include <stdlib.h>
 #include <sys/eventfd.h>
@@ -14,7 +14,7 @@ _Static_assert((int)ECLAT_RASTER == EC_INTEGRATOR_RASTER && (int)ECLAT_LIGHT == 
 _Static_assert((int)ECLAT_TONEMAP_NONE == EC_TONEMAP_NONE && (int)ECLAT_TONEMAP_AGX == EC_TONEMAP_AGX && (int)ECLAT_TONEMAP_COUNT == EC_TONEMAP_COUNT,
                "one order of tone curves");
 
-/* Fills in what the request says, before a scene is loaded. */
+/* Fills in what the request alone tells, before a scene is loaded. */
 static void start(ec_live *live)
 {
     ec_render_request *request = &live->request;
@@ -63,7 +63,7 @@ ec_result ec_live_open(ec_live *live, const char *against, ec_error *err)
     return result;
 }
 
-/* Each thread at the end of what it is at. */
+/* Ends each thread once it has finished what it is doing. */
 void ec_live_close(ec_live *live)
 {
     pthread_mutex_lock(&live->lock);

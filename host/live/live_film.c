@@ -6,7 +6,7 @@
 
 void ec_live_film_limit(ec_live_film *p, const ec_render_options *o, uint32_t more)
 {
-    const ec_denoiser denoise = p->film.width ? p->limits.denoise : o->denoise; /* a film goes on as it was begun */
+    const ec_denoiser denoise = p->film.width ? p->limits.denoise : o->denoise; /* a film that has begun keeps its denoiser */
     p->limits = *o;
     p->limits.denoise = denoise;
     for (uint32_t i = 0; i < more; i++) {
@@ -14,7 +14,7 @@ void ec_live_film_limit(ec_live_film *p, const ec_render_options *o, uint32_t mo
         p->limits.time_limit *= 4;
         p->limits.error_target /= 2;
     }
-    if (p->film.cut) { /* within a batch, after which none comes */
+    if (p->film.cut) { /* it ends within a batch, after which it cannot go on */
         const ec_film old = p->film;
         ec_film_destroy(&p->film);
         (void)ec_film_create(&p->film, old.width, old.height, old.replicates, NULL);
@@ -45,7 +45,7 @@ void ec_live_film_stop(ec_live_film *p)
     *p = (ec_live_film){0};
 }
 
-/* A failure is told once, and the picture stays as it is. */
+/* A failure is reported once, and leaves the picture unchanged. */
 void ec_live_film_clean(ec_live_film *p, const ec_device_info *device, bool now)
 {
     ec_error err = {0};
@@ -58,7 +58,7 @@ void ec_live_film_clean(ec_live_film *p, const ec_device_info *device, bool now)
     ec_clean_goal_take(&p->goal.clean, samples, &(ec_clean_look){p->denoised.best.error, p->denoised.best.high95});
 }
 
-/* With the second batch there is a first error to state. */
+/* Foretells rare light with the second batch, when there is a first error to state. */
 static ec_result foretell(ec_live_film *p, ec_session *session, ec_error *err)
 {
     ec_rare rare;
@@ -80,7 +80,7 @@ static void judge(ec_live_film *p, double took)
     if (p->film.cut) p->stopped_by = "spp";
 }
 
-/* The batch, and first-hit features where the film wants them. */
+/* Allocates the batch, and first-hit features if the film wants them. */
 static ec_result make_room(ec_live_film *p, float **features, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)p->film.width * p->film.height;

@@ -1,5 +1,5 @@
-/* The loader's thread: reads the scene, and again when a file changes; sets sessions up for what is wished. The picture goes on in
- * the meantime with what there is. */
+/* The loader's thread: loads the scene, and again when a file changes, and sets up sessions for what is wished. Meanwhile the picture goes on with
+ * the previous ones. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,10 +10,10 @@
 #include "live/watch.h"
 #include "pack/pack.h"
 
-#define SETTLES 0.3  /* seconds that files must stay as they are before they are read */
-#define DEAF_LOOKS 1 /* seconds between looks where nobody tells of changes */
+#define SETTLES 0.3  /* seconds for which files must be unchanged before they are read */
+#define DEAF_LOOKS 1 /* seconds between checks of files whose changes are not reported */
 
-/* The wish that a session was made for, the picture's or the second one's. */
+/* The wish for which a session was made, the picture's or the second one's. */
 typedef struct made_for {
     uint32_t serial;   /* of the scene; 0: never */
     eclat_integrator integrator;
@@ -46,7 +46,8 @@ static ec_result find_cameras(ec_live_scene *s, ec_error *err)
         const ec_camera *camera = &scene->cameras[i];
         double reach = ec_camera_reach(scene, camera);
         ec_viewpoint viewpoint;
-        if (i == s->request.options.camera) reach = fmin(reach, ec_live_pick(scene, camera, &(ec_render_options){.width = 1, .height = 1}, 0, 0).distance); /* what one looks at */
+        /* The job's camera looks at the surface in the middle of its picture. */
+        if (i == s->request.options.camera) reach = fmin(reach, ec_live_pick(scene, camera, &(ec_render_options){.width = 1, .height = 1}, 0, 0).distance);
         ec_camera_viewpoint(camera, scene->center, reach, &viewpoint);
         memcpy(&s->cameras[i], &viewpoint, sizeof viewpoint);
     }
@@ -77,7 +78,7 @@ static ec_result find_facts(ec_live_scene *s, eclat_facts *f, ec_error *err)
     return EC_OK;
 }
 
-/* A picture that is whole is not given for one with white in the place of an image. */
+/* Keeps a complete picture rather than replace it by one with white instead of an image. */
 static ec_result check_images(const ec_live *live, const ec_scene *scene, ec_error *err)
 {
     bool was_whole = live->scene && !live->scene->job.scene->lost_image;
@@ -88,7 +89,7 @@ static ec_result load(loader *l, ec_error *err)
 {
     ec_live *live = l->live;
     ec_watch_stop(&l->watch);
-    ec_watch_start(&l->watch, live->request.scene, live->request.environment, live->files); /* a built-in one is no file, and nothing comes of it */
+    ec_watch_start(&l->watch, live->request.scene, live->request.environment, live->files); /* a built-in environment is not a file, which does no harm */
     ec_live_scene *s = calloc(1, sizeof *s);
     if (!s) return ec_fail(err, "out of memory for a scene");
     s->users = 1;
@@ -125,7 +126,7 @@ static void hand_over(ec_live *live, eclat_shown which, ec_live_setup *setup)
     ec_live_setup_free(live, unclaimed);
 }
 
-/* false: it failed, and will not be tried again until something else is wished; at first, not at all. */
+/* Returns false if it failed; it is not tried again until something else is wished or, for the first scene, at all. */
 static bool set_up(loader *l, eclat_shown which, eclat_integrator integrator, uint64_t without)
 {
     ec_live *live = l->live;
@@ -138,7 +139,7 @@ static bool set_up(loader *l, eclat_shown which, eclat_integrator integrator, ui
         ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, err.text, is_first);
         return false;
     }
-    if (!l->has_failed[!which]) ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, "", false); /* the other picture's stays */
+    if (!l->has_failed[!which]) ec_live_say_trouble(live, ECLAT_TROUBLE_SETUP, "", false); /* the other picture's trouble stays */
     hand_over(live, which, setup);
     return true;
 }
@@ -149,8 +150,8 @@ static bool is_made(const loader *l, eclat_shown which, eclat_integrator integra
     return m->serial == l->live->facts.serial && m->integrator == integrator && m->without == without;
 }
 
-/* Kernels whose compiling has begun would hold up those of the rasteriser, which some drivers compile as they are launched: PoCL has
- * one lock for all. */
+/* Waits for the first picture. Kernels that are being compiled would delay those of the rasteriser, which some drivers compile when launched: PoCL
+ * has a single lock. */
 static void wait_for_light(ec_live *live)
 {
     pthread_mutex_lock(&live->lock);
@@ -166,7 +167,7 @@ static bool is_second_made(const loader *l, const eclat_wish *w)
     return w->second != ECLAT_SECOND_INTEGRATOR || is_made(l, ECLAT_SECOND_PICTURE, w->second_integrator, w->without);
 }
 
-/* First light comes from the rasteriser: nothing is built or compiled as fast. */
+/* Sets up what is wished. The first picture comes from the rasteriser, which is the fastest to build and compile. */
 static void serve(loader *l, const eclat_wish *w)
 {
     if (!is_picture_made(l, w)) {
@@ -186,7 +187,7 @@ static void serve(loader *l, const eclat_wish *w)
 
 static bool is_served(const loader *l, const eclat_wish *w) { return is_picture_made(l, w) && is_second_made(l, w); }
 
-/* Until there is something to do, and for no reason else. true: it is time to look at the files. */
+/* Waits until there is something to do. Returns true when it is time to check the files. */
 static bool wait_for_work(loader *l, bool pending, eclat_wish *wish, bool *quit)
 {
     ec_live *live = l->live;
@@ -203,7 +204,7 @@ static bool wait_for_work(loader *l, bool pending, eclat_wish *wish, bool *quit)
     return late || told;
 }
 
-/* Whoever writes a file may not be done yet: only what stays the same from one look to the next is read. */
+/* Reloads files that are the same in two consecutive checks; others may still be being written. */
 static void reload_if_changed(loader *l, bool *pending)
 {
     if (ec_watch_changed(&l->watch)) {

@@ -1,4 +1,4 @@
-/* Finds the surface under a pixel by testing one ray against all triangles: some milliseconds a million, and no structure to keep. */
+/* Finds the surface under a pixel by testing one ray against all triangles: some milliseconds per million, and no structure to keep. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@ typedef struct ray {
     double o[3], d[3]; /* d: unit */
 } ray;
 
-/* Through the pixel's centre, as kernels/stages/generate.cl makes it. */
+/* Returns the ray through the pixel's centre, as in kernels/stages/generate.cl. */
 static ray ray_of(const ec_camera *c, const ec_render_options *o, uint32_t x, uint32_t y)
 {
     ec_params p;
@@ -27,7 +27,7 @@ static ray ray_of(const ec_camera *c, const ec_render_options *o, uint32_t x, ui
     return r;
 }
 
-/* Moeller and Trumbore 1997; infinite where it misses. */
+/* Returns the distance (Moeller and Trumbore 1997); infinite if the ray misses. */
 static double meet(const ray *r, const float *a, const float *b, const float *c)
 {
     double e[3], f[3], p[3], s[3], q[3], det = 0, u = 0, v = 0, t = 0;
@@ -67,7 +67,7 @@ typedef struct box {
 } box;
 static const box empty = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-/* Without fmin and fmax, over which GCC 12's vectorizer breaks down on AArch64. */
+/* Avoids fmin and fmax, on which GCC 12's vectorizer crashes on AArch64. */
 static void grow(box *b, const float point[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -76,7 +76,7 @@ static void grow(box *b, const float point[3])
     }
 }
 
-/* No radius where the box has no points. */
+/* Returns a sphere around the box; without a radius if it has no points. */
 static sphere around(const box *b)
 {
     sphere s;
@@ -86,7 +86,7 @@ static sphere around(const box *b)
     return s;
 }
 
-/* Where an instance stands: no distance grows by more than the matrix' Frobenius norm. */
+/* Places the sphere of an instance: no distance grows by more than the matrix' Frobenius norm. */
 static sphere place(const sphere *s, const ec_placed *placed)
 {
     sphere moved = {.radius = 0};

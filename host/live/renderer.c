@@ -1,5 +1,5 @@
-/* The renderer's thread: while the camera moves pictures of few pixels, each in little time; once it rests finer ones, then the film. Waves are
- * short, since a new wish is looked at only between two of them. */
+/* The renderer's thread: while the camera moves, takes pictures of few pixels in little time; when it rests, finer ones, then the film. Waves are
+ * short, since new wishes are read only between two of them. */
 #include <signal.h>
 #include <stdlib.h>
 
@@ -37,7 +37,7 @@ static duty choose(const ec_renderer *r)
     return needs_other || w->is_moving || r->setup[ECLAT_PICTURE]->without != w->without ? WAIT : REST;
 }
 
-/* Takes over what the loader has made. true: for the picture. */
+/* Takes over what the loader has made. Returns true if it is for the picture. */
 static bool take_setups(ec_renderer *r)
 {
     ec_live_setup *old[ECLAT_SHOWN_COUNT] = {NULL};
@@ -55,7 +55,7 @@ static bool take_setups(ec_renderer *r)
     return swapped;
 }
 
-/* Copies the wish; other cameras, sessions and tones than before mean other work. */
+/* Copies the wish, and decides what to do: a new camera, session or tone curve means other work. */
 static duty take_wish(ec_renderer *r, ec_error *err)
 {
     pthread_mutex_lock(&r->live->lock);
@@ -69,7 +69,7 @@ static duty take_wish(ec_renderer *r, ec_error *err)
     bool repaint = !same_tones(wish, &r->wish), more = wish->more != r->wish.more;
     r->wish = *wish;
     r->serial = asked.serial;
-    if (afresh) r->broken = false; /* of that camera, or device: the next may do */
+    if (afresh) r->broken = false; /* another camera or device may work */
     if (!r->setup[ECLAT_PICTURE] || !wish->width) return WAIT;
     if (afresh && ec_renderer_start_afresh(r, err) != EC_OK) {
         fail(r, err);
@@ -110,7 +110,7 @@ static void wait_for_events(ec_live *live, uint64_t *seen)
     pthread_mutex_unlock(&live->lock);
 }
 
-/* A file larger than `ulimit -f` allows is to be an error like others, whoever the process belongs to. */
+/* Blocks SIGXFSZ, so that a file larger than `ulimit -f` allows is an error like others, whatever the process does with signals. */
 static void ignore_file_size(void)
 {
     sigset_t signals;

@@ -1,4 +1,4 @@
-/* The `eclat render` that makes a picture again, bit for bit. */
+/* Makes the `eclat render` command that makes a picture again, bit for bit. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@ static void add_triple(ec_words *w, const char *option, const double xyz[3])
     ec_words_add(w, "--%s=%.9g,%.9g,%.9g", option, xyz[0], xyz[1], xyz[2]);
 }
 
-/* The camera that was moved; or one of the scene's, the one that the options ask for as they ask for it. */
+/* Adds the camera that was moved, or the chosen one of the scene; nothing if it is the one that the options ask for. */
 static void add_camera(ec_words *w, bool is_asked, const eclat_wish *wish, const ec_render_options *o)
 {
     const eclat_viewpoint *v = &wish->viewpoint;
@@ -29,7 +29,7 @@ static void add_camera(ec_words *w, bool is_asked, const eclat_wish *wish, const
     else ec_words_add(w, "--parallel=%.9g", v->tall);
 }
 
-/* Options of `render` as they were given: the last one counts, where the picture depends on it and no wish says it anew. */
+/* Tells whether an option of `render` is kept as given: it must be the last of its name, matter for the picture, and not be replaced by the wish. */
 static bool is_kept(const ec_given_options *given, int i, bool is_asked, ec_integrator integrator)
 {
     const char *option = given->list[i].option, *value = given->list[i].value ? given->list[i].value : "";
@@ -56,7 +56,7 @@ char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const ecl
     ec_words w = {0};
     const ec_render_request *request = &live->request;
     const bool is_asked = !wish->is_moved && o->camera == scene->request.options.camera;
-    const bool is_still = request->choice.shutter && !ec_traces_paths(o->integrator); /* they show the exposure's middle */
+    const bool is_still = request->choice.shutter && !ec_traces_paths(o->integrator); /* these show the middle of the exposure */
     const uint64_t without = is_still ? o->without & ~EC_FEATURE_MOTION : o->without;
     ec_words_add(&w, "eclat");
     ec_words_add(&w, "render");

@@ -1,4 +1,4 @@
-/* Pictures into files: those that `eclat render` would have written. */
+/* Saves pictures to files, as `eclat render` would have written them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "live/renderer.h"
 #include "report/scene_report.h"
 
-/* NAME.exr, NAME-2.exr …: a later picture does not take the place of an earlier one of this session. */
+/* Numbers the files, NAME.exr, NAME-2.exr …, so that a later picture does not replace an earlier one of this session. */
 static void number_outputs(ec_outputs *outputs, int number)
 {
     for (int i = 0; i < outputs->count && number > 1; i++) {
@@ -16,7 +16,7 @@ static void number_outputs(ec_outputs *outputs, int number)
     }
 }
 
-/* As that command has them which renders the picture. */
+/* Returns the options of the command that renders the picture again. */
 static ec_render_options options_of(const ec_renderer *r, const eclat_wish *wish)
 {
     const ec_live_setup *s = r->setup[ECLAT_PICTURE];
@@ -47,7 +47,7 @@ static ec_render_stats stats_of(const ec_renderer *r, const ec_render_options *o
     return stats;
 }
 
-/* The loaded job, as if it had rendered the film. */
+/* Writes files as if the loaded job had rendered the film. */
 static ec_result write_files(const ec_renderer *r, const eclat_wish *wish, ec_render_request *request, const char *command, ec_error *err)
 {
     const ec_live_scene *scene = r->setup[ECLAT_PICTURE]->scene;

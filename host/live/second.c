@@ -32,7 +32,7 @@ ec_result ec_live_second_render(ec_live_second *s, ec_session *session, uint32_t
     return result;
 }
 
-/* The mean of what a pixel of another grid covers; of a coarser one the nearest. */
+/* Resamples the file to the picture's size: the mean of the pixels that each pixel covers, or the nearest. */
 static void resample(const ec_live *live, float *out, uint32_t width, uint32_t height)
 {
     const uint32_t across = live->against_width, down = live->against_height;
@@ -47,7 +47,7 @@ static void resample(const ec_live *live, float *out, uint32_t width, uint32_t h
         }
 }
 
-/* At the picture's size, to be compared pixel by pixel. */
+/* Shows the file at the picture's size, to compare pixel by pixel. */
 static ec_result show_file(ec_live_second *s, ec_live *live, const eclat_wish *wish, uint32_t width, uint32_t height, ec_error *err)
 {
     if (s->fitted_width != width || s->fitted_height != height) free(s->fitted), s->fitted = NULL;
@@ -58,7 +58,7 @@ static ec_result show_file(ec_live_second *s, ec_live *live, const eclat_wish *w
     return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->fitted, width, height, err);
 }
 
-/* As `eclat compare --diff`: the standard error in the place of a difference. */
+/* Draws the standard error as `eclat compare --diff` draws a difference. */
 static void draw_error(const ec_film *film, const float *mean, uint8_t *bytes)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
@@ -71,7 +71,7 @@ static void draw_error(const ec_film *film, const float *mean, uint8_t *bytes)
     }
 }
 
-/* Black none, pale yellow the most there are. */
+/* Draws samples per pixel: none is black, the most is pale yellow. */
 static void draw_samples(const ec_film *film, uint8_t *bytes)
 {
     uint64_t pixels = (uint64_t)film->width * film->height;
@@ -80,7 +80,7 @@ static void draw_samples(const ec_film *film, uint8_t *bytes)
     for (uint64_t p = 0; p < pixels; p++) ec_magma(ec_film_samples(film, p) / most, bytes + 3 * p);
 }
 
-/* An error takes two batches. */
+/* Tells whether the second picture is available. An error needs two batches. */
 static bool has(const ec_live_second *s, const ec_live *live, eclat_second kind, const ec_film *film)
 {
     switch (kind) {

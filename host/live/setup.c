@@ -1,9 +1,9 @@
-/* Sessions and the scenes they are of. */
+/* Makes and frees sessions, and the scenes that they show. */
 #include <stdlib.h>
 
 #include "live/shared.h"
 
-/* On a processor a wave of this many paths takes some 20 ms a core: short enough for pictures that follow the hand. */
+/* Paths of a wave on a processor, some 20 ms per core: short enough to follow the mouse. */
 #define WAVE_ON_CPU (1u << 16)
 
 void ec_live_scene_release(ec_live *live, ec_live_scene *scene)
@@ -46,12 +46,13 @@ ec_result ec_live_setup_make(ec_live *live, ec_live_scene *scene, ec_integrator 
     if (!s) return ec_fail(err, "out of memory for a pipeline");
     *made = s;
     s->options = scene->request.options;
-    if (s->options.integrator == EC_INTEGRATOR_LIGHT || s->options.light_paths == EC_LIGHT_PATHS_AUTO) s->options.light_paths = 0; /* no first look */
+    /* A session takes no first look, which would decide on automatic light paths. */
+    if (s->options.integrator == EC_INTEGRATOR_LIGHT || s->options.light_paths == EC_LIGHT_PATHS_AUTO) s->options.light_paths = 0;
     s->options.integrator = integrator;
     s->without = without;
     s->options.without = without & scene->optional;
     drop_foreign(&s->options);
-    if (!ec_traces_paths(integrator) && contents->motion.segments) s->options.without |= EC_FEATURE_MOTION; /* the moment in the middle */
+    if (!ec_traces_paths(integrator) && contents->motion.segments) s->options.without |= EC_FEATURE_MOTION; /* shows the middle of the exposure */
     if (contents->environment.rgb) s->options.more_effects |= EC_FEATURE_ENVIRONMENT_TURN;
     pthread_mutex_lock(&live->lock);
     s->scene = scene;

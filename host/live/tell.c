@@ -1,4 +1,4 @@
-/* Pictures and messages for the caller. */
+/* Passes pictures and messages to the caller. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

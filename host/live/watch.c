@@ -14,7 +14,7 @@
 
 #define LINKS_MOST 40
 
-/* One number that another size, time or file changes. 0: there is none. */
+/* Returns a number that changes with the size, time or identity of the file; 0: there is no file. */
 static uint64_t state_of(const char *path)
 {
     struct stat s;
@@ -23,7 +23,7 @@ static uint64_t state_of(const char *path)
     return (h * 31 + (uint64_t)s.st_size) * 31 + (uint64_t)s.st_ino;
 }
 
-/* A kernel does not hear of what other machines do to files that they share. */
+/* Tells whether the kernel reports changes in a folder; it does not hear of what other machines do to shared files. */
 static bool is_told_of(const char *folder)
 {
     static const unsigned long remote[] = {NFS_SUPER_MAGIC, SMB_SUPER_MAGIC, SMB2_SUPER_MAGIC, CIFS_SUPER_MAGIC, AFS_SUPER_MAGIC,
@@ -34,7 +34,7 @@ static bool is_told_of(const char *folder)
     return told;
 }
 
-/* By its folder, since a file that takes another's place is another file. */
+/* Watches the file's folder, since a file that replaces another is a different file. */
 static bool hear_folder(int events, const char *path)
 {
     const uint32_t mask = IN_CLOSE_WRITE | IN_MODIFY | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO |
@@ -45,7 +45,7 @@ static bool hear_folder(int events, const char *path)
     return is_told_of(folder) && inotify_add_watch(events, folder, mask) >= 0;
 }
 
-/* The file's folder, and those of all links on the way to it; depth: as many as may follow one another. */
+/* Watches the file's folder, and those of all symbolic links on its path; depth: how many may follow one another. */
 static bool hear(int events, const char *path, int depth)
 {
     char link[PATH_MAX], target[PATH_MAX], next[2 * PATH_MAX];

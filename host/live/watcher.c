@@ -1,11 +1,11 @@
-/* The watcher's thread: asleep until something happens in a folder of the scene's files. */
+/* The watcher's thread: sleeps until something happens in a folder of the scene's files. */
 #include <errno.h>
 #include <poll.h>
 #include <unistd.h>
 
 #include "live/shared.h"
 
-#define BETWEEN_TELLS 300 /* milliseconds: a folder that others write to all the time wakes nobody more often */
+#define BETWEEN_TELLS 300 /* milliseconds: a folder that others keep writing to wakes the loader no more often */
 
 static void drain(int events)
 {

@@ -6,7 +6,7 @@
 #include "jobs/numbers.h"
 #include "live/shared.h"
 
-/* To nine digits. */
+/* Rounds to nine digits. */
 static double rounded(double number)
 {
     char text[40];

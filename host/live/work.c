@@ -1,4 +1,4 @@
-/* The renderer's steps: previews of few pixels, batches of the film, the other integrator, and what is shown of them. */
+/* The renderer's steps: previews of few pixels, batches of the film, the other integrator, and showing them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 #include "live/renderer.h"
 #include "pack/called_effects.h"
 
-#define FOLLOWS 0.025 /* seconds of a picture while the camera moves */
-#define COARSEST 16u  /* pixels of a side for a sample */
+#define FOLLOWS 0.025 /* seconds for a picture while the camera moves */
+#define COARSEST 16u  /* largest side in pixels of the square for a sample */
 
 static void tell(ec_renderer *r, uint32_t preview, bool has_second)
 {
@@ -29,7 +29,7 @@ static void tell(ec_renderer *r, uint32_t preview, bool has_second)
     s->spp_limit = p->limits.spp;
     s->time_limit = p->limits.time_limit;
     s->error_limit = p->limits.error_target;
-    if (!preview || s->second != ECLAT_SECOND_FILE) s->second = has_second ? r->wish.second : ECLAT_SECOND_NONE; /* a file's is of any camera */
+    if (!preview || s->second != ECLAT_SECOND_FILE) s->second = has_second ? r->wish.second : ECLAT_SECOND_NONE; /* a file does not depend on the camera */
     if (other) s->second_integrator = (eclat_integrator)other->options.integrator;
     s->is_complete = p->film.batch_count && p->stopped_by;
     ec_renderer_read_pixel(&p->film, &s->under);
@@ -39,7 +39,7 @@ static void tell(ec_renderer *r, uint32_t preview, bool has_second)
     pthread_mutex_unlock(&r->live->lock);
 }
 
-/* Looks through a session with so many pixels. */
+/* Sets a session's view to this many pixels. */
 static ec_result look(ec_renderer *r, eclat_shown which, uint32_t width, uint32_t height, ec_error *err)
 {
     const ec_session_view look = {r->camera, width, height, r->wish.env_degrees};
@@ -76,7 +76,7 @@ ec_result ec_renderer_start_afresh(ec_renderer *r, ec_error *err)
     return make_room(r, err);
 }
 
-/* Between waves: is what is being done still wanted? Probes and saves are answered by the way. */
+/* Called between waves: tells whether the current work is still wanted, and answers probes and saves. */
 static bool go_on(void *user)
 {
     ec_renderer *r = user;
@@ -91,8 +91,8 @@ static bool go_on(void *user)
     return true;
 }
 
-/* A picture of a sample a pixel, each for level x level of the wish's. While the camera moves it is finished even if the camera has
- * moved on: else there would be none. */
+/* Takes a preview with one sample for each level x level pixels. While the camera moves it is completed even if the camera has moved on; otherwise
+ * there would be no pictures. */
 ec_result ec_renderer_preview(ec_renderer *r, ec_error *err)
 {
     const ec_live_setup *setup = r->setup[ECLAT_PICTURE];
@@ -132,7 +132,7 @@ ec_result ec_renderer_take_second(ec_renderer *r, ec_error *err)
     return EC_OK;
 }
 
-/* The film as it is now, and what is to stand beside it. */
+/* Shows the film as it is now, and the second picture. */
 ec_result ec_renderer_show(ec_renderer *r, ec_error *err)
 {
     const eclat_wish *wish = &r->wish;

@@ -54,7 +54,7 @@ ec_result ec_bodies_find(const ec_scene *scene, const bool *is_body, ec_bodies *
     return EC_OK;
 }
 
-/* A corner of a material's triangles, so sorted that those at one point stand together. */
+/* A corner of a material's triangles; sorting brings those at one point together. */
 typedef struct place {
     float p[3];
     uint32_t corner;
@@ -73,9 +73,9 @@ typedef struct part {
     double volume, area, normal[3];
 } part;
 
-/* Room for the triangles of one material. */
+/* Memory for the triangles of one material. */
 typedef struct desk {
-    uint32_t *triangles, *parent; /* parent: of corners */
+    uint32_t *triangles, *parent; /* parent: by corner, union-find */
     place *places;
     part *parts;                  /* by their root corner */
 } desk;
@@ -98,8 +98,8 @@ static void add_triangle(const ec_scene *scene, uint32_t triangle, part *to)
     to->area += sqrt(ec_dot(n, n));
 }
 
-/* Volume of the largest part; infinite where one is open, so that its area vectors do not add up to nothing: all that is in water
- * without a bottom displaces it. */
+/* Returns the volume of the largest part, infinite if one is open (its area vectors do not add up to zero): whatever lies in water without a bottom
+ * displaces it. */
 static double largest_part(const ec_scene *scene, uint32_t material, desk *d)
 {
     uint32_t count = 0, corners;
@@ -126,7 +126,7 @@ static double largest_part(const ec_scene *scene, uint32_t material, desk *d)
     return most;
 }
 
-/* The most triangles that one of the materials has. */
+/* Returns the largest number of triangles of one material. */
 static uint32_t most_triangles(const ec_scene *scene, const ec_bodies *bodies)
 {
     uint32_t most = 0;
@@ -152,7 +152,7 @@ ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err
     for (uint32_t i = 0; i < bodies->count; i++) {
         uint32_t material = bodies->material[i], at = i;
         double size = largest_part(scene, material, &d);
-        for (; at > 0 && volume[at - 1] > size; at--) { /* of equal ones the first material stays first */
+        for (; at > 0 && volume[at - 1] > size; at--) { /* equal volumes stay in the order of materials */
             volume[at] = volume[at - 1];
             bodies->material[at] = bodies->material[at - 1];
         }
@@ -162,7 +162,7 @@ ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err
     return EC_OK;
 }
 
-/* Solid angles of its triangles, signed (van Oosterom and Strackee 1983), over 4 pi. */
+/* Sums the signed solid angles of the triangles (van Oosterom and Strackee 1983), compared with half of 4 pi. */
 bool ec_bodies_contain(const ec_scene *scene, uint32_t material, const float point[3])
 {
     double sum = 0;

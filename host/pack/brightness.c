@@ -6,19 +6,19 @@
 #include "base/luminance.h"
 #include "image/srgb.h"
 
-#define SIDE 4.0 /* squares that a triangle reaches across, about, where it is large */
-#define SMALL 1.0 /* texels: under that it is looked at point by point */
-enum { POINTS = 4 }; /* an edge is cut in so many */
+#define SIDE 4.0 /* approximate number of squares across a large triangle */
+#define SMALL 1.0 /* texels: smaller triangles are sampled at points */
+enum { POINTS = 4 }; /* parts into which an edge is divided for that */
 
 static uint32_t wrapped(int64_t i, uint32_t size, ec_wrap wrap)
 {
     const int64_t last = (int64_t)size - 1;
-    if (i >= 0 && i <= last) return (uint32_t)i; /* most of them, without a division */
+    if (i >= 0 && i <= last) return (uint32_t)i; /* the usual case, without a division */
     if (wrap == EC_WRAP_REPEAT) return (uint32_t)((i % size + size) % size);
     return (uint32_t)(i < 0 ? 0 : i > last ? last : i);
 }
 
-/* Luminance of the material's radiance. */
+/* Returns the luminance of the material's radiance at a texel. */
 static float texel_at(const ec_brightness *b, uint32_t x, uint32_t y)
 {
     const size_t i = 4 * ((size_t)y * b->width + x);
@@ -29,7 +29,7 @@ static float texel_at(const ec_brightness *b, uint32_t x, uint32_t y)
     return (float)luminance;
 }
 
-/* Right of and below a texel's middle: of a bilinear function by its values at four corners. */
+/* Returns the means over a patch, where radiance is bilinear between the values of four corners. */
 static ec_bright between(double p, double q, double r, double s)
 {
     const double squares = p * p + q * q + r * r + s * s, edges = p * q + r * s + p * r + q * s, diagonals = p * s + q * r;
@@ -52,7 +52,7 @@ static ec_bright square_of(const ec_brightness *b, uint32_t level, uint32_t x, u
     return level ? b->levels[level][(size_t)y * b->columns[level] + x] : patch(b, x, y);
 }
 
-/* Means of up to four squares each, of a row of them and the one below, which may be NULL. */
+/* Averages up to four squares each, of a row and the one below, which may be NULL. */
 static void join(const ec_bright *above, const ec_bright *below, uint32_t count, ec_bright *out)
 {
     const uint32_t whole = below ? count / 2 : 0;
@@ -70,7 +70,7 @@ static void join(const ec_bright *above, const ec_bright *below, uint32_t count,
     }
 }
 
-/* Row y of the first level. A row of texels is looked up once for the patches on both sides of it. */
+/* Fills row y of the first level. Each row of texels is looked up once for the patches on both sides of it. */
 static void join_patches(const ec_brightness *b, uint32_t y, ec_bright *out)
 {
     enum { SOME = 256 };
@@ -107,7 +107,7 @@ static ec_result add_level(ec_brightness *b, uint32_t level, ec_error *err)
     return EC_OK;
 }
 
-/* Few values, many texels: a power takes as long as twenty look-ups. */
+/* Tabulates luminance by stored value: there are few values and many texels, and a power takes as long as twenty look-ups. */
 static void fill_shares(const ec_material *m, ec_brightness *b)
 {
     for (uint32_t i = 0; i < b->stored; i++) {
@@ -141,20 +141,20 @@ void ec_brightness_free(ec_brightness *b)
     *b = (ec_brightness){0};
 }
 
-/* Into [0, 1] by a mirror. */
+/* Maps u into [0, 1] by mirroring. */
 static double mirrored(double u)
 {
     return 1 - fabs(2 * (u / 2 - floor(u / 2)) - 1);
 }
 
-/* In texels, where the first one's middle is 0 (with nearest its edge). Between two values of a coordinate: what lies in between is there too. */
+/* Finds the texels between two coordinates, in units where the first texel's centre is 0 (with nearest, its edge). */
 static void range_on_axis(const ec_brightness *b, int axis, double low, double high, int64_t *first, int64_t *last)
 {
     const uint32_t size = axis ? b->height : b->width;
     if (b->wrap[axis] == EC_WRAP_CLAMP) low = fmin(fmax(low, 0), 1), high = fmin(fmax(high, 0), 1);
     if (b->wrap[axis] == EC_WRAP_MIRROR) {
         const double p = mirrored(low), q = mirrored(high);
-        const bool turns = floor(low) != floor(high), is_odd = fmod(floor(low), 2) != 0; /* at 1 where the part before it goes up */
+        const bool turns = floor(low) != floor(high), is_odd = fmod(floor(low), 2) != 0; /* reflects at 1 where the part before it rises */
         const bool is_all = high - low >= 1;
         low = is_all || (turns && is_odd) ? 0 : fmin(p, q);
         high = is_all || (turns && !is_odd) ? 1 : fmax(p, q);
@@ -168,7 +168,7 @@ static void range_on_axis(const ec_brightness *b, int axis, double low, double h
     if (*last - *first >= size) *first = 0, *last = size - 1;
 }
 
-/* Sums over squares of a level, in columns and rows that may go on beyond the seam. */
+/* Sums over squares of a level. */
 typedef struct squares {
     double mean, square;
     uint64_t count;
@@ -183,7 +183,7 @@ static void add_squares(const ec_brightness *b, uint32_t level, const uint32_t x
         }
 }
 
-/* One run of patches along an axis, or two across the seam. */
+/* Splits a range of patches along an axis at the seam; returns the number of runs, 1 or 2. */
 static int split_at_seam(const ec_brightness *b, int axis, int64_t first, int64_t last, uint32_t runs[2][2])
 {
     const uint32_t size = axis ? b->height : b->width;
@@ -205,7 +205,7 @@ static ec_bright over_box(const ec_brightness *b, const int64_t first[2], const 
     return (ec_bright){(float)(sum.mean / (double)sum.count), (float)(sum.square / (double)sum.count)};
 }
 
-/* As kernels look it up. */
+/* Interpolates as the kernels do. */
 static double at_point(const ec_brightness *b, const double p[2])
 {
     uint32_t first[2], second[2];
@@ -223,7 +223,7 @@ static double at_point(const ec_brightness *b, const double p[2])
     return (1 - weight[1]) * above + weight[1] * below;
 }
 
-/* From a net of points, the corners and the edges among them: a bilinear function is largest there, but for a texel's middle inside. */
+/* Averages over a grid of points with the corners and edges, where a bilinear function is largest unless a texel's centre lies inside. */
 static ec_bright over_points(const ec_brightness *b, const double corners[3][2])
 {
     double mean = 0, square = 0;

@@ -9,22 +9,22 @@
 #include "pack/lamp_pairs.h"
 #include "pack/light_bounds.h"
 
-#define LEAST 8               /* lamps: fewer are soon told apart by the tree */
-#define LAMPS_MOST (1u << 18) /* in all: their corners are sorted */
-#define PAIRED 0.9            /* of a body's power: so much has to be of pairs … */
-#define FLAT 0.9              /* … or its normals within this cosine of the first one's */
-#define FAINTEST 0x1p-26      /* share of a body's power: each lamp needs several of its 2^30 numbers */
+#define LEAST 8               /* lamps: the tree soon separates fewer */
+#define LAMPS_MOST (1u << 18) /* limit for all lamps, as their corners are sorted */
+#define PAIRED 0.9            /* share of a body's power that pairs must have … */
+#define FLAT 0.9              /* … or else the least cosine between its normals and the first one */
+#define FAINTEST 0x1p-26      /* least share of a body's power, so that each lamp gets several of the body's 2^30 numbers */
 
 typedef struct corner {
     float at[3];
     uint32_t lamp;
 } corner;
 
-/* What finds bodies, by lamp. */
+/* The search for bodies; arrays are by lamp. */
 typedef struct finder {
-    uint32_t *root;          /* the first lamp of the same body; EC_NO_ID: it is placed */
-    uint32_t *next, *count;  /* the body's next lamp; how many there are, by its first one */
-    uint32_t *order, placed; /* which light comes to each place */
+    uint32_t *root;          /* the first lamp of the same body; EC_NO_ID: already placed */
+    uint32_t *next, *count;  /* next lamp of the body; number of its lamps, by the first one */
+    uint32_t *order, placed; /* the light that comes to each place */
 } finder;
 
 static bool may_be(const ec_light_data *l)
@@ -56,7 +56,7 @@ static ec_result join_corners(const ec_pack *pack, uint32_t *root, ec_error *err
         const float *at[3] = {lights[i].a, lights[i].b, lights[i].c};
         for (int k = 0; k < 3 && may_be(&lights[i]); k++) {
             corners[n] = (corner){.lamp = i};
-            for (int axis = 0; axis < 3; axis++) corners[n].at[axis] = at[k][axis] + 0.0f; /* no -0 */
+            for (int axis = 0; axis < 3; axis++) corners[n].at[axis] = at[k][axis] + 0.0f; /* -0 becomes 0 */
             n++;
         }
     }
@@ -79,7 +79,7 @@ ec_result ec_lamp_bodies(const ec_pack *pack, uint32_t *root, ec_error *err)
     return EC_OK;
 }
 
-/* Is it small for the scene? Of what is not, little is far away. */
+/* Tells whether a body is small for the scene: little is far away from a large one. */
 static bool is_small(const ec_light_data *members, uint32_t count, float scene_radius)
 {
     const double most = EC_LIGHT_TREE_BODY * (double)scene_radius;
@@ -91,7 +91,7 @@ static bool is_small(const ec_light_data *members, uint32_t count, float scene_r
     return ec_light_bounds_size2(&all) <= most * most;
 }
 
-/* Is the lamp that shines on a far point well chosen by power? */
+/* Tells whether power chooses well the lamp that shines on a far point. */
 static bool is_even(const ec_light_data *members, uint32_t count, const uint32_t *partner)
 {
     double all = 0, paired = 0, least = INFINITY, flattest = 1, first[3], n[3];
@@ -106,7 +106,7 @@ static bool is_even(const ec_light_data *members, uint32_t count, const uint32_t
     return least > FAINTEST * all && (paired > PAIRED * all || flattest > FLAT);
 }
 
-/* The body that begins with lamp i comes next, if it is a bulb; else only lamp i does. */
+/* Places the body that begins with lamp i if it is a bulb, otherwise only lamp i. */
 static ec_result place_body(finder *f, ec_pack *pack, uint32_t i, ec_error *err)
 {
     const uint32_t count = f->count[i], place = f->placed;
@@ -145,7 +145,7 @@ ec_result ec_pack_bulbs(ec_pack *pack, const uint32_t *root, ec_error *err)
     if (!words || !pack->bulbs) return ec_fail(err, "out of memory for %u lights", lamps);
     finder f = {.root = words, .next = words + lamps, .count = words + 2 * (size_t)lamps, .order = words + 3 * (size_t)lamps};
     for (uint32_t i = 0; i < lamps; i++) f.root[i] = root[i], f.next[i] = EC_NO_ID, f.count[i] = 1;
-    for (uint32_t i = lamps; i-- > 0;) { /* from the back, so that lists begin with their roots */
+    for (uint32_t i = lamps; i-- > 0;) { /* from the end, so that lists begin with their roots */
         const uint32_t first = root[i];
         if (first == i) continue;
         f.next[i] = f.next[first];

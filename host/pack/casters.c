@@ -11,12 +11,12 @@
 #include "scene/texture_range.h"
 
 #define PI 3.14159265358979323846
-#define SHARP_ROUGHNESS 0.4 /* wider lobes are met by camera paths often enough */
-#define LEAST_SHARE 0.02    /* of the light paths, for each caster and light */
-#define SCENE_SHARE 0.2f    /* of light paths, to the scene as a whole where that is asked for beside them */
-#define WORTH_SPLITTING 0.7 /* two spheres for one, where they are so much smaller together */
+#define SHARP_ROUGHNESS 0.4 /* camera paths meet wider lobes often enough */
+#define LEAST_SHARE 0.02    /* least share of the light paths for each caster and light */
+#define SCENE_SHARE 0.2f    /* share of light paths aimed at the scene as a whole, if that is asked for beside casters */
+#define WORTH_SPLITTING 0.7 /* a cluster is split if the squared radii of its halves add up to less than this share of its own */
 
-/* Panes bend none, nor do bodies of index 1. */
+/* Panes do not bend light, nor do bodies of index 1. */
 bool ec_material_bends(const ec_material *m) { return ec_refracts(m) && m->ior != 1.0f && m->transmission > 0.1f; }
 
 static bool material_casts(const ec_scene *scene, const ec_material *m)
@@ -59,7 +59,7 @@ static void add_point(box *b, const float p[3])
 
 static const box no_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-/* Triangle t, where it stands; placed: NULL in the world as it is. It is only counted where there is no list. */
+/* Adds the box of triangle t, at a place or (NULL) as it is; only counts it if there is no list. */
 static void add_triangle(const ec_scene *s, uint32_t t, const ec_placed *placed, boxes *all)
 {
     const size_t at = all->count++;
@@ -74,7 +74,7 @@ static void add_triangle(const ec_scene *s, uint32_t t, const ec_placed *placed,
     }
 }
 
-/* Triangles that cast; those of a mesh that is kept once in each of its places. */
+/* Adds the triangles that cast; those of a mesh kept once at each of its places. */
 static void add_casting(const ec_scene *s, const bool *casts, boxes *all)
 {
     for (uint32_t t = 0; t < ec_scene_flat_count(s); t++)
@@ -99,7 +99,7 @@ static ec_result find_boxes(const ec_scene *s, boxes *all, ec_error *err)
 }
 
 typedef struct cluster {
-    size_t first, end; /* of the boxes */
+    size_t first, end; /* range of boxes */
     bool is_whole;     /* not worth splitting */
     ec_caster sphere;
 } cluster;
@@ -129,7 +129,7 @@ static ec_caster sphere_about(const box *list, size_t first, size_t end)
     return c;
 }
 
-/* Halves a cluster where its box is longest; into whatever of both is there. False if they are little smaller together. */
+/* Splits a cluster in the middle of its longest axis, into *a and *b. Returns false if that is not worth it. */
 static bool split(box *list, const cluster *c, cluster *a, cluster *b)
 {
     const box all = box_about(list, c->first, c->end);
@@ -151,7 +151,7 @@ static bool split(box *list, const cluster *c, cluster *a, cluster *b)
     return ra * ra + rb * rb < WORTH_SPLITTING * r * r;
 }
 
-/* Largest first, as long as there is room for one more. */
+/* Splits the largest clusters first, as long as there is room. */
 static uint32_t make_clusters(boxes *all, uint32_t most, cluster *clusters)
 {
     uint32_t count = 0;
@@ -170,7 +170,7 @@ static uint32_t make_clusters(boxes *all, uint32_t most, cluster *clusters)
     return count;
 }
 
-/* W of luminance that a light sends to a sphere, about; power: of lamps for a pmf of 1. */
+/* Estimates the flux that a light sends to a sphere, in W of luminance; power: of a lamp of pmf 1. */
 static double flux(const ec_pack *pack, const ec_light_data *l, double power, const ec_caster *c)
 {
     const uint32_t kind = l->kind & EC_LIGHT_KIND_MASK;
@@ -200,7 +200,7 @@ static ec_result fill_emission(ec_pack *pack, double *weights, ec_error *err)
     return EC_OK;
 }
 
-/* Up to `most` spheres about what casts. */
+/* Finds up to `most` spheres around what casts. */
 static ec_result find_clusters(const ec_scene *scene, uint32_t most, cluster *clusters, uint32_t *count, ec_error *err)
 {
     boxes all = {.count = 0};
@@ -210,7 +210,7 @@ static ec_result find_clusters(const ec_scene *scene, uint32_t most, cluster *cl
     return result;
 }
 
-/* W of luminance that lamps of pmf 1 would have. */
+/* Returns the power of a lamp of pmf 1, in W of luminance. */
 static double power_of_lamps(const ec_pack *pack)
 {
     double pmf = 0;
@@ -218,7 +218,7 @@ static double power_of_lamps(const ec_pack *pack)
     return pmf > 0 ? pack->lamp_power / pmf : 0;
 }
 
-/* Sets each sphere's share to what lights send there, W, and adds it to weights, by light. Returns the sum. */
+/* Sets each sphere's share to the flux that lights send there, in W, and adds it to the weights of the lights. Returns the sum. */
 static double add_fluxes(const ec_pack *pack, cluster *clusters, uint32_t count, double *weights)
 {
     const double power = power_of_lamps(pack);

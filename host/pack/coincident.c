@@ -1,4 +1,4 @@
-/* One look-up a triangle in a table of those met so far. */
+/* Each triangle is looked up once in a hash table of those met so far. */
 #include "pack/coincident.h"
 
 #include <string.h>
@@ -22,16 +22,16 @@ static void swap(float *a, float *b)
     memcpy(b, old, sizeof old);
 }
 
-/* Equal for every order of the corners that means the same emitter. */
+/* Returns the corners in an order that is the same for all orders that mean the same emitter. */
 static corners corners_of(const ec_prim *p)
 {
     corners c;
     memcpy(c.v[0], p->v0, sizeof c.v[0]);
     memcpy(c.v[1], p->v1, sizeof c.v[1]);
     memcpy(c.v[2], p->v2, sizeof c.v[2]);
-    for (int k = 0; k < 9; k++) c.v[k / 3][k % 3] += 0.0f; /* no -0 */
+    for (int k = 0; k < 9; k++) c.v[k / 3][k % 3] += 0.0f; /* -0 becomes 0 */
     for (int k = 0; k < 2; k++)
-        if (compare(c.v[1], c.v[0]) < 0 || compare(c.v[2], c.v[0]) < 0) { /* rotate: the front stays the front */
+        if (compare(c.v[1], c.v[0]) < 0 || compare(c.v[2], c.v[0]) < 0) { /* rotating keeps the front */
             swap(c.v[0], c.v[1]);
             swap(c.v[1], c.v[2]);
         }
@@ -55,7 +55,7 @@ static bool is_two_sided(const ec_scene *scene, const ec_prim *p)
     return scene->materials[p->material].double_sided;
 }
 
-/* table: triangle + 1, or 0 where free; a power of two. */
+/* Returns the first equal triangle. table: triangle + 1, or 0 if free; its size is a power of two. */
 static uint32_t find_or_add(const ec_scene *scene, const ec_pack *pack, uint32_t *table, uint64_t mask, uint32_t prim)
 {
     const ec_prim *p = &pack->prims[prim];
@@ -83,7 +83,7 @@ ec_result ec_coincident_find(const ec_scene *scene, const ec_pack *pack, const b
     *first = malloc(((size_t)pack->prim_count + 1) * sizeof **first);
     if (!table || !*first) return ec_fail(err, "out of memory for %llu emitting triangles", (unsigned long long)count);
     for (uint32_t p = 0; p < pack->prim_count; p++)
-        if (p < moving) (*first)[p] = p; /* what moves parts */
+        if (p < moving) (*first)[p] = p; /* moving triangles may part */
         else if (emits[pack->prims[p].material]) (*first)[p] = find_or_add(scene, pack, table, size - 1, p);
     return EC_OK;
 }

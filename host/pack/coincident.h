@@ -1,4 +1,4 @@
-/* Emitting triangles that lie exactly on one another: a mesh that is there twice. Inside host/pack only. */
+/* Finds emitting triangles that coincide exactly, as when a mesh is there twice. Inside host/pack only. */
 #ifndef EC_PACK_COINCIDENT_H
 #define EC_PACK_COINCIDENT_H
 
@@ -6,9 +6,9 @@
 
 #include "pack/pack.h"
 
-/* For every triangle of an emitting material the first one that emits where it does, often itself: same corners, the same
- * front, and both two-sided or neither. Rays meet only that one, so light sampling must count it once. malloc'ed; other entries are
- * undefined. Lamps back to back or shifted in their plane stay two: of such a ray meets the one that faces it (kernels/lib/coplanar.h). */
+/* Finds, for every triangle of an emitting material, the first emitting triangle with the same corners and front, both two-sided or neither; often
+ * itself. Rays meet only that one, so light sampling must count it once. malloc'ed; other entries are undefined. Lamps back to back, or shifted in
+ * their plane, remain two: of those a ray meets the one that faces it (kernels/lib/coplanar.h). */
 ec_result ec_coincident_find(const ec_scene *scene, const ec_pack *pack, const bool *emits, uint32_t **first, ec_error *err);
 
 #endif

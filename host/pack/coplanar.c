@@ -1,4 +1,4 @@
-/* Found among pairs whose boxes touch; written as a list of rivals for each triangle that has some. */
+/* Tests pairs whose boxes touch, and writes a list of rivals for each triangle that has some. */
 #include "pack/coplanar.h"
 
 #include <math.h>
@@ -9,13 +9,13 @@
 #include "pack/met_prims.h"
 #include "pack/near_pairs.h"
 
-#define APART 0x1p-19       /* over the largest coordinate: 16 to 32 ulps of it, within which rounding tells nothing */
-#define WIDE 0x1p-17        /* likewise: what overlaps less only touches */
-enum { PAIRS_MOST = 64, PAIRS_FREE = 100000 }; /* a triangle, and in all */
+#define APART 0x1p-19       /* relative to the largest coordinate: 16 to 32 ulps of it, within which rounding decides nothing */
+#define WIDE 0x1p-17        /* likewise: triangles that overlap less only touch */
+enum { PAIRS_MOST = 64, PAIRS_FREE = 100000 }; /* limits of coplanar pairs: per triangle, and in addition for the scene */
 
 typedef struct rival {
     uint32_t of, prim;
-    bool alike; /* they face one way */
+    bool alike; /* both face the same way */
     int rank;
 } rival;
 
@@ -25,7 +25,7 @@ typedef struct finder {
     const ec_material *materials;
     const ec_motion *motion; /* NULL: nothing moves */
     double apart, wide;
-    uint64_t looks, looks_most; /* at pairs in one plane */
+    uint64_t looks, looks_most; /* number of pairs in one plane that were tested */
     size_t count, room;
     rival *rivals;
     bool failed;
@@ -43,7 +43,7 @@ static void corners_of(const ec_prim *p, corners c)
     for (int k = 0; k < 3; k++) c[0][k] = p->v0[k], c[1][k] = p->v1[k], c[2][k] = p->v2[k];
 }
 
-/* Twice the area times the unit normal. */
+/* Computes twice the area times the unit normal. */
 static void normal_of(corners c, double n[3])
 {
     double a[3], b[3];
@@ -52,7 +52,7 @@ static void normal_of(corners c, double n[3])
     ec_cross(a, b, n);
 }
 
-/* Do all corners of b lie in the plane through a? */
+/* Tells whether all corners of b lie in the plane of a. */
 static bool lies_in(corners a, corners b, double apart)
 {
     double n[3];
@@ -67,7 +67,7 @@ static bool lies_in(corners a, corners b, double apart)
     return true;
 }
 
-/* The plane of the larger one says more, but where they only overlap the other way round may be the exact one. */
+/* Tests both planes: the larger triangle's is more precise in general, but where they only overlap the other one may be exact. */
 static bool in_one_plane(corners a, corners b, double apart) { return lies_in(a, b, apart) || lies_in(b, a, apart); }
 
 static void extent(corners c, const double axis[3], double *least, double *most)
@@ -80,7 +80,7 @@ static void extent(corners c, const double axis[3], double *least, double *most)
     }
 }
 
-/* By more than `wide` whichever way one looks along the plane (separating axes). */
+/* Tells whether they overlap by more than `wide` along all axes in the plane (separating axes). */
 static bool overlap(corners a, corners b, double wide)
 {
     double n[3], m[3];
@@ -98,7 +98,7 @@ static bool overlap(corners a, corners b, double wide)
     return true;
 }
 
-/* A triangle that moves is taken where it is at a key, another as it is. */
+/* Gets a triangle's corners, at a key if it moves. */
 static void corners_at(const finder *f, uint32_t prim, uint32_t key, const uint32_t *indices, corners c)
 {
     const size_t keys = f->motion->segments + 1;
@@ -107,7 +107,7 @@ static void corners_at(const finder *f, uint32_t prim, uint32_t key, const uint3
         for (int i = 0; i < 9; i++) c[i / 3][i % 3] = f->motion->positions[3 * (indices[3 * (size_t)prim + i / 3] * keys + key) + i % 3];
 }
 
-/* What has a coverage was laid on what has none; what lets light pass is seen through. */
+/* Ranks surfaces by precedence: those with coverage were laid on those without; those that transmit light are seen through. */
 static int rank_of(const finder *f, uint32_t prim)
 {
     const ec_prim *p = &f->prims[prim];
@@ -115,7 +115,7 @@ static int rank_of(const finder *f, uint32_t prim)
     return (p->flags & EC_PRIM_PANE) || ec_refracts(m) || ec_bounds(m) ? 2 : p->flags & EC_PRIM_ALPHA ? 0 : 1;
 }
 
-/* Where both face one way a triangle knows those alone that come before it. */
+/* Adds a rival. If both face the same way, a triangle lists only those that precede it. */
 static void add(finder *f, uint32_t of, uint32_t prim, bool alike)
 {
     const int own = rank_of(f, of), rank = rank_of(f, prim);
@@ -130,7 +130,7 @@ static void add(finder *f, uint32_t of, uint32_t prim, bool alike)
     f->rivals[f->count++] = (rival){of, prim, alike, rank};
 }
 
-/* By several threads at once; what comes of it is sorted. Of equal ones rays meet the first anyway. */
+/* Visits a pair, in several threads at once; the result is sorted later. Equal triangles are skipped, as rays meet the first one anyway. */
 static bool look(void *user, uint32_t a, uint32_t b)
 {
     finder *f = user;
@@ -177,7 +177,7 @@ static int by_rank(const void *a, const void *b)
     return x->prim < y->prim ? -1 : x->prim > y->prim;
 }
 
-/* As kernels/lib/coplanar.h has it. */
+/* Writes the lists in the format of kernels/lib/coplanar.h. */
 static ec_result write_lists(const finder *f, ec_pack *pack, ec_error *err)
 {
     const uint64_t words = f->prim_count + 3 * (uint64_t)f->count;
@@ -195,7 +195,7 @@ static ec_result write_lists(const finder *f, ec_pack *pack, ec_error *err)
     return EC_OK;
 }
 
-/* One opaque material looks alike all over: it is no matter which of two of its faces is met. */
+/* Tells whether the scene has a single opaque material that looks alike everywhere, so that it does not matter which of two faces is met. */
 static bool is_plain(const ec_scene *s)
 {
     const ec_material *m = s->triangle_count ? &s->materials[s->triangle_material[0]] : NULL;
@@ -206,7 +206,7 @@ static bool is_plain(const ec_scene *s)
     return plain;
 }
 
-/* Lists of what stays together. */
+/* Writes lists of the pairs that stay together while they move. */
 static ec_result settle(finder *f, const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     size_t kept = 0;
@@ -232,7 +232,7 @@ ec_result ec_pack_coplanar(const ec_scene *scene, ec_pack *pack, ec_error *err)
     f.looks_most = (uint64_t)f.prim_count * PAIRS_MOST + PAIRS_FREE;
     ec_result result = ec_near_pairs(f.prims, f.prim_count, (float)f.apart, look, &f, err);
     if (f.failed) result = ec_fail(err, "out of memory for %zu pairs of faces in one plane", f.count);
-    if (result == EC_OK && f.looks <= f.looks_most) result = settle(&f, scene, pack, err); /* else too many lie on one another, and are left to rounding */
+    if (result == EC_OK && f.looks <= f.looks_most) result = settle(&f, scene, pack, err); /* otherwise too many overlap, and rounding decides */
     free(f.rivals);
     if (met != pack->prims) free(met);
     return result;

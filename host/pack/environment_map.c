@@ -1,5 +1,5 @@
-/* The environment map's tables. Between the middles of four texels lies a patch, over which the looked-up radiance is bilinear: it is as
- * likely as its light, luminance times solid angle. */
+/* Builds the tables of the environment map. Between the centres of four texels lies a patch, over which interpolated radiance is bilinear: its
+ * probability follows its light, luminance times solid angle. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -11,15 +11,15 @@
 
 #define PI 3.14159265358979323846
 
-/* So many rows below the upper pole. */
+/* Returns the sine of the polar angle, this many rows below the upper pole. */
 static double sine_at(double rows, uint32_t height)
 {
     return sin(PI * rows / height);
 }
 
-/* The patches between row y - 1 and row y of texel middles; those of rows 0 and height reach from the pole to the first one. Integrals of
- * the sine times how far a point is from the lower or the upper edge: the sine counts as linear in between, which is what
- * kernels/lib/environment.h samples and divides by, and wrong by no more than 0.13 (pi / height)^2 of it. */
+/* The patches between the texel centres of rows y - 1 and y; those of rows 0 and height reach from the pole to the first centre. of_upper and
+ * of_lower are integrals of the sine times the distance from the opposite edge. The sine is taken as linear in between, as kernels/lib/environment.h
+ * samples and divides by it; its error is at most 0.13 (pi / height)^2 of it. */
 typedef struct patch_row {
     const float *upper, *lower;
     double of_upper, of_lower;
@@ -35,7 +35,7 @@ static patch_row patch_row_of(const ec_environment *e, uint32_t y)
                        part * (above / 3 + below / 6), part * (above / 6 + below / 3), e->width};
 }
 
-/* Integral over patch x of the interpolant's luminance times the sine, in texels. Positive wherever the map is. */
+/* Returns the integral over patch x of the interpolated luminance times the sine, in texels. It is positive wherever the map is. */
 static double patch_weight(const patch_row *row, uint32_t x)
 {
     const size_t left = 3 * (size_t)x, right = x + 1 < row->width ? left + 3 : 0;
@@ -43,7 +43,7 @@ static double patch_weight(const patch_row *row, uint32_t x)
                   row->of_lower * (ec_luminance_of_floats(row->lower + left) + ec_luminance_of_floats(row->lower + right)));
 }
 
-/* The weights of a row, and their sum. */
+/* Computes the weights of a row, and returns their sum. */
 static double weigh_row(const ec_environment *e, uint32_t y, double *weights)
 {
     const patch_row row = patch_row_of(e, y);
@@ -52,7 +52,7 @@ static double weigh_row(const ec_environment *e, uint32_t y, double *weights)
     return sum;
 }
 
-/* One after the other, whatever the number of threads: a sum's bits go by its order. */
+/* Sums in order, for any number of threads, as rounding depends on the order. */
 typedef struct map_sums {
     double solid, rgb[3]; /* over all texels */
     double weight;        /* over all patches */
@@ -74,7 +74,7 @@ static map_sums sum_up(const ec_environment *e, const double *weights)
     return sums;
 }
 
-/* A row of texels above a row of patches. */
+/* Copies the row of texels above a row of patches. */
 static void copy_row(const ec_environment *e, uint32_t y, float *texels)
 {
     const float *rgb = e->rgb + 3 * (size_t)e->width * (y > 0 ? y - 1 : 0);
@@ -84,8 +84,8 @@ static void copy_row(const ec_environment *e, uint32_t y, float *texels)
     }
 }
 
-/* A row's own table, and its patches' scales: probability over integral, per solid angle; without an end only where the map is next to
- * black. weights become probabilities. Of a black row the table says nothing: nobody looks there. */
+/* Builds a row's table, and its patches' scales: probability over integral, per solid angle, infinite only where the map is almost black. weights
+ * become probabilities. The table of a black row is undefined, as it is never looked at. */
 static void distribute_row(const ec_environment *e, uint32_t y, double *weights, double row_pmf, ec_distribution_entry *table, float *texels)
 {
     const double per_solid_angle = (double)e->width * e->height / (2 * PI * PI);
@@ -115,7 +115,7 @@ void ec_packed_map_free(ec_packed_map *map)
     *map = (ec_packed_map){0};
 }
 
-/* weights: as many as patches; rows, row_pmf: a row of patches each. */
+/* weights: one for each patch; rows, row_pmf: one for each row of patches. */
 static void fill_map(const ec_environment *e, double *weights, double *rows, double *row_pmf, ec_packed_map *map)
 {
     const size_t width = e->width;
@@ -131,7 +131,7 @@ static void fill_map(const ec_environment *e, double *weights, double *rows, dou
     map->mean_luminance = sums.weight / sums.solid;
     if (!(sums.weight > 0.0)) {
         free(map->table);
-        map->table = NULL; /* black: looked up, never sampled */
+        map->table = NULL; /* black: looked up, but never sampled */
         return;
     }
     ec_distribution_build(rows, row_count, map->table, row_pmf);

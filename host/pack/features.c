@@ -1,4 +1,4 @@
-/* Which effects does the scene call for, and why? Asked of a plain view (view.h), where what is there counts. */
+/* Determines which effects the scene calls for, and why. Takes a plain view (scene_view.h), so that everything present counts. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,16 +15,16 @@ static float max3(const float v[3])
     return fmaxf(v[0], fmaxf(v[1], v[2]));
 }
 
-/* May kernels find this roughness, whose product rounds otherwise there, to be none? */
+/* Tells whether kernels, whose product rounds differently, may take this roughness for 0. */
 static bool is_smooth(float roughness) { return roughness * roughness * 0.99f < EC_SMOOTH_ALPHA; }
 
-/* May kernels find reflection or refraction too narrow for a density: surface_material, surface_transmission? */
+/* Tells whether kernels may find reflection or refraction too narrow for a density (surface_material, surface_transmission). */
 static bool may_be_smooth(const ec_scene *scene, const ec_material *m, bool refracts)
 {
     float least, most;
     ec_texture_range(scene, &m->textures[EC_SLOT_METALLIC_ROUGHNESS], 1, &least, &most);
-    float alpha = m->roughness * m->roughness * least * least * 0.99f; /* the kernels' product rounds otherwise */
-    float ior = fmaxf(m->ior - 0.0151f * m->dispersion * (m->ior - 1.0f), 1.0f); /* red's: dispersed_index */
+    float alpha = m->roughness * m->roughness * least * least * 0.99f; /* the kernels' product rounds differently */
+    float ior = fmaxf(m->ior - 0.0151f * m->dispersion * (m->ior - 1.0f), 1.0f); /* that of red light: dispersed_index */
     return alpha < EC_SMOOTH_ALPHA || (refracts && alpha * fabsf(1.0f - 1.0f / ior) < EC_SMOOTH_ALPHA);
 }
 
@@ -55,7 +55,7 @@ ec_result ec_pack_find_bodies(const ec_scene *plain, ec_bodies *bodies, ec_error
     return any ? ec_bodies_find(plain, is_body, bodies, err) : EC_OK;
 }
 
-/* A material, and what it calls for. */
+/* A material, and the effects that it calls for. */
 typedef struct scan {
     const ec_scene *scene;
     const ec_material *m;
@@ -70,7 +70,7 @@ static void name_material(const ec_scene *scene, uint32_t index, char *text, siz
     else snprintf(text, size, "material %u", index);
 }
 
-/* A line that calls for an effect says what the material has that calls for it. */
+/* Calls for an effect, and says what in the material calls for it. */
 __attribute__((format(printf, 3, 4))) static void call(scan *s, uint64_t feature, const char *has, ...)
 {
     char text[EC_EFFECT_WHY];
@@ -83,7 +83,7 @@ __attribute__((format(printf, 3, 4))) static void call(scan *s, uint64_t feature
 
 static bool has_texture(const scan *s, int slot) { return s->m->textures[slot].texture >= 0; }
 
-/* The coat's own roughness. */
+/* Checks the coat, which has a roughness of its own. */
 static void scan_coat(scan *s)
 {
     const ec_material *m = s->m;
@@ -164,7 +164,7 @@ static void scan_images(scan *s)
             call(s, EC_FEATURE_FLOAT_TEXTURE, "has a texture of more than 8 bits");
 }
 
-/* Unless all of its facets lie flat. */
+/* Calls for the effects of rough reflection, unless all facets lie flat. */
 static void scan_rough(scan *s)
 {
     const ec_material *m = s->m;
@@ -185,7 +185,7 @@ static void look_at_material(const ec_scene *scene, uint32_t m, scan_fn *look, e
     ec_effects_add(effects, &s.found);
 }
 
-/* Looks at materials that show. */
+/* Scans the materials of triangles with `look`. */
 static ec_result scan_materials(const ec_scene *scene, scan_fn *look, ec_effects *effects, ec_error *err)
 {
     EC_FREED bool *used = calloc(scene->material_count, sizeof *used);
@@ -196,7 +196,7 @@ static ec_result scan_materials(const ec_scene *scene, scan_fn *look, ec_effects
     return EC_OK;
 }
 
-/* Does any vertex normal differ from its triangle's? Otherwise interpolating them would change nothing. */
+/* Looks for a vertex normal that differs from its triangle's; otherwise interpolation would change nothing. */
 static void scan_normals(const ec_scene *scene, ec_effects *effects)
 {
     if (!scene->normals) return;
@@ -210,7 +210,7 @@ static void scan_normals(const ec_scene *scene, ec_effects *effects)
         for (int v = 0; v < 3; v++) {
             const float *m = scene->normals + 3 * (size_t)i[v];
             if (m[0] == 0.0f && m[1] == 0.0f && m[2] == 0.0f) continue;
-            /* Against the winding is flat as well: the kernels turn it round. 1e-6 is 0.08 degrees. */
+            /* A normal against the winding counts as flat, as kernels turn it round. 1e-6 is 0.08 degrees. */
             if (fabs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) < length * (1.0 - 1e-6)) {
                 char name[64];
                 name_material(scene, scene->triangle_material[t], name, sizeof name);
@@ -221,7 +221,7 @@ static void scan_normals(const ec_scene *scene, ec_effects *effects)
     }
 }
 
-/* Looks at vertices that a triangle has. Alpha counts where something is left open by it. */
+/* Checks colours of vertices in use. Alpha counts only if coverage depends on it. */
 static void scan_colors(const ec_scene *scene, ec_effects *effects)
 {
     for (size_t i = 0; scene->colors && i < 3 * (size_t)scene->triangle_count; i++) {
@@ -258,7 +258,7 @@ static void scan_lights(const ec_scene *scene, ec_effects *effects)
     }
 }
 
-/* A wall that another body displaces has one direction, in which all passes. */
+/* Calls for nested bodies: a wall that another body displaces has a single direction, in which all light passes. */
 static void scan_bodies(const ec_bodies *bodies, ec_effects *effects)
 {
     static const uint64_t of_walls[] = {EC_FEATURE_NESTED, EC_FEATURE_SPECULAR, EC_FEATURE_SMOOTH, EC_FEATURE_TRANSMISSION};

@@ -1,6 +1,6 @@
-/* Half of a bulb's triangles face away from any point outside of it: chosen by power alone, half of all light samples are lost, and those that are
- * not vary as the cosine. For a ball far away a sample's relative variance is 5/3; where the one of two opposite triangles is taken that faces the
- * point it is 1/3. */
+/* Half of a bulb's triangles face away from any point outside: chosen by power alone, half of all light samples are lost, and the others vary with
+ * the cosine. For a ball far away the relative variance of a sample is 5/3; if of two opposite triangles the one that faces the point is taken, it is
+ * 1/3. */
 #include "pack/lamp_pairs.h"
 
 #include <math.h>
@@ -13,12 +13,12 @@
 #include "pack/distribution.h"
 #include "pack/light_order.h"
 
-#define OPPOSITE -0.7  /* cosine of the normals of a pair */
+#define OPPOSITE -0.7  /* largest cosine between the normals of a pair */
 #define NONE EC_NO_ID
 
 typedef struct facing {
     double n[3], middle[3];
-    bool may; /* be one of a pair */
+    bool may; /* be part of a pair */
 } facing;
 
 static facing facing_of(const ec_light_data *l)
@@ -34,7 +34,7 @@ static facing facing_of(const ec_light_data *l)
     return f;
 }
 
-/* The nearest that faces the opposite way, of those that are not taken; of equally near ones the most opposite. */
+/* Finds the nearest free light that faces the opposite way; of equally near ones the most opposite. */
 static uint32_t find_partner(const ec_light_data *lights, const facing *all, const uint32_t *partner, uint32_t i, uint32_t count)
 {
     uint32_t best = NONE;
@@ -45,7 +45,7 @@ static uint32_t find_partner(const ec_light_data *lights, const facing *all, con
         if (cosine > OPPOSITE) continue;
         double way2 = 0;
         for (int k = 0; k < 3; k++) way2 += (all[j].middle[k] - all[i].middle[k]) * (all[j].middle[k] - all[i].middle[k]);
-        const double cost = way2 * (2 + cosine); /* 1 to 1.3 times that */
+        const double cost = way2 * (2 + cosine); /* 1 to 1.3 times the squared distance */
         if (cost < least) least = cost, best = j;
     }
     return best;
@@ -81,13 +81,13 @@ void ec_lamp_pairs_order(ec_light_data *lights, uint32_t count, const uint32_t *
     }
 }
 
-/* Each light keeps as many numbers as it had. */
+/* Moves the shares, so that each light keeps as many numbers as it had. */
 static ec_result move_shares(ec_pack *pack, const uint32_t *order, ec_error *err)
 {
     const uint32_t count = pack->light_count;
     EC_FREED uint32_t *numbers = malloc(count * sizeof *numbers);
     if (!numbers) return ec_fail(err, "out of memory for %u lights", count);
-    for (uint32_t i = 0; i < count; i++) /* the last one's end at 2^32 */
+    for (uint32_t i = 0; i < count; i++) /* the last one ends at 2^32 */
         numbers[i] = (i + 1 < count ? pack->light_shares[i + 1].first : 0) - pack->light_shares[i].first;
     for (uint32_t i = 0, first = 0; i < count; first += numbers[order[i++]]) pack->light_shares[i].first = first;
     ec_distribution_guide(count, pack->light_shares);

@@ -1,4 +1,4 @@
-/* From the lamps down: the triangle whose light is least even, by how much light that is, is cut in four, until there is little left to gain. */
+/* Begins with the lamps, and repeatedly cuts in four the triangle with the largest unevenness times light, until little is left to gain. */
 #include "pack/lamp_parts.h"
 
 #include <math.h>
@@ -10,29 +10,29 @@
 #define PI 3.14159265358979323846
 
 typedef struct part {
-    double b[2], size;  /* as lamp_part of the kernels has it */
-    double weight;      /* its area times pi, twice where two-sided */
+    double b[2], size;  /* as in lamp_part of the kernels */
+    double weight;      /* area times pi, doubled if two-sided */
     ec_bright bright;
-    uint32_t lamp;      /* in the list of lights */
-    uint32_t children;  /* the first of four; 0: none */
-    bool is_fine;       /* as small as is worth it */
+    uint32_t lamp;      /* index in the list of lights */
+    uint32_t children;  /* index of the first of four; 0: none */
+    bool is_fine;       /* not to be cut further */
 } part;
 
 typedef struct cutter {
     const ec_scene *scene;
     const ec_light_data *lights;
-    const ec_brightness *of_material; /* without an image: of none */
+    const ec_brightness *of_material; /* without an image if the material has no texture */
     part *parts;
-    uint32_t count, lamps;            /* lamps come first */
-    uint32_t *heap, waiting;          /* the least even one at 0 */
+    uint32_t count, lamps;            /* the lamps are the first parts */
+    uint32_t *heap, waiting;          /* heap with the least even part at 0 */
 } cutter;
 
-/* By how much more it would take to be sampled as evenly as a lamp without texture. */
+/* Returns the unevenness of a part: root mean square minus mean, times its weight. */
 static double excess(const part *p) { return p->weight * (sqrt((double)p->bright.square) - (double)p->bright.mean); }
 
 static double within_reach(double u) { return isfinite(u) ? fmin(fmax(u, -1e6), 1e6) : 0; }
 
-/* Where a corner of the lamp lies on its picture. */
+/* Computes where a corner of the lamp lies on its picture. */
 static void picture_place(const ec_scene *scene, const ec_texture_use *use, uint32_t vertex, double place[2])
 {
     const float *uv = scene->uv[use->uv_set ? 1 : 0], *m = use->transform;
@@ -98,7 +98,7 @@ static void cut_all(cutter *c)
         const uint32_t one = pop(c);
         uneven -= excess(&c->parts[one]);
         light -= c->parts[one].weight * (double)c->parts[one].bright.mean;
-        if (c->parts[one].is_fine) { /* what is left there stays as it is */
+        if (c->parts[one].is_fine) { /* it stays as it is */
             light += c->parts[one].weight * (double)c->parts[one].bright.mean;
             continue;
         }
@@ -111,7 +111,7 @@ static void cut_all(cutter *c)
     }
 }
 
-/* Sums up the children of each part; children that gain nothing are joined again. Children stand behind their parents. */
+/* Sums up the children of each part, and joins those whose cut gained nothing. Children stand behind their parents. */
 static void sum_up(cutter *c)
 {
     for (uint32_t i = c->count; i-- > 0;) {
@@ -130,7 +130,7 @@ static void sum_up(cutter *c)
     }
 }
 
-/* How bright its parts are by their root mean squares. */
+/* Returns the brightness of its parts by their root mean squares. */
 static double sampled_light(const cutter *c, uint32_t one)
 {
     const part *p = &c->parts[one];
@@ -139,7 +139,7 @@ static double sampled_light(const cutter *c, uint32_t one)
     return p->children ? sum : p->weight * sqrt((double)p->bright.square);
 }
 
-/* Numbers from `before` on, a share of `all`, go to a part's own in order; *sum: light so far. */
+/* Divides the numbers among a part's descendants in order, by their share of `all`; *sum: the light before them. */
 static uint32_t number_of(double sum, double all) { return (uint32_t)(fmin(sum / all, 1) * EC_LAMP_PARTS_NUMBERS); }
 
 static void share_out(const cutter *c, uint32_t one, double all, double *sum, const uint32_t *node_of, ec_lamp_node *nodes)
@@ -155,7 +155,7 @@ static void share_out(const cutter *c, uint32_t one, double all, double *sum, co
     }
 }
 
-/* Gives places to a lamp's nodes, children of one side by side; node_of and queue: by part, scratch. */
+/* Assigns places to a lamp's nodes, the children of one node side by side; node_of and queue are scratch, by part. */
 static void place_nodes(const cutter *c, uint32_t lamp, uint32_t *node_of, uint32_t *queue, ec_pack *pack)
 {
     uint32_t end = 0;
@@ -204,7 +204,7 @@ static double area(const ec_light_data *l)
 {
     double n[3];
     ec_triangle_normal(l->a, l->b, l->c, n);
-    return 0.5 * sqrt(n[2] * n[2] + n[0] * n[0] + n[1] * n[1]); /* in this order: its last bit chooses which lamp is cut first */
+    return 0.5 * sqrt(n[2] * n[2] + n[0] * n[0] + n[1] * n[1]); /* added in this order, as the last bit decides which lamp is cut first */
 }
 
 static bool is_textured(const ec_light_data *l) { return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_TRIANGLE && (l->kind & EC_LIGHT_TEXTURED); }

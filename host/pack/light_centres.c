@@ -1,6 +1,6 @@
-/* For the integrators that take lights as points. Emissive triangles of one material that lie in one plane, edge to edge, shine as
- * one from one centre; where they make a small curved body, all of it shines as one point: seen from anywhere its projected area is
- * a quarter of its surface on average (Cauchy). In an order of their own, so that no picture depends on that of the triangles. */
+/* Makes the lights of integrators that take them as points. Emissive triangles of one material that lie edge to edge in one plane shine as one from
+ * one centre. If they form a small curved body, all of it shines as one point: on average over directions, its projected area is a quarter of its
+ * surface (Cauchy). They are sorted, so that no picture depends on the order of triangles. */
 #include <math.h>
 #include <string.h>
 
@@ -9,24 +9,24 @@
 #include "pack/pack.h"
 #include "pack/texture_mean.h"
 
-#define LARGEST_BODY 0.05 /* of the scene: a larger one is no point from where it is seen */
+#define LARGEST_BODY 0.05 /* of the scene's radius: a larger body cannot count as a point */
 
 typedef struct lamp {
-    double normal[3], centre[3], emission[3], area; /* centre and emission: times the area */
-    uint32_t flat, body; /* union-find, in a plane and round corners; a root is its own */
-    uint32_t count;      /* triangles in the plane */
-    double radius;       /* of a body, about its centre */
+    double normal[3], centre[3], emission[3], area; /* centre and emission: multiplied by the area */
+    uint32_t flat, body; /* union-find of triangles in one plane, and across edges; a root refers to itself */
+    uint32_t count;      /* number of triangles in the plane */
+    double radius;       /* of a body, around its centre */
 } lamp;
 
 typedef struct edge {
-    float ends[2][3]; /* in an order that both its triangles agree on */
+    float ends[2][3]; /* in the same order for both triangles */
     uint32_t light;
 } edge;
 
 static int compare_lights(const void *a, const void *b)
 {
     const ec_light_data *x = a, *y = b;
-    const float *p = x->a, *q = y->a; /* a, b, c and emission lie side by side */
+    const float *p = x->a, *q = y->a; /* a, b, c and emission are adjacent in memory */
     for (size_t i = 0; i < offsetof(ec_light_data, kind) / sizeof(float); i++)
         if (p[i] != q[i]) return p[i] < q[i] ? -1 : 1;
     return x->kind < y->kind ? -1 : x->kind > y->kind;
@@ -79,7 +79,7 @@ static uint32_t body_root(lamp *lamps, uint32_t i)
     return i;
 }
 
-/* Two triangles with an edge in common. The root is the first in order. */
+/* Joins two triangles with a common edge. The root is the first in order. */
 static void join(const ec_scene *scene, const ec_light_data *lights, lamp *lamps, uint32_t i, uint32_t j)
 {
     if (scene->triangle_material[lights[i].prim] != scene->triangle_material[lights[j].prim]) return;
@@ -110,7 +110,7 @@ static uint32_t list_edges(const ec_light_data *lights, uint32_t count, edge *ed
     return n;
 }
 
-/* A regular triangle of the lamp's area about its centre, of which kernels make the same point. */
+/* Writes an equilateral triangle with the lamp's area around its centre, whose centre the kernels use. */
 static void write_flat(const lamp *l, ec_light_data *out)
 {
     const double corners[3][2] = {{1, 0}, {-0.5, 0.8660254037844386}, {-0.5, -0.8660254037844386}};
@@ -132,20 +132,20 @@ static void write_flat(const lamp *l, ec_light_data *out)
     out->pdf_a = (float)(1 / l->area);
 }
 
-/* A clear coat over all of it, textured or not, takes 0.04 + 0.96 / 21 of what a disc of all angles sends: the mean of Schlick's
- * reflectance, by the cosine. */
+/* Writes a point for a body. A clear coat over all of it, textured or not, removes 0.04 + 0.96 / 21 of the light over all angles: the cosine-weighted
+ * mean of Schlick's reflectance. */
 static void write_body(const ec_material *m, const lamp *l, ec_light_data *out)
 {
     double share = (out->kind & EC_LIGHT_TWO_SIDED ? 0.5 : 0.25) * (1 - m->coat * (0.04 + 0.96 / 21));
     *out = (ec_light_data){.kind = EC_KIND_POINT, .prim = EC_NO_ID, .pmf = 1.0f, .b = {0, 0, 1},
-                           .pdf_a = (float)(l->radius * 1.001)}; /* just outside, where a shadow ray may end */
+                           .pdf_a = (float)(l->radius * 1.001)}; /* just outside the body, where a shadow ray may end */
     for (int k = 0; k < 3; k++) {
         out->a[k] = (float)(l->centre[k] / l->area);
         out->emission[k] = (float)(l->emission[k] * share);
     }
 }
 
-/* bodies: by root, the sums of all triangles, or of area 0 where there are none or they lie in one plane. */
+/* bodies: by root, the sums of all triangles; area 0 if there are none, if they lie in one plane, or if the body is large. */
 static void sum_bodies(const ec_light_data *lights, lamp *lamps, lamp *bodies, uint32_t count, double scene_radius)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -160,7 +160,7 @@ static void sum_bodies(const ec_light_data *lights, lamp *lamps, lamp *bodies, u
         }
     }
     for (uint32_t i = 0; i < count; i++) {
-        bool is_flat = bodies[i].area == lamps[i].area; /* its root's plane is all of it */
+        bool is_flat = bodies[i].area == lamps[i].area; /* all of it lies in its root's plane */
         if (is_flat || bodies[i].radius > LARGEST_BODY * scene_radius) bodies[i].area = 0;
     }
 }
@@ -191,7 +191,7 @@ ec_result ec_pack_light_centres(const ec_scene *scene, ec_pack *pack, ec_error *
         const float *sent = lights[kept].emission;
         if (is_body) write_body(&scene->materials[scene->triangle_material[lights[i].prim]], &bodies[i], &lights[kept]);
         else if (is_triangle(&lights[i])) write_flat(&lamps[i], &lights[kept]);
-        if (sent[0] > 0 || sent[1] > 0 || sent[2] > 0) kept++; /* where a texture is black: it would be summed over for nothing */
+        if (sent[0] > 0 || sent[1] > 0 || sent[2] > 0) kept++; /* no light comes from a black texture: summing over it would be wasted */
     }
     pack->light_count = kept;
     return EC_OK;

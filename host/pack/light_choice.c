@@ -1,5 +1,5 @@
-/* Fits the light tree into the table of lights. Lamps are triangles, points and spots: what is infinitely far away keeps its
- * probability, and what the lamps have together goes to the tree. */
+/* Fits the light tree into the table of lights. Lamps are triangles, points and spots: lights at infinity keep their probabilities, and the tree gets
+ * the sum of the lamps'. */
 #include <math.h>
 #include <string.h>
 
@@ -18,8 +18,8 @@ static uint32_t lamp_count(const ec_pack *pack)
     return count;
 }
 
-/* A tree takes its time at every surface (a sixth to three quarters of a sample's). That is well spent where lamps are in different places; of
- * a bulb of many triangles, or of the two of a large panel, all are as near, and power alone is as good. */
+/* A tree takes time at every surface (a sixth to three quarters of a sample's). That pays off if lamps are in different places; the triangles of a
+ * bulb, or the two of a large panel, are all equally near, and power alone is as good. */
 ec_result ec_pack_wants_light_tree(const ec_pack *pack, const uint32_t *root, bool *wants, ec_error *err)
 {
     const uint32_t count = pack->light_count;
@@ -51,8 +51,8 @@ ec_result ec_pack_wants_light_tree(const ec_pack *pack, const uint32_t *root, bo
     return EC_OK;
 }
 
-/* The table then has those that are infinitely far and one entry for all lamps, which stand behind them: half of the numbers or all, of which the
- * tree has one for two. The tree's probability has that of the entry in it: densities are those of a lamp that is chosen already. */
+/* Changes the table to lights at infinity and one last entry for all lamps, which has half of the numbers or all; the tree gets one for every two of
+ * them. Densities become those of a lamp that has been chosen, as the tree's probability includes that of the entry. */
 static void share_out(ec_pack *pack)
 {
     uint32_t far = 0;

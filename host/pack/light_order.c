@@ -1,4 +1,4 @@
-/* Lamps by the Morton code of their middles (Morton 1966): a curve that mostly goes on to a neighbour. */
+/* Sorts lamps by the Morton codes of their centres (Morton 1966), a curve that mostly goes on to a neighbour. */
 #include "pack/light_order.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include "base/freed.h"
 #include "base/morton.h"
 
-#define MORTON_BITS 20 /* an axis */
+#define MORTON_BITS 20 /* per axis */
 
 typedef struct place {
     uint64_t key;
@@ -37,7 +37,7 @@ static int compare(const void *x, const void *y)
 {
     const place *a = x, *b = y;
     if (a->key != b->key) return a->key < b->key ? -1 : 1;
-    return a->light < b->light ? -1 : 1; /* never the same one */
+    return a->light < b->light ? -1 : 1; /* distinct lights, so never equal */
 }
 
 static void find_keys(const ec_light_data *lights, uint32_t count, place *places)

@@ -1,6 +1,6 @@
-/* The table of everything that can be sampled as light. Half of the numbers go to lights at infinity, half to those in the
- * scene, and within each half by power (radiant flux, luminance-weighted): device/light_share.h tells how many samples a half has. In the order of
- * light_order.h: one number chooses and goes on. */
+/* Makes the table of everything that can be sampled as light. Half of the numbers go to lights at infinity, half to those in the scene, and within
+ * each half they are divided by power (radiant flux, weighted by luminance); device/light_share.h says how many samples a half has. The order is that
+ * of light_order.h. */
 #include <math.h>
 #include <string.h>
 
@@ -16,8 +16,8 @@
 
 #define PI 3.14159265358979323846
 
-/* A triangle's mean emission colour. Its own part of the texture decides how often it is sampled; a little of the whole
- * texture's mean keeps what the points below miss from never being sampled at all. */
+/* Computes a triangle's mean emission. Its own part of the texture decides how often it is sampled; a little of the whole texture's mean ensures that
+ * what the sampled points miss is sampled too. */
 static void textured_mean(const ec_scene *scene, const ec_texture_mean *whole, const ec_material *m, uint32_t prim, double mean[3])
 {
     for (int k = 0; k < 3; k++) mean[k] = whole->rgb[k];
@@ -30,11 +30,11 @@ static void textured_mean(const ec_scene *scene, const ec_texture_mean *whole, c
 typedef struct light_list {
     ec_light_data *lights;
     double *power;
-    uint32_t *source; /* ec_pack.light_source */
+    uint32_t *source; /* for ec_pack.light_source */
     uint32_t count;
 } light_list;
 
-/* Makes *l the light that triangle l->prim is. Its power; 0 or less, or no number, of one that shines on nothing. */
+/* Makes *l the light of triangle l->prim. Returns its power; 0 or less, or NaN, if it gives no light. */
 static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec_texture_mean *whole, ec_light_data *l)
 {
     const uint32_t prim = l->prim;
@@ -55,11 +55,11 @@ static double fill_triangle(const ec_scene *scene, const ec_pack *pack, const ec
               (m->textures[EC_SLOT_EMISSION].texture >= 0 ? EC_LIGHT_TEXTURED : 0) | (m->coat > 0.0f ? EC_LIGHT_COATED : 0) |
               (m->alpha_mode != EC_ALPHA_OPAQUE ? EC_LIGHT_OPEN : 0);
     l->prim = prim;
-    l->pdf_a = (float)(1.0 / area); /* times pmf once that is known */
+    l->pdf_a = (float)(1.0 / area); /* to be multiplied by pmf once that is known */
     return PI * area * ec_luminance(radiance) * (m->double_sided ? 2.0 : 1.0);
 }
 
-/* Cuts textured lamps into parts, but for triangles that lie on one another: only one of those is sampled. */
+/* Cuts textured lamps into parts, except triangles that coincide, of which only one is sampled. */
 static ec_result cut_lamps(const ec_scene *scene, ec_pack *pack, const bool *emits, const uint32_t *first, light_list *list, ec_error *err)
 {
     EC_FREED bool *may_cut = malloc((pack->prim_count + (size_t)1) * sizeof *may_cut);
@@ -70,7 +70,7 @@ static ec_result cut_lamps(const ec_scene *scene, ec_pack *pack, const bool *emi
     return ec_lamp_parts_find(scene, pack, list->lights, list->power, list->count, may_cut, err);
 }
 
-/* Each of those that lie in one place once. whole: by material. */
+/* Adds each emissive triangle, coinciding ones once. whole: by material. */
 static void add_triangles(const ec_scene *scene, const ec_pack *pack, const bool *emits, const uint32_t *first,
                           const ec_texture_mean *whole, light_list *list)
 {
@@ -115,9 +115,8 @@ static void add_punctual(const ec_light *in, uint32_t number, uint32_t moves, do
     list->power[list->count++] = power;
 }
 
-/* The power of a sky or a sun goes with the size of the scene and says nothing of what reaches a corner that a lamp lights:
- * by power alone that lamp would be chosen so seldom that its light is fireflies. Halving costs the other side at most
- * twice the variance. */
+/* Shares out the numbers. The power of a sky or sun grows with the scene's size and says nothing about a corner lit by a lamp: by power alone that
+ * lamp would be chosen so seldom that its light becomes fireflies. Halving at most doubles the variance of the other side. */
 static void share_out(const light_list *list, ec_pack *pack, double *pmf)
 {
     const uint64_t half = (uint64_t)1 << 31;
@@ -160,7 +159,7 @@ static ec_result finish_table(ec_pack *pack, light_list *list, ec_error *err)
     return EC_OK;
 }
 
-/* The area of a triangle that moves goes with the time: its density lacks it. */
+/* Marks triangles that move: their area depends on the time, so their density leaves it out. */
 static void mark_moving(const ec_scene *scene, ec_pack *pack, light_list *list)
 {
     const uint32_t moving = scene->motion.segments ? scene->motion.triangle_count : 0;
@@ -174,7 +173,7 @@ static void mark_moving(const ec_scene *scene, ec_pack *pack, light_list *list)
     }
 }
 
-/* Which light each triangle is. */
+/* Records the light of each triangle. */
 static ec_result note_prims(ec_pack *pack, const light_list *list, const bool *emits, const uint32_t *first, ec_error *err)
 {
     pack->light_of_prim = malloc((pack->prim_count + 1) * sizeof *pack->light_of_prim);

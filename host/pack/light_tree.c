@@ -1,4 +1,4 @@
-/* From the top down by binned cost, as a BVH (Conty Estevez and Kulla 2018). */
+/* Splits top-down by binned cost, as for a BVH (Conty Estevez and Kulla 2018). */
 #include "pack/light_tree.h"
 
 #include <math.h>
@@ -11,17 +11,17 @@
 #include "pack/lamp_pairs.h"
 
 #define BINS 12
-#define MANY 4096 /* lamps: of so many only the longest axis is tried */
-#define FEW 512   /* lamps: so many are not worth another thread */
+#define MANY 4096 /* lamps: of more, only the longest axis is tried */
+#define FEW 512   /* lamps: fewer are not worth another thread */
 
-/* A tree of items: bulbs and lamps that are in none; and below each bulb one of its lamps. */
+/* A tree of items: bulbs, and lamps outside of them; or, below a bulb, its lamps. */
 typedef struct builder {
     const ec_light_set *set;
     const ec_light_bounds *bounds; /* of items */
-    const ec_bulb *items;          /* which lamps each has; NULL: each is one */
-    const struct builder *below;   /* of the lamps of bulbs */
-    uint32_t below_levels;         /* that the deepest bulb takes */
-    uint32_t *order;               /* indices of bounds: a node's stand together */
+    const ec_bulb *items;          /* the lamps of each item; NULL: one each */
+    const struct builder *below;   /* builder of the trees of bulbs' lamps */
+    uint32_t below_levels;         /* levels of the deepest bulb */
+    uint32_t *order;               /* indices into bounds, those of a node side by side */
     ec_light_node *nodes;
     uint32_t *trails;
     double most_power;
@@ -29,8 +29,8 @@ typedef struct builder {
 
 typedef struct task {
     uint32_t node, first, end, depth, trail;
-    uint32_t free;   /* nodes from here on are for those below */
-    uint32_t record; /* so many of them, behind the first two, are kept */
+    uint32_t free;   /* first node that is free for descendants */
+    uint32_t record; /* number of these, after the first two, that are reserved */
 } task;
 
 static uint32_t levels_of(uint32_t count)
@@ -42,7 +42,7 @@ static uint32_t levels_of(uint32_t count)
 
 static uint32_t record_nodes(uint32_t lamps) { return (2 + 2 * lamps + EC_LIGHT_NODE_WORDS - 1) / EC_LIGHT_NODE_WORDS; }
 
-/* Nodes below one of an item of so many lamps. */
+/* Returns the number of nodes below an item with this many lamps. */
 static uint32_t nodes_below(uint32_t lamps) { return lamps > 1 ? 2 * (lamps - 1) + record_nodes(lamps) : 0; }
 
 static double middle(const ec_light_bounds *b, int axis) { return 0.5 * (b->low[axis] + b->high[axis]); }
@@ -79,7 +79,7 @@ static void try_axis(const builder *b, const task *t, int axis, double stretch, 
         const ec_light_bounds *one = &b->bounds[b->order[i]];
         ec_light_bounds_add(&bins[bin_of(one, axis, low, high)], one);
     }
-    for (int k = BINS - 1; k > 0; k--) { /* beside an empty bin a plane parts what the one before it does */
+    for (int k = BINS - 1; k > 0; k--) { /* beside an empty bin a plane splits like the one before */
         ec_light_bounds_add(&sum, &bins[k]);
         above[k] = bins[k].power > 0 || k == BINS - 1 ? ec_light_bounds_cost(&sum) : above[k + 1];
     }
@@ -92,11 +92,11 @@ static void try_axis(const builder *b, const task *t, int axis, double stretch, 
     }
 }
 
-/* Where the second child's lamps begin; its lamps come to stand there. Long boxes are rather cut across (the paper's regulariser). */
+/* Partitions a node's lamps, and returns where the second child's begin. Prefers cutting long boxes across (the paper's regulariser). */
 static uint32_t split(const builder *b, const task *t, const ec_light_bounds *all)
 {
     uint32_t half = t->first + (t->end - t->first) / 2;
-    if (t->depth + levels_of(t->end - t->first) + b->below_levels >= EC_LIGHT_DEPTH_MOST) return half; /* in halves it just fits the trail */
+    if (t->depth + levels_of(t->end - t->first) + b->below_levels >= EC_LIGHT_DEPTH_MOST) return half; /* halving just fits into the trail */
     if (t->end - t->first == 2) return half;
     plane best = {.axis = -1};
     double longest = 0;
@@ -115,7 +115,7 @@ static uint32_t split(const builder *b, const task *t, const ec_light_bounds *al
     return at > t->first && at < t->end ? at : half;
 }
 
-/* What kernels/lib/bulb.h reads. */
+/* Writes what kernels/lib/bulb.h reads. */
 static void write_record(const ec_light_set *set, const ec_bulb *bulb, ec_light_node *record)
 {
     ec_distribution_entry table[EC_LAMP_PAIRS_MOST];
@@ -147,7 +147,7 @@ static void grow_item(const builder *b, const task *t)
     write_record(b->set, &b->items[item], node + (node->link + 2 - t->node));
 }
 
-/* Where a node's descendants stand depends on how many there are, not on who writes them first. */
+/* Builds a node and its descendants, whose places depend on their number only, not on which thread is first. */
 static void grow(const builder *b, task t)
 {
     const ec_light_bounds all = around(b, t.first, t.end);
@@ -175,7 +175,7 @@ size_t ec_light_tree_nodes(const ec_light_set *set)
     return nodes;
 }
 
-/* Bulbs, and the lamps between them. items, bounds: room for one for each lamp. */
+/* Lists bulbs and the lamps between them. items, bounds: the caller's, room for one per lamp. */
 static uint32_t list_items(const ec_light_set *set, ec_bulb *items, ec_light_bounds *bounds, uint32_t *levels)
 {
     uint32_t n = 0, bulb = 0;

@@ -1,4 +1,5 @@
-/* Corners are those that scene/write_out.c writes, but that triangles which rounding has made lines keep theirs: nothing lies on them anyway. */
+/* Places a triangle, with the corners that scene/write_out.c writes. Only triangles that rounding makes lines are not dropped: nothing lies on them
+ * anyway. */
 #include "pack/met_prims.h"
 
 #include <stdlib.h>

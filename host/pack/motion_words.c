@@ -1,10 +1,10 @@
-/* Keys of what moves, as kernels/lib/motion.h reads them. */
+/* Packs keys of what moves, as kernels/lib/motion.h reads them. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "pack/pack.h"
 
-/* Keys of three numbers become fours of words. */
+/* Appends keys of three numbers as four words each; returns their place. */
 static uint32_t add_stream(ec_pack *pack, const float *keys, size_t count)
 {
     uint32_t at = (uint32_t)pack->motion_words;

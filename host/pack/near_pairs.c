@@ -1,5 +1,5 @@
-/* Triangles in the order of a Morton curve of their middles, under a tree of eight children a node; then the triangles of each lowest node against the tree.
- * Those of one mesh are small and lie side by side, so few meet. */
+/* Sorts triangles along a Morton curve of their centres, under a tree with eight children per node; then tests the triangles of each lowest node
+ * against the tree. Triangles of a mesh are small and adjacent, so few boxes touch. */
 #include "pack/near_pairs.h"
 
 #include <math.h>
@@ -8,13 +8,13 @@
 #include "base/freed.h"
 #include "base/morton.h"
 
-enum { WIDTH = 8, LEVELS = 12 /* 8^11 triangles */, FEW = 4096 /* not worth several threads */ };
+enum { WIDTH = 8, LEVELS = 12 /* for 8^11 triangles */, FEW = 4096 /* fewer are not worth several threads */ };
 
 typedef struct box {
     float lo[3], hi[3];
 } box;
 
-/* Boxes of eight children, as columns; where there are fewer the rest touch nothing. */
+/* Boxes of eight children, as columns; unused ones touch nothing. */
 typedef struct node {
     float lo[3][WIDTH], hi[3][WIDTH];
 } node;
@@ -23,7 +23,7 @@ typedef struct search {
     const ec_prim *prims;
     const uint32_t *order;
     uint32_t count, level_count;
-    const node *level[LEVELS]; /* 0: of triangles; the last one has one node */
+    const node *level[LEVELS]; /* level 0: of triangles; the last one has a single node */
     ec_pair_visit visit;
     void *user;
 } search;
@@ -59,7 +59,7 @@ static uint32_t code_of(const box *b, const box *all)
     return (uint32_t)ec_morton(at);
 }
 
-/* Sorted by the low 32 bits of what is above the number: radix, least digit first, so that equals stay in order. */
+/* Sorts by the low 32 bits above the index with a radix sort, least digit first, which keeps the order of equals. */
 static void sort(uint64_t *a, uint64_t *b, uint32_t count)
 {
     for (int shift = 32; shift < 64; shift += 8) {
@@ -109,7 +109,7 @@ static box box_about(const node *n)
     return all;
 }
 
-/* nodes: room for all levels, of which there are at least two. */
+/* Builds all levels, at least two, in `nodes`, which has room for them. */
 static void make_levels(search *s, float margin, node *nodes)
 {
     static const box none = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -127,7 +127,7 @@ static void make_levels(search *s, float margin, node *nodes)
     }
 }
 
-/* Which children touch a box? */
+/* Returns bits for the children that touch a box. */
 static uint32_t touched(const node *n, const box *b)
 {
     uint32_t near[WIDTH], bits = 0;
@@ -138,7 +138,7 @@ static uint32_t touched(const node *n, const box *b)
     return bits;
 }
 
-/* The triangles of two lowest nodes; about: the other one's box. */
+/* Tests the triangles of two lowest nodes; about: the box of the other one. */
 static bool compare(const search *s, uint32_t own, uint32_t other, const box *about)
 {
     for (uint32_t mine = touched(&s->level[0][own], about); mine; mine &= mine - 1) {
@@ -152,7 +152,7 @@ static bool compare(const search *s, uint32_t own, uint32_t other, const box *ab
     return true;
 }
 
-/* A lowest node against all from itself on. */
+/* Tests a lowest node against itself and all after it. */
 static bool search_node(const search *s, uint32_t own)
 {
     uint32_t stack[LEVELS * WIDTH], levels[LEVELS * WIDTH], depth = 1;
@@ -163,7 +163,7 @@ static bool search_node(const search *s, uint32_t own)
         const node *n = &s->level[level][at];
         for (uint32_t bits = touched(n, &mine); bits; bits &= bits - 1) {
             const uint32_t k = (uint32_t)__builtin_ctz(bits), child = WIDTH * at + k;
-            if (((uint64_t)child + 1) << 3 * (level - 1) <= own) continue; /* all of it before */
+            if (((uint64_t)child + 1) << 3 * (level - 1) <= own) continue; /* lies entirely before own */
             if (level > 1) {
                 stack[depth] = child, levels[depth++] = level - 1;
                 continue;

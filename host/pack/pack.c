@@ -35,11 +35,11 @@ static ec_result pack_prims(const ec_scene *scene, ec_pack *pack, ec_error *err)
         pack->scene_radius += extent * extent;
     }
     pack->scene_radius = sqrtf(pack->scene_radius) * 1.001f;
-    if (!pack->prim_count) pack->scene_radius = 1.0f; /* or a sky around nothing had no power */
+    if (!pack->prim_count) pack->scene_radius = 1.0f; /* otherwise a sky around nothing would have no power */
     return EC_OK;
 }
 
-/* A slot of no texture is that of none, whatever was there before: a turn that is left would turn tangents. */
+/* Packs a slot. One without a texture is reset completely: a rotation left in it would turn tangents. */
 static void pack_slot(const ec_scene *scene, const ec_texture_use *use, int is_srgb, ec_texture_slot *slot)
 {
     static const ec_texture_use none = {-1, 0, {1, 0, 0, 0, 1, 0}};
@@ -49,21 +49,21 @@ static void pack_slot(const ec_scene *scene, const ec_texture_use *use, int is_s
     memcpy(slot->transform, use->transform, sizeof slot->transform);
 }
 
-/* Reflectance of a dielectric in air, seen head-on; KHR_materials_ior: an index of 0 stands for an infinite one. */
+/* Returns the reflectance of a dielectric in air, seen head-on. KHR_materials_ior: an index of 0 stands for an infinite one. */
 static float head_on_reflectance(float ior)
 {
     float r = ior == 0.0f ? 1.0f : (ior - 1.0f) / (ior + 1.0f);
     return r * r;
 }
 
-/* KHR_materials_volume_scatter: of the colour that is seen of a dense body the share that one scattering leaves (Kulla and Conty 2017). */
+/* KHR_materials_volume_scatter: returns the single-scattering albedo of a dense body that is seen in this colour (Kulla and Conty 2017). */
 static float single_albedo(float color, float g)
 {
     const double c = color, s = 4.09712 + 4.20863 * c - sqrt(9.59217 + 41.6808 * c + 17.7126 * c * c);
     return c > 0 ? (float)fmin(fmax((1 - s * s) / (1 - g * s * s), 0), 1) : 0.0f;
 }
 
-/* Between bodies reflectance depends on both sides: the kernels multiply by it. */
+/* Marks nested bodies. Between bodies reflectance depends on both sides: the kernels multiply by it. */
 static void pack_bodies(const ec_scene *scene, ec_pack *pack)
 {
     for (uint32_t rank = 0; rank < pack->bodies.count; rank++) {

@@ -1,4 +1,4 @@
-/* Where instances stand, for shading. */
+/* Packs the places of instances, for shading. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -11,14 +11,14 @@
 /* Facts about the triangles of a material. */
 typedef struct shown {
     bool any;
-    float least_alpha, most_alpha; /* of vertex colours; 1 without */
+    float least_alpha, most_alpha; /* of vertex colours; 1 without these */
 } shown;
 
 static bool is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
 
 static void drop(ec_material *m, int slot) { m->textures[slot].texture = -1; }
 
-/* Light that passes: not through metal, nor where the texture is 0. */
+/* Clears transmission that has no effect: through metal, or where the texture is 0. */
 static void plain_transmission(const ec_scene *scene, ec_material *m)
 {
     float least, most;
@@ -26,14 +26,14 @@ static void plain_transmission(const ec_scene *scene, ec_material *m)
     if (m->metallic * least == 1.0f) m->transmission = 0.0f;
     if (!(m->metallic * least < 1.0f)) m->diffuse_transmission = 0.0f;
     ec_texture_range(scene, &m->textures[EC_SLOT_TRANSMISSION], 0, &least, &most);
-    if (m->transmission * least == 1.0f) m->diffuse_transmission = 0.0f; /* nothing of the light is left for it */
+    if (m->transmission * least == 1.0f) m->diffuse_transmission = 0.0f; /* no light is left for it */
     if (!ec_refracts(m) || m->ior <= 1.0f) m->dispersion = 0.0f;
     if (!ec_refracts(m) && !ec_bounds(m)) memset(m->absorption, 0, sizeof m->absorption);
     for (int k = 0; k < 3; k++)
-        if (m->absorption[k] == 0.0f) m->scatter[k] = 0.0f; /* no extinction to have a share of */
+        if (m->absorption[k] == 0.0f) m->scatter[k] = 0.0f; /* there is no extinction of which it could be a share */
 }
 
-/* A film of no thickness, or of air, is none; one of the same thickness everywhere needs no texture. */
+/* Removes a film without thickness, or of air; and the texture of one with the same thickness everywhere. */
 static void plain_film(const ec_scene *scene, ec_material *m)
 {
     float low, high;
@@ -44,7 +44,7 @@ static void plain_film(const ec_scene *scene, ec_material *m)
     if (low == high || m->film_least == m->film_most) drop(m, EC_SLOT_IRIDESCENCE_THICKNESS);
 }
 
-/* At roughness 1 a lobe is as wide as it gets in all directions. */
+/* Removes anisotropy at roughness 1, where a lobe is equally wide in all directions. */
 static void plain_anisotropy(const ec_scene *scene, ec_material *m)
 {
     float least, most, unused;
@@ -53,7 +53,7 @@ static void plain_anisotropy(const ec_scene *scene, ec_material *m)
     if (!(m->anisotropy * most > 0.0f && m->roughness * least < 1.0f)) m->anisotropy = 0.0f;
 }
 
-/* An effect on what shows its base colour alone is none. */
+/* Removes effects from a material that shows only its base colour. */
 static void clear_lobes(ec_material *m)
 {
     for (int k = 0; k < EC_SLOT_COUNT; k++)
@@ -61,14 +61,15 @@ static void clear_lobes(ec_material *m)
     ec_material_clear(m, EC_FEATURE_ALL);
 }
 
-/* Nor is one on what no ray sees. */
+/* Removes everything from a material that no ray sees. */
 static void plain_unseen(ec_material *m)
 {
     clear_lobes(m);
     m->unlit = false;
 }
 
-/* Coverage between these two: does it leave anything open, and does it show anything? A product and a bilinear look-up round. */
+/* Simplifies alpha by the range of the coverage: whether it leaves anything open, or shows anything. Allows for the rounding of a product and a
+ * bilinear look-up. */
 static void plain_alpha(const ec_scene *scene, ec_material *m, const shown *s)
 {
     if (m->alpha_mode == EC_ALPHA_OPAQUE) return;
@@ -83,7 +84,7 @@ static void plain_alpha(const ec_scene *scene, ec_material *m, const shown *s)
     if (hidden) plain_unseen(m);
 }
 
-/* Brushed the same way and as much everywhere: that is a rotation and a strength, where the texture's right is the mesh's. */
+/* Replaces an anisotropy texture that is the same everywhere by a rotation and a strength, if the texture's u axis is the mesh's. */
 static void plain_direction(const ec_scene *scene, ec_material *m)
 {
     const ec_texture_use *use = &m->textures[EC_SLOT_ANISOTROPY];
@@ -107,7 +108,7 @@ static void plain_material(const ec_scene *scene, ec_material *m, const shown *s
     plain_direction(scene, m);
     plain_alpha(scene, m, s);
     if (m->alpha_mode == EC_ALPHA_OPAQUE) {
-        m->base_color[3] = 0.0f; /* nobody asks for it, so the texture's alpha may be anything */
+        m->base_color[3] = 0.0f; /* it is not used, so the texture's alpha may be anything */
         ec_texture_fold(scene, m, EC_SLOT_BASE_COLOR);
     }
     plain_transmission(scene, m);
@@ -167,7 +168,7 @@ ec_result ec_scene_view_plain(const ec_scene *scene, ec_scene_view *view, ec_err
             plain_material(scene, &view->scene.materials[m], &list[m]);
             continue;
         }
-        plain_unseen(&view->scene.materials[m]); /* nothing shows it */
+        plain_unseen(&view->scene.materials[m]); /* no triangle has it */
         drop(&view->scene.materials[m], EC_SLOT_BASE_COLOR);
     }
     plain_lights(&view->scene);

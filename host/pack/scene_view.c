@@ -20,7 +20,7 @@ ec_result ec_scene_view_make(const ec_scene *scene, ec_scene_view *view, ec_erro
     return EC_OK;
 }
 
-/* Room for a white copy of each: as many further on as there are, with no pixels before somebody asks for it. */
+/* Makes room for a white copy of each image, at its index plus their number; its pixels are made when needed. */
 static ec_result make_room(ec_scene_view *view, ec_error *err)
 {
     ec_scene *s = &view->scene;

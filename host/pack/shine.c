@@ -1,4 +1,4 @@
-/* Does a scene give light? By the same view that the scan and the table of lights have of it: what has no power is none. */
+/* Tells whether a scene gives light, in the same view as the scan and the table of lights, where what has no power is none. */
 #include "pack/pack.h"
 
 static bool shines(const ec_material *m)
@@ -14,7 +14,7 @@ ec_result ec_scene_find_light(const ec_scene *scene, ec_scene_light *light, ec_e
     EC_TRY(ec_scene_view_plain(scene, &plain, err));
     for (uint32_t t = 0; t < s->triangle_count; t++) light->triangles += shines(&s->materials[s->triangle_material[t]]);
     light->any = light->triangles || s->light_count || s->has_environment;
-    /* Where nothing is in sight, lamps may be at another moment, and what lies around is to be the same then. */
+    /* Without triangles, lamps may be there at another moment, and the surroundings should be the same then. */
     for (uint32_t m = 0; !scene->triangle_count && m < scene->material_count; m++)
         light->any |= scene->materials[m].unlit || ec_emits(&scene->materials[m]);
     ec_scene_view_free(&plain);

@@ -5,7 +5,7 @@
 #include "scene/material_fields.h"
 #include "scene/texture_range.h"
 
-/* The factor that a texture's channel multiplies: R, G, B, A; NULL where there is none. */
+/* Returns the factor that a channel (R, G, B, A) of a texture multiplies; NULL: none. */
 static float *factor_of(ec_material *m, int slot, int channel)
 {
     for (int i = 0; i < ec_material_field_count; i++) {
@@ -30,14 +30,14 @@ static const ec_image *image_of(const ec_scene *scene, const ec_texture_use *use
     return &scene->images[scene->textures[use->texture].image];
 }
 
-/* A channel's value as it is multiplied with, from what the image has. */
+/* Decodes a channel's stored value to the one that is multiplied. */
 static double decoded(const ec_image *image, int slot, int channel, uint32_t stored)
 {
     double v = stored / (image->rgba16 ? 65535.0 : 255.0);
     return ec_material_slots[slot].is_srgb && channel < 3 ? ec_srgb_to_linear(v) : v;
 }
 
-/* A channel that is multiplied by 0 may be anything. */
+/* A channel that is multiplied by 0 may have any values. */
 void ec_texture_fold(const ec_scene *scene, ec_material *m, int slot)
 {
     ec_texture_use *use = &m->textures[slot];
@@ -56,11 +56,11 @@ void ec_texture_fold(const ec_scene *scene, ec_material *m, int slot)
     use->texture = -1;
 }
 
-/* Values are counted first: to decode each texel would take seconds. */
+/* Computes a mean by counting values first, as decoding each texel would take seconds. */
 static double mean_of(const ec_image *image, int slot, int channel)
 {
     const size_t count = (size_t)image->width * image->height, values = image->rgba16 ? 65536 : 256;
-    uint32_t times[65536] = {0}; /* a picture has 2^28 texels at most */
+    uint32_t times[65536] = {0}; /* an image has at most 2^28 texels */
     double sum = 0.0;
     if (!count) return 1.0;
     for (size_t i = 0; i < count; i++) times[texel(image, 4 * i + (size_t)channel)]++;
@@ -69,7 +69,7 @@ static double mean_of(const ec_image *image, int slot, int channel)
     return sum / (double)count;
 }
 
-/* Takes channels before `end`. */
+/* Multiplies factors by the means of channels before `end`. */
 static void multiply_means(const ec_scene *scene, ec_material *m, int slot, int end)
 {
     const ec_texture_use *use = &m->textures[slot];

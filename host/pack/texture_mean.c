@@ -17,12 +17,12 @@ ec_texture_mean ec_texture_whole_mean(const ec_scene *scene, const ec_texture_us
         double most = 0.0;
         for (size_t i = 0; i < count; i += step) mean.rgb[k] += ec_texel_linear(image, bytes, i, k);
         for (size_t i = 0; i < count && mean.rgb[k] == 0.0 && most == 0.0; i++) most = ec_texel_linear(image, bytes, i, k);
-        mean.rgb[k] = (mean.rgb[k] + most) / (double)((count + step - 1) / step); /* 0 only where every texel is */
+        mean.rgb[k] = (mean.rgb[k] + most) / (double)((count + step - 1) / step); /* 0 only if every texel is */
     }
     return mean;
 }
 
-/* floor() is a call of a library. */
+/* Replaces floor(), which is a library call. */
 static double whole(double u)
 {
     if (!(fabs(u) < 4e15)) return floor(u);
@@ -30,7 +30,7 @@ static double whole(double u)
     return cut > u ? cut - 1.0 : cut;
 }
 
-/* Into the picture, of which coordinates go from 0 to 1. */
+/* Maps a coordinate into the picture, 0 to 1. */
 static double fold(double u, ec_wrap mode)
 {
     if (!isfinite(u)) return 0.0;
@@ -40,12 +40,12 @@ static double fold(double u, ec_wrap mode)
 
 static inline uint32_t wrap(double u, uint32_t size, ec_wrap mode)
 {
-    const bool is_inside = u >= 0.0 && u < 1.0 && mode != EC_WRAP_MIRROR; /* as most are: neither repeating nor clamping changes them */
+    const bool is_inside = u >= 0.0 && u < 1.0 && mode != EC_WRAP_MIRROR; /* the usual case: neither repeating nor clamping changes it */
     const uint32_t i = (uint32_t)(int64_t)((is_inside ? u : fold(u, mode)) * size);
     return i < size ? i : size - 1;
 }
 
-/* Barycentric coordinates of the points that stand for a triangle. */
+/* Barycentric coordinates of the points that represent a triangle. */
 enum { POINTS = 64 };
 static double points[POINTS][3];
 

@@ -1,5 +1,5 @@
-/* All images in one buffer of texels: bytes as they are (one word a texel, decoded in the kernel), deeper images as linear
- * floats (four words). A texture has one entry for each encoding it is read in: 2 * texture + is_srgb. */
+/* Puts all images into one buffer of texels: bytes as they are (one word per texel, decoded in the kernel), deeper images as linear floats (four
+ * words). A texture has one entry for each encoding in which it is read: 2 * texture + is_srgb. */
 #include <string.h>
 
 #include "base/freed.h"
@@ -18,7 +18,7 @@ static size_t image_texels(const ec_image *image)
     return (size_t)image->width * image->height;
 }
 
-/* Both encodings, one after the other. linear: of each value that a 16-bit channel can have, read as sRGB. */
+/* Writes both encodings one after the other. linear: every value of a 16-bit channel, decoded as sRGB. */
 static void write_deep(const ec_image *image, const float *linear, uint32_t *words)
 {
     const size_t count = 4 * image_texels(image);
@@ -29,10 +29,10 @@ static void write_deep(const ec_image *image, const float *linear, uint32_t *wor
     }
 }
 
-/* Deep images stand twice: once as they are, once decoded from sRGB. */
+/* Deep images are stored twice: as they are, and decoded from sRGB. */
 static size_t image_words(const ec_image *image) { return image_texels(image) * (image->rgba16 ? 8 : 1); }
 
-/* Sixty thousand powers, where the image may have millions of texels. NULL: there is no memory. */
+/* Tabulates 65536 powers, since an image may have millions of texels. NULL if there is no memory. */
 static float *deep_to_linear(void)
 {
     float *linear = malloc(65536 * sizeof *linear);
@@ -40,14 +40,14 @@ static float *deep_to_linear(void)
     return linear;
 }
 
-/* linear: NULL where there is no deep image. */
+/* linear: NULL if there is no deep image. */
 static void write_image(const ec_image *image, const float *linear, uint32_t *words)
 {
     if (image->rgba16) write_deep(image, linear, words);
     else memcpy(words, image->rgba8, 4 * image_texels(image)); /* little-endian words: R lowest */
 }
 
-/* Used are textures of materials that triangles show, through slots that the plain view has left. */
+/* Marks textures of materials that triangles show, in slots that the plain view has kept. */
 static void find_used(const ec_scene *scene, bool *used)
 {
     for (uint32_t m = 0; m < scene->material_count; m++)
@@ -85,7 +85,8 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
     return EC_OK;
 }
 
-/* The texels in which all pictures that are used lie already, in the order and at the places of this pack; NULL: they do not, and are to be copied. */
+/* Returns the texels that already hold all used pictures in the order and at the places of this pack; NULL: there are none, and pictures have to be
+ * copied. */
 static ec_texels *common_texels(const ec_scene *scene, const bool *used, uint64_t words)
 {
     ec_texels *texels = NULL;

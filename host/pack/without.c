@@ -1,4 +1,4 @@
-/* A scene with effects switched off: what --without and `eclat cost` render. */
+/* Makes a scene with effects switched off, for --without and `eclat cost`. */
 #include "pack/pack.h"
 #include "pack/texture_fold.h"
 #include "scene/material_fields.h"
@@ -11,7 +11,7 @@ const uint64_t ec_effects_optional =
     EC_FEATURE_ENVIRONMENT_MAP | EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_CULLING | EC_FEATURE_UNLIT | EC_FEATURE_PANES |
     EC_FEATURE_NESTED | EC_FEATURE_MOTION EC_MATERIAL_FIELDS(WEIGHED, WEIGHED, NOTHING, NOTHING) EC_SLOTS(TEXTURED);
 
-/* Coverage is no colour: it stays. */
+/* Replaces the base colour's texture, but keeps coverage, which is not a colour. */
 static ec_result without_color(const ec_scene *scene, ec_scene_view *view, ec_material *m, ec_error *err)
 {
     ec_texture_use *use = &m->textures[EC_SLOT_BASE_COLOR];
@@ -23,7 +23,7 @@ static ec_result without_color(const ec_scene *scene, ec_scene_view *view, ec_ma
 static ec_result without(const ec_scene *scene, uint64_t off, ec_scene_view *view, ec_material *m, ec_error *err)
 {
     if (off & EC_FEATURE_ALPHA) m->alpha_mode = EC_ALPHA_OPAQUE;
-    for (int slot = 0; slot < EC_SLOT_COUNT; slot++) { /* by their means */
+    for (int slot = 0; slot < EC_SLOT_COUNT; slot++) { /* replaced by their means */
         if (!(off & ec_material_slots[slot].textured)) continue;
         bool covers = slot == EC_SLOT_BASE_COLOR && m->alpha_mode != EC_ALPHA_OPAQUE;
         if (covers) EC_TRY(without_color(scene, view, m, err));

@@ -1,4 +1,5 @@
-/* Launchers bind ranks to cores: Open MPI to one each where there are one or two. A device that is the processor then has that one. */
+/* Divides a host's devices among its ranks, and notes if the launcher binds these to cores. Open MPI binds each to a single core if there are one or
+ * two ranks; a device that is the processor then has only that core. */
 #define _GNU_SOURCE
 #include <sched.h>
 #include <unistd.h>

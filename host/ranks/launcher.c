@@ -3,8 +3,8 @@
 
 #include "ranks/ranks.h"
 
-/* Open MPI; MPICH, Intel MPI and srun --mpi=pmi2; srun --mpi=pmix, which leaves the count to Slurm. Slurm's own variables alone are no
- * sign: a job's script has them too. */
+/* Reads the variables of Open MPI; of MPICH, Intel MPI and srun --mpi=pmi2; of srun --mpi=pmix, which leaves the count to Slurm. Slurm's own
+ * variables alone mean nothing, as a job's script has them too. */
 int ec_ranks_launched(void)
 {
     const char *size = getenv("OMPI_COMM_WORLD_SIZE");

@@ -1,4 +1,4 @@
-/* The functions of ranks.h that the MPI module implements, by the same names. */
+/* The functions of ranks.h that the MPI module implements, under the same names. */
 #ifndef EC_RANKS_MPI_MODULE_H
 #define EC_RANKS_MPI_MODULE_H
 

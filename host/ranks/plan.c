@@ -11,7 +11,7 @@
 static double bytes_per_second(const ec_plan *p) { return p->gbit * 1e9 / 8; }
 static double latency(const ec_plan *p) { return p->microseconds * 1e-6; }
 
-#define IDLE_SECONDS 2e-3  /* of a rank between two pieces: both posts look every millisecond */
+#define IDLE_SECONDS 2e-3  /* between two pieces of a rank: both threads check for letters every millisecond */
 
 static const char *largest_loss(double start, double messages, double end, double link, double sums)
 {
@@ -24,15 +24,16 @@ static const char *largest_loss(double start, double messages, double end, doubl
     return names[most];
 }
 
-/* How batches come in: so many of them one by one, in blocks of EC_FILM_FIRST and of 16 times that. */
+/* How many batches arrive singly, in blocks of EC_FILM_FIRST, and in blocks of 16 times that. */
 static double block_size(int level) { return EC_FILM_FIRST * pow(EC_FILM_RADIX, level - 1); }
 
 typedef struct mixture {
     double count[3];
-    double largest;           /* batches of a unit */
+    double largest;           /* batches in the largest unit */
 } mixture;
 
-/* As render/team_pieces.c chooses: not within the first batches, before all is aligned, and not towards the end, where pieces have to be small. */
+/* Chooses blocks as render/team_pieces.c does: none within the first batches, before they are aligned, and none towards the end, where pieces have to
+ * be small. */
 static mixture mixture_of(const ec_plan *p, uint32_t ranks)
 {
     mixture m = {.largest = 1};
@@ -41,7 +42,7 @@ static mixture mixture_of(const ec_plan *p, uint32_t ranks)
         const double block = block_size(i), least = block * p->batch * fmin(1, (double)p->least / (double)p->pixels);
         const double unit = block * p->batch / ranks, over = unit + fmax(fmin(unit * ranks, EC_TEAM_PIECE_SECONDS), least);
         const double kept_back = block + 2 * least * ranks / p->batch;
-        const double share = over <= EC_TEAM_PATIENCE_SECONDS ? 1 : 1 - over / EC_TEAM_PATIENCE_SHARE / (p->batches * p->batch / ranks); /* of the job */
+        const double share = over <= EC_TEAM_PATIENCE_SECONDS ? 1 : 1 - over / EC_TEAM_PATIENCE_SHARE / (p->batches * p->batch / ranks); /* share of the job */
         if (share <= 0 || left - kept_back < block) continue;
         m.count[i] = (left - kept_back) * share;
         left -= m.count[i];
@@ -51,7 +52,8 @@ static mixture mixture_of(const ec_plan *p, uint32_t ranks)
     return m;
 }
 
-/* Down the tree of ranks, in parts that are handed on while the next ones come: what counts is how many copies one rank sends. */
+/* Returns the time to send the scene down the tree of ranks, in parts that are passed on while the next ones arrive: it depends on how many copies
+ * one rank sends. */
 static double spread_seconds(const ec_plan *p, uint32_t ranks)
 {
     const double copies = fmin(EC_TREE_FANOUT, ranks - 1), part = fmin((double)p->scene_bytes, EC_SPREAD_BYTES);
@@ -59,8 +61,8 @@ static double spread_seconds(const ec_plan *p, uint32_t ranks)
     return (copies * (double)p->scene_bytes + fmax(levels - 1, 0) * copies * part) / bytes_per_second(p) + levels * latency(p);
 }
 
-/* Batches are cut into pieces, which ranks ask for one after the other;
- * all but rank 0's own come in through its link and are added up there while others render: what is slower decides. */
+/* Predicts a row. Batches are cut into pieces, which ranks request one after the other. All but rank 0's own arrive through its link and are added
+ * there while others render: the slower of both decides. */
 ec_plan_row ec_plan_for(const ec_plan *p, uint32_t ranks)
 {
     const bool alone = ranks == 1;

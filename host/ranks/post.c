@@ -1,12 +1,12 @@
-/* The calls of those who send and receive letters. */
+/* Functions for those who send and receive letters. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "ranks/post_internal.h"
 
-#define ASKED_SECONDS 0.05            /* between two questions whether to wait on */
-#define FINALIZE_SECONDS 10.0             /* that ranks may take to end after others are lost */
+#define ASKED_SECONDS 0.05            /* between two calls of go_on */
+#define FINALIZE_SECONDS 10.0             /* for ranks to end after others are lost */
 
 const ec_rank_place *ec_post_place(const ec_post *post) { return &post->place; }
 
@@ -19,7 +19,7 @@ ec_result ec_post_open(ec_post **post, ec_error *err)
     pthread_cond_init(&p->news, NULL);
     if (pthread_create(&p->thread, NULL, ec_post_run, p) != 0) {
         free(p);
-        *post = NULL; /* there is no thread to close it with */
+        *post = NULL; /* no thread was started that could close it */
         return ec_fail(err, "cannot start a thread for MPI");
     }
     pthread_mutex_lock(&p->lock);
@@ -41,7 +41,7 @@ void ec_post_close(ec_post *p, bool is_any_lost)
         waited = may_hang ? pthread_cond_timedwait(&p->news, &p->lock, &until) : pthread_cond_wait(&p->news, &p->lock);
     bool closed = p->closed;
     pthread_mutex_unlock(&p->lock);
-    if (!closed) return; /* its memory is the thread's until the process ends */
+    if (!closed) return; /* its memory belongs to the thread until the process ends */
     pthread_join(p->thread, NULL);
     for (int r = 0; p->peers && r < p->place.size; r++)
         for (incoming *next, *in = p->peers[r].first; in; in = next) {
@@ -60,7 +60,7 @@ static ec_result lost(int rank, ec_error *err)
     return EC_FAILED;
 }
 
-/* With the lock. */
+/* Called with the lock held. */
 static void queue(ec_post *p, outgoing *o, int to, const ec_letter *letter)
 {
     *o = (outgoing){.to = to, .head = {.kind = letter->kind, .box = letter->box, .bytes = letter->bytes}, .body = letter->body};
@@ -85,7 +85,7 @@ void ec_post_send_away(ec_post *p, int to, ec_letter *letter)
 {
     outgoing *o = malloc(sizeof *o);
     if (!o) {
-        free(letter->body); /* the receiver will find this rank lost */
+        free(letter->body); /* the receiver will notice that this rank is lost */
         return;
     }
     pthread_mutex_lock(&p->lock);
@@ -94,7 +94,7 @@ void ec_post_send_away(ec_post *p, int to, ec_letter *letter)
     pthread_mutex_unlock(&p->lock);
 }
 
-/* Takes the first letter of a box out of the list. */
+/* Removes the first letter of a box from the list. */
 static incoming *take_letter(peer *from, uint32_t box)
 {
     incoming *before = NULL, *in = from->first;
@@ -158,7 +158,7 @@ ec_result ec_post_spread(ec_post *p, void *bytes, uint64_t count, uint32_t box, 
                 return ec_fail(err, "rank %d sent %llu bytes in place of %llu", place->parent,
                                (unsigned long long)come.bytes, (unsigned long long)part.bytes);
         }
-        for (int i = 0; i < place->children; i++) (void)ec_post_send(p, place->first_child + i, &part, NULL); /* who is lost is found so later */
+        for (int i = 0; i < place->children; i++) (void)ec_post_send(p, place->first_child + i, &part, NULL); /* a lost child is found out later */
     }
     return EC_OK;
 }

@@ -1,4 +1,4 @@
-/* Shared by the halves of the post: post.c is called by those who send and receive letters, post_thread.c owns MPI. Inside these two only. */
+/* Shared by the halves of the post: post.c has the functions for those who send and receive letters, post_thread.c owns MPI. Inside these two only. */
 #ifndef EC_RANKS_POST_INTERNAL_H
 #define EC_RANKS_POST_INTERNAL_H
 
@@ -19,9 +19,9 @@ typedef struct outgoing {
     int to;
     head head;
     void *body;
-    MPI_Request *requests;             /* the head's and the chunks' */
+    MPI_Request *requests;             /* for the head and the chunks */
     int request_count;
-    bool begun, done, failed, own;     /* own: nobody waits for it, the post frees it and its body */
+    bool begun, done, failed, own;     /* own: nobody waits for it; the post frees it and its body */
     struct outgoing *next;
 } outgoing;
 
@@ -31,22 +31,22 @@ typedef struct incoming {
 } incoming;
 
 typedef struct peer {
-    incoming *first, *last;            /* whole letters, in order */
-    incoming *open;                    /* whose body is coming */
-    uint64_t filled;                   /* of it */
-    head head;                         /* of the next one */
+    incoming *first, *last;            /* complete letters, in order */
+    incoming *open;                    /* the letter whose body is arriving */
+    uint64_t filled;                   /* bytes of it so far */
+    head head;                         /* of the next letter */
     MPI_Request request;
-    bool receiving;                    /* a message, by that request */
-    double heard;                      /* when */
-    pid_t process;                     /* of this host; 0: it is elsewhere, or not to be seen from here */
+    bool receiving;                    /* a message is being received with `request` */
+    double heard;                      /* time of the last message */
+    pid_t process;                     /* its process, if it is on this host; 0: it is elsewhere, or invisible from here */
     bool lost;
     pthread_cond_t news;
 } peer;
 
 struct ec_post {
     pthread_t thread;
-    pthread_mutex_t lock;              /* of all that follows */
-    pthread_cond_t call, news;         /* to the thread; from it */
+    pthread_mutex_t lock;              /* guards everything below */
+    pthread_cond_t call, news;         /* call: to the thread; news: from it */
     MPI_Comm comm;
     ec_rank_place place;
     peer *peers;                       /* by rank */
@@ -54,13 +54,13 @@ struct ec_post {
     uint64_t received;                 /* bytes */
     double said_alive, lost_after;     /* seconds */
     bool open, closing, closed;
-    ec_error error;                    /* why it did not open */
+    ec_error error;                    /* why opening failed */
 };
 
-/* The thread: starts MPI, carries letters until the post is closing and ends MPI. */
+/* The thread: starts MPI, carries letters until the post is closed, and ends MPI. */
 void *ec_post_run(void *post);
 
-/* With the lock, which others may have meanwhile. */
+/* Waits with the lock held, releasing it meanwhile. */
 static inline void ec_post_wait(ec_post *p, pthread_cond_t *on, double seconds)
 {
     const struct timespec until = ec_deadline(seconds);

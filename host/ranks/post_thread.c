@@ -10,11 +10,11 @@
 #include "base/clock.h"
 #include "ranks/post_internal.h"
 
-enum { CHUNK = 64 << 20, TAG = 1 };   /* bytes of one message: MPI counts in int */
-#define IDLE_SECONDS 1e-3             /* between two looks … */
-#define BUSY_SECONDS 2e-5             /* … while something is under way */
-#define ALIVE_SECONDS 5.0             /* between two signs of life, at most */
-#define ALIVE_SIGNS 6                 /* in the time after which a rank is lost */
+enum { CHUNK = 64 << 20, TAG = 1 };   /* bytes of one message, since MPI counts in int */
+#define IDLE_SECONDS 1e-3             /* between two checks … */
+#define BUSY_SECONDS 2e-5             /* … while a message is under way */
+#define ALIVE_SECONDS 5.0             /* at most, between two signs of life */
+#define ALIVE_SIGNS 6                 /* number within the time after which a rank is lost */
 
 static uint64_t chunks_of(uint64_t bytes) { return (bytes + CHUNK - 1) / CHUNK; }
 static int chunk_bytes(uint64_t bytes, uint64_t i) { return bytes - i * CHUNK < CHUNK ? (int)(bytes - i * CHUNK) : CHUNK; }
@@ -25,7 +25,7 @@ static bool is_peer(const ec_post *p, int rank)
     return rank == place->parent || (rank >= place->first_child && rank < place->first_child + place->children);
 }
 
-/* The value of an environment variable, if it is above 0. */
+/* Returns the value of an environment variable, if it is above 0. */
 static double setting(const char *name, double otherwise)
 {
     const char *given = getenv(name);
@@ -33,7 +33,7 @@ static double setting(const char *name, double otherwise)
     return value > 0 ? value : otherwise;
 }
 
-/* With the lock. */
+/* Called with the lock held. */
 static void lose(ec_post *p, int rank)
 {
     p->peers[rank].lost = true;
@@ -54,7 +54,7 @@ static void begin_sending(ec_post *p, outgoing *o)
                               &o->requests[o->request_count++]) != MPI_SUCCESS;
 }
 
-/* True where it is over, well or badly. */
+/* Returns true when it has ended, successfully or not. */
 static bool test_sending(ec_post *p, outgoing *o)
 {
     int all = 0;
@@ -66,7 +66,7 @@ static bool test_sending(ec_post *p, outgoing *o)
     return all || o->failed;
 }
 
-/* Returns whether something is still under way. With the lock. */
+/* Returns whether something is still being sent. Called with the lock held. */
 static bool send_letters(ec_post *p)
 {
     bool busy = false;
@@ -120,7 +120,7 @@ static void take_chunk(peer *from)
     if (from->filled == letter->bytes) deliver(from);
 }
 
-/* One step with one message of a peer; *moved: there was one. False where the peer is lost. */
+/* Advances one message of a peer by one step; *moved: there was one. Returns false if the peer is lost. */
 static bool receive_from(ec_post *p, int rank, bool *moved)
 {
     peer *from = &p->peers[rank];
@@ -146,17 +146,17 @@ static bool receive_from(ec_post *p, int rank, bool *moved)
     return true;
 }
 
-/* Has the process of a rank on this host ended? Such a rank need not be waited for. */
+/* Tells whether the process of a rank on this host has ended; there is no need to wait for it. */
 static bool has_ended(const peer *from) { return from->process && kill(from->process, 0) != 0 && errno == ESRCH; }
 
-/* Returns whether there was anything. With the lock. */
+/* Returns whether anything was received. Called with the lock held. */
 static bool receive_letters(ec_post *p)
 {
     bool any = false;
     for (int r = 0; r < p->place.size; r++) {
         if (!is_peer(p, r) || p->peers[r].lost) continue;
         bool moved = false;
-        const bool is_over = has_ended(&p->peers[r]); /* before the look, which then finds what it said last */
+        const bool is_over = has_ended(&p->peers[r]); /* checked first, so that its last messages are still received */
         if (!receive_from(p, r, &moved) || (is_over && !moved) || ec_now() - p->peers[r].heard > p->lost_after) lose(p, r);
         any |= moved;
     }
@@ -176,7 +176,7 @@ static void say_alive(ec_post *p)
     }
 }
 
-/* Which processes of this host the ranks on it are, where all count processes alike: in one namespace. */
+/* Finds the processes of the ranks on this host, if all of them number processes alike, in one namespace. */
 static void find_processes(ec_post *p, MPI_Comm local)
 {
     struct stat space = {0};

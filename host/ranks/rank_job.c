@@ -6,11 +6,11 @@
 #include "cl/workarounds.h"
 #include "ranks/ranks_internal.h"
 
-/* Plain values: the ranks run one program on machines of one kind. Then follow the buffers, in order. */
+/* The job as plain values, since all ranks run the same program on machines of one kind. The buffers follow in order. */
 typedef struct sheet {
     ec_cargo_head head;
     uint64_t seed;
-    ec_cargo_buffer buffers[EC_CARGO_BUFFERS]; /* but for their addresses */
+    ec_cargo_buffer buffers[EC_CARGO_BUFFERS]; /* valid except for their addresses */
 } sheet;
 
 static void mix(uint64_t *hash, const char *text) /* FNV-1a */
@@ -18,7 +18,7 @@ static void mix(uint64_t *hash, const char *text) /* FNV-1a */
     for (; *text; text++) *hash = (*hash ^ (uint8_t)*text) * 0x100000001b3;
 }
 
-/* A digest of what must be alike on all ranks: for the same bits, and for a sheet to be read. */
+/* Returns a digest of what must be the same on all ranks: for equal bits, and for the sheet to be readable. */
 static uint64_t program_hash(void)
 {
     uint64_t hash = 0xcbf29ce484222325 ^ sizeof(sheet);
@@ -36,21 +36,21 @@ static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, e
     memcpy(s->buffers, cargo->buffers, sizeof s->buffers);
     EC_TRY(ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err));
     for (uint32_t i = 0; i < cargo->head.buffer_count; i++)
-        EC_TRY(ec_post_spread(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, EC_BOX_SCENE, err)); /* from here: only read */
+        EC_TRY(ec_post_spread(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, EC_BOX_SCENE, err)); /* only read here */
     return EC_OK;
 }
 
 #define OTHER_PROGRAM "runs another version of eclat: its samples would differ; install the same one everywhere"
 
-/* A rank's answer to the word: EC_READY_*, a number, and a text. */
+/* A rank's answer to the job: EC_READY_*, a number, and a text. */
 enum { EC_READY_RANKS };
 enum { EC_READY = EC_WORD_OVER + 1, EC_READY_WITHOUT_DEVICE, EC_READY_OTHER_PROGRAM };
 
-/* The answer of this rank and all below it. */
+/* The answer of this rank and all ranks below it. */
 typedef struct readiness {
-    uint32_t ranks;   /* that have a device */
-    uint32_t kind;    /* EC_READY if any of them has a device, EC_READY_OTHER_PROGRAM if any runs another */
-    char text[2400];  /* "host: device"; then lines, each of a rank that has none or another program */
+    uint32_t ranks;   /* number of those with a device */
+    uint32_t kind;    /* EC_READY if any has a device, EC_READY_OTHER_PROGRAM if any runs another program */
+    char text[2400];  /* "host: device"; then one line for each rank without a device or with another program */
 } readiness;
 
 static void add_line(readiness *all, const char *line)
@@ -83,7 +83,7 @@ static void hear(ec_ranks *r, uint32_t child, readiness *all)
     free(letter.body);
 }
 
-/* The word to the children, and what they answer. Who is lost has no answer. */
+/* Passes the job on to the children, and collects their answers. Ranks that are lost do not answer. */
 static void ask_below(ec_ranks *r, const ec_letter *word, readiness *all)
 {
     for (uint32_t i = 0; i < r->remote_count; i++) (void)ec_post_send(r->post, r->place->first_child + (int)i, word, NULL);
@@ -129,7 +129,7 @@ static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_
     return EC_OK;
 }
 
-/* Fills in the answer of this rank alone: "host: text", and where it cannot take part a line more for the root. */
+/* Fills in the answer of this rank alone: "host: text" and, if it cannot take part, another line for the root. */
 static void describe(const ec_ranks *r, uint32_t kind, const char *text, readiness *own)
 {
     char host[256] = "", line[2000];
@@ -142,7 +142,7 @@ static void describe(const ec_ranks *r, uint32_t kind, const char *text, readine
     if (kind != EC_READY) add_line(own, line);
 }
 
-/* Where a device is not of rank 0's drivers, and one of the two is not known to round correctly, the root warns. */
+/* Adds a line for the root to warn of, if a device has other drivers than rank 0's, and one of the two is not known to round correctly. */
 static void look_at_rounding(const ec_ranks *r, const ec_letter *word, const char *drivers,
                              const ec_device_info *devices, uint32_t count, readiness *own)
 {
@@ -157,7 +157,7 @@ static void look_at_rounding(const ec_ranks *r, const ec_letter *word, const cha
     }
 }
 
-/* Ranks on one host share its devices out among them where --device names several. */
+/* Finds the devices. Ranks on one host divide them up if --device names several. */
 static ec_result find_devices(const ec_ranks *r, const char *id, ec_device_info *devices, uint32_t *count, ec_error *err)
 {
     uint32_t indices[EC_DEVICES_MOST];
@@ -178,7 +178,7 @@ ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, ui
     else if (find_devices(r, device, devices, count, &why) == EC_OK) describe(r, EC_READY, devices->name, &all);
     else describe(r, EC_READY_WITHOUT_DEVICE, why.text, &all), *count = 0;
     look_at_rounding(r, word, drivers, devices, *count, &all);
-    if (device) device[-1] = '\n'; /* as it came, for those below */
+    if (device) device[-1] = '\n'; /* as it was received, for the ranks below */
     all.ranks = *count > 0;
     ask_below(r, word, &all);
     const ec_letter letter = {.kind = all.kind, .box = EC_BOX_WORD, .bytes = strlen(all.text) + 1, .body = all.text,
@@ -187,7 +187,7 @@ ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, ui
     uint64_t go = 0;
     EC_TRY(ec_post_spread(r->post, &go, sizeof go, EC_BOX_SCENE, err));
     if (go) return receive_sheet(r, cargo, seed, err);
-    *count = 0; /* the root says why, and sends all home */
+    *count = 0; /* the root reports why, and dismisses all */
     for (uint32_t i = 0; i < r->remote_count; i++) r->remotes[i].is_ready = false;
     return EC_OK;
 }

@@ -6,7 +6,7 @@
 #include "base/module.h"
 #include "ranks/ranks_internal.h"
 
-/* Each would be rank 0 of one. */
+/* Fails if the launcher belongs to another MPI, with which each process would be rank 0 of one. */
 static ec_result fail_of_launcher(int size, ec_error *err)
 {
     char library[MPI_MAX_LIBRARY_VERSION_STRING];
@@ -49,7 +49,7 @@ static ec_peers peers(ec_ranks *r, const char *device, const char *own, bool own
     return (ec_peers){.count = r->remote_count, .send = send_job, .recruit = ec_ranks_recruit, .received = received, .user = r};
 }
 
-/* The next word of that rank that ends something: the parent's, or a child's answer. Whether anybody was lost. */
+/* Waits for the next word of that rank that ends something: the parent's order, or a child's answer. Returns whether anybody was lost. */
 static bool hear_end(ec_ranks *r, int from, uint32_t kind)
 {
     ec_letter letter;
@@ -66,8 +66,8 @@ static bool say_end(ec_ranks *r, int to, uint32_t kind, bool lost)
     return ec_post_send(r->post, to, &letter, NULL) != EC_OK;
 }
 
-/* The last letters of a rank may still be on their way, and MPI does not end before they are taken: so ranks exchange farewells behind all
- * else. MPI does not end at all where a rank is lost, which only some ranks know: so the farewells say that, and the root tells all. */
+/* Leaves MPI, which does not end before the last letters of all ranks are received: so ranks exchange farewells after everything else. MPI does not
+ * end at all if a rank is lost, which only some ranks know: so farewells say that, and the root tells all. */
 static void leave(ec_ranks *r)
 {
     if (!r) return;

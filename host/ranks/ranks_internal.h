@@ -1,4 +1,4 @@
-/* The messages between ranks. Internal to ranks/. */
+/* Messages between ranks. Internal to ranks/. */
 #ifndef EC_RANKS_RANKS_INTERNAL_H
 #define EC_RANKS_RANKS_INTERNAL_H
 
@@ -10,66 +10,66 @@
 #include "ranks/ranks.h"
 #include "render/team.h"
 
-/* A child and all below it as a source of batches: remote.c. */
+/* A child and all ranks below it, as a source of batches: remote.c. */
 typedef struct ec_remote {
     ec_batch_source base;
     ec_ranks *ranks;
     int rank;
-    bool is_ready;           /* it has a device, or one below it has */
-    uint32_t ready;          /* how many of them have */
-    bool is_over;            /* it was told that the job is */
-    char name[400];          /* "rank 3 on host: device" */
+    bool is_ready;           /* it or a rank below it has a device */
+    uint32_t ready;          /* number of these */
+    bool is_over;            /* it was told that the job is over */
+    char name[400];          /* e.g. "rank 3 on host: device" */
 } ec_remote;
 
 struct ec_ranks {
     ec_ranks_head head;
     ec_post *post;
-    const ec_rank_place *place; /* the post's */
+    const ec_rank_place *place; /* belongs to the post */
     pthread_mutex_t lock;
-    uint32_t last_box;  /* that was given to a result; with the lock */
-    const char *device, *own; /* --device; rank 0's drivers */
+    uint32_t last_box;  /* last box used for a result; guarded by the lock */
+    const char *device, *own; /* --device; drivers of rank 0 */
     bool own_round;
-    ec_remote *remotes; /* its children as sources */
+    ec_remote *remotes; /* its children, as sources */
     uint32_t remote_count;
 };
 
-/* host_share.c: what is this process' of its host, devices and cores; see ranks.h. */
+/* host_share.c: the share of this process in its host's devices and cores; see ranks.h. */
 void ec_mpi_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32_t *indices, uint32_t *count);
 void ec_mpi_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log);
 
-/* remote.c: child i as a member of a team, if it is ready: as ec_peers has it; user is the ec_ranks. */
+/* remote.c: adds child i to a team, if it is ready, as ec_peers demands; user is the ec_ranks. */
 bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit);
 
-/* rank_job.c: a job from rank 0 to all others, what devices are given of a scene.
- * Rank 0: each rank says which devices it has for the job, by --device as rank 0 was given it, and all get the cargo. Then r->remotes says who
- * they are. Those without a device, or with one that may round otherwise, are warned of; one with another program fails the job. */
+/* rank_job.c: sends a job from rank 0 to all others: what devices need of a scene.
+ * On rank 0: asks each rank for its devices, by --device as given to rank 0, and sends the cargo to all. Then r->remotes is filled in. Warns of ranks
+ * without a device, or with one that may round differently; fails if one runs another program. */
 ec_result ec_job_send(ec_ranks *ranks, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err);
 
-/* The others, to rank 0's word: EC_DEVICES_MOST devices at most; *count 0: none, and nothing more will come of this job. The cargo is to be freed on
- * failure too. */
+/* On the others, after rank 0's word: finds at most EC_DEVICES_MOST devices and receives the cargo; *count 0: this rank takes no part in the job. The
+ * cargo must be freed on failure too. */
 ec_result ec_job_receive(ec_ranks *ranks, const ec_letter *word, ec_cargo *cargo, uint64_t *seed,
                          ec_device_info *devices, uint32_t *count, ec_error *err);
 
 /* serve.c */
 ec_result ec_mpi_serve(ec_ranks *ranks, const ec_log *log, ec_error *err);
 
-/* Boxes: the parent's word, and the answers; the scene; its orders; and from then on one for the result of each order. */
+/* Boxes: the parent's words and their answers; the scene; orders; and from then on one for the result of each order. */
 enum { EC_BOX_WORD, EC_BOX_SCENE, EC_BOX_ORDERS, EC_BOX_RESULTS };
 
-/* From the root down: here is a job, and answers come up; then it is spread (rank_job.c). Or: that was all, which comes up too, with whether anybody
- * was lost; and then down again, over all ranks. */
+/* Words from the root down. JOB: answers come up, then the job is spread (rank_job.c). HOME: everything is over; it comes up again with whether
+ * anybody was lost, and then OVER goes down, for all ranks. */
 enum { EC_WORD_JOB, EC_WORD_HOME, EC_WORD_OVER };
 enum { EC_END_LOST };
-enum { EC_JOB_PROGRAM, EC_JOB_ROUNDS }; /* its text: rank 0's drivers; then --device, if it was given */
+enum { EC_JOB_PROGRAM, EC_JOB_ROUNDS }; /* text of a job: rank 0's drivers; then --device, if it was given */
 
-/* A parent to one: positions [from, to) of batch `index`, or of a block of so many from there on (batch_source.h); body: that part of the
- * list, EC_LIST_WORDS each, if there is one. The limit goes as the bits of its float. Or: the job is over; what is under way is given up. */
+/* Orders of a parent. BATCH: positions [from, to) of batch `index`, or of a block of batches that begins there (batch_source.h); body: that part of
+ * the list, EC_LIST_WORDS each, if there is one. The limit is sent as the bits of its float. END: the job is over, and work in progress is abandoned. */
 enum { EC_ORDER_BATCH, EC_ORDER_END };
 enum { EC_ORDER_BOX, EC_ORDER_INDEX, EC_ORDER_BATCHES, EC_ORDER_FROM, EC_ORDER_TO, EC_ORDER_FEATURES, EC_ORDER_CUT, EC_ORDER_SAMPLES, EC_ORDER_LIMIT, EC_ORDER_LIGHT };
 
-/* Its answer: EC_BATCH_FIELDS a position, then EC_AOV_FIELDS a position of features if they were asked for; of a block the sums
- * (ec_sums_in). Of a failure: a text. */
+/* Answers. BATCH: EC_BATCH_FIELDS per position, then EC_AOV_FIELDS per position if features were asked for; of a block, its sums (ec_sums_in).
+ * FAILURE: a text. */
 enum { EC_RESULT_BATCH, EC_RESULT_FAILURE };
-enum { EC_RESULT_RAYS, EC_RESULT_LEAST, EC_RESULT_INVALID }; /* the last by ec_stage */
+enum { EC_RESULT_RAYS, EC_RESULT_LEAST, EC_RESULT_INVALID }; /* INVALID: and the following ones, by ec_stage */
 
 #endif

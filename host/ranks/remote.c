@@ -15,7 +15,7 @@ static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_letter
     const uint32_t *list = order->list ? order->list + (uint64_t)EC_LIST_WORDS * order->done : NULL;
     *letter = (ec_letter){.kind = EC_ORDER_BATCH, .box = EC_BOX_ORDERS, .body = (void *)list, .bytes = list ? 4ull * EC_LIST_WORDS * (order->count - order->done) : 0};
     pthread_mutex_lock(&m->ranks->lock);
-    const uint32_t box = ++m->ranks->last_box; /* so that what was given up finds nobody */
+    const uint32_t box = ++m->ranks->last_box; /* a new box, so that answers to abandoned orders are ignored */
     pthread_mutex_unlock(&m->ranks->lock);
     letter->numbers[EC_ORDER_BOX] = box;
     letter->numbers[EC_ORDER_LIGHT] = order->light;
@@ -42,7 +42,7 @@ static bool waits_on(void *user)
     return !w->given_up;
 }
 
-/* Sends the order and waits for what comes of it; *complete false: it was given up. */
+/* Sends the order and waits for the result; *complete false: it was abandoned. */
 static ec_result fetch(ec_remote *m, const ec_batch_order *order, ec_letter *back, bool *complete, ec_error *err)
 {
     ec_letter letter;

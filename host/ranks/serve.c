@@ -1,4 +1,4 @@
-/* Ranks other than 0: one job after the other, until they are sent home. A rank's devices and its children are a team. */
+/* Serves jobs on ranks other than 0, one after the other, until they are dismissed. A rank's devices and its children form a team. */
 #include <string.h>
 
 #include "base/freed.h"
@@ -9,12 +9,12 @@ typedef struct server {
     ec_ranks *ranks;
     const ec_log *log;
     ec_sources sources;
-    ec_batch_source *source;  /* its devices and all below */
+    ec_batch_source *source;  /* its devices and all ranks below */
     uint64_t pixels;
     uint32_t replicates;
 } server;
 
-/* Until a letter comes: that is the end of the job. */
+/* Tells whether the job goes on: the next letter means its end. */
 static bool goes_on(void *user, uint32_t done)
 {
     const server *s = user;
@@ -22,7 +22,7 @@ static bool goes_on(void *user, uint32_t done)
     return !ec_post_has(s->ranks->post, s->ranks->place->parent, EC_BOX_ORDERS);
 }
 
-/* Writes the results of an order, from position `first` on, as they are sent. */
+/* Writes the results of an order, from position `first` on, in the form in which they are sent. */
 static void write_body(const server *s, const ec_batch_order *order, void *body)
 {
     const ec_batch_source *source = s->source;
@@ -37,7 +37,7 @@ static void write_body(const server *s, const ec_batch_order *order, void *body)
         memcpy((float *)body + EC_BATCH_FIELDS * positions, source->features + EC_AOV_FIELDS * first, 4 * EC_AOV_FIELDS * positions);
 }
 
-/* The answer's body is malloc'ed. It stays NULL where the job was ended meanwhile. */
+/* Renders an order. The answer's body is malloc'ed; it stays NULL if the job was ended meanwhile. */
 static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, ec_error *err)
 {
     ec_batch_source *source = s->source;
@@ -69,7 +69,7 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
     return EC_OK;
 }
 
-/* The failure of a part is the parent's to judge. False: there is nothing to say. */
+/* Fills in the answer; a failure is reported to the parent, which decides what follows. Returns false if there is nothing to answer. */
 static bool fill_answer(server *s, const ec_letter *letter, const ec_error *unfit, ec_letter *answer)
 {
     ec_error why = *unfit;
@@ -93,14 +93,14 @@ static ec_result take_orders(server *s, const ec_error *unfit, ec_error *err)
     }
 }
 
-/* Nobody else hears of what this rank can do without. */
+/* Logs warnings, which are not sent to other ranks. */
 static void pass_on(void *user, ec_severity severity, const char *text)
 {
     const server *s = user;
     if (severity == EC_WARNING) ec_warn(s->log, "told by rank %d: %s", s->ranks->place->rank, text);
 }
 
-/* Opens the devices that can be opened. Where none can, fails with the last one's reason, unless there are ranks below. */
+/* Opens the devices that can be opened. If there are none, fails with the last one's reason, unless there are ranks below. */
 static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_cl *devices, bool is_inner,
                               const ec_log *log, ec_error *err)
 {
@@ -116,7 +116,7 @@ static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_c
     return opened || is_inner ? EC_OK : EC_FAILED;
 }
 
-/* They have the cargo already. */
+/* Does nothing, as the ranks below have the cargo already. */
 static ec_result send_nothing(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err)
 {
     (void)user, (void)cargo, (void)seed, (void)log, (void)err;

@@ -1,4 +1,4 @@
-/* The attributes of an EXR, as they are collected. */
+/* Collects the attributes of an EXR. */
 #ifndef EC_REPORT_ATTRIBUTES_H
 #define EC_REPORT_ATTRIBUTES_H
 
@@ -9,15 +9,15 @@ enum { EC_REPORT_ATTRIBUTES_MAX = 96 };
 typedef struct ec_report_attributes {
     ec_attribute list[EC_REPORT_ATTRIBUTES_MAX];
     uint32_t count;
-    char text[32768]; /* strings made for the occasion; list points into it, so that it must not be moved or copied */
+    char text[32768]; /* texts made here; list points into it, so it must not be moved or copied */
     size_t text_used;
 } ec_report_attributes;
 
-/* Whole numbers are ints, or texts where they do not fit. Keys and texts must last as long as the attributes. */
+/* Adds fields. Whole numbers become ints, or texts if they do not fit. Keys and texts must last as long as the attributes. */
 #define EC_ATTRIBUTES(attributes, ...) ec_attributes_add(attributes, (const ec_field[]){__VA_ARGS__, {0}})
 void ec_attributes_add(ec_report_attributes *attributes, const ec_field *fields);
 
-/* A text that is kept in `attributes`. */
+/* Adds a formatted text, which is stored in `attributes`. */
 __attribute__((format(printf, 3, 4))) void ec_attributes_made(ec_report_attributes *attributes, const char *name, const char *format, ...);
 
 #endif

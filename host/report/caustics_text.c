@@ -1,4 +1,4 @@
-/* What light paths would be aimed at, in a scene's report. */
+/* What light paths would be aimed at, for a scene's report. */
 #include <stdbool.h>
 
 #include "base/freed.h"
@@ -8,7 +8,7 @@
 
 enum { NAMED = 3 };
 
-/* "bent by material 1 "glass" and 2 more"; how many there are. */
+/* Prints e.g. "bent by material 1 "glass" and 2 more"; returns their number. */
 static uint32_t print_casters(const ec_scene *scene, const bool *casts, bool bent, const char *before, FILE *to)
 {
     uint32_t count = 0;

@@ -31,7 +31,7 @@ static void print_figures(const ec_compare_report *report, FILE *to)
     fputc('\n', to);
 }
 
-/* What is compared, where it is not what the files hold. */
+/* Prints what is compared, if it is not the files' values. */
 static void print_space(const ec_compare_report *report, FILE *to)
 {
     const char *linear = !report->format_a && !report->format_b ? "both" : !report->format_a ? "A" : !report->format_b ? "B" : NULL;
@@ -119,7 +119,7 @@ static bool is_bent(const ec_compare_report *report)
     return report->is_shown && report->tested && report->difference.noise_relative_rms > EC_NOISE_BENT;
 }
 
-/* The verdict does not know of light that a picture lacks. */
+/* Prints why a picture has no bound: the verdict cannot know of light that it lacks. */
 static void print_unbound(char name, const char *why, FILE *to)
 {
     if (why) fprintf(to, "no bound  %c may lack light that shows in no standard error: %s\n", name, why);

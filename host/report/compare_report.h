@@ -10,7 +10,7 @@
 #include "film/difference.h"
 #include "film/noise_test.h"
 
-/* Where noise makes more of the error than this, curves bend it in ways that standard errors do not tell. */
+/* If noise makes more of the error than this, curves bend it in ways that standard errors do not tell. */
 #define EC_NOISE_BENT 0.4
 
 typedef struct ec_compare_report {
@@ -18,18 +18,18 @@ typedef struct ec_compare_report {
     const ec_measured *a, *b;
     const char *format_a, *format_b; /* "8-bit PNG"; NULL: linear floats */
     bool is_lossy_a;
-    bool is_shown;               /* what is compared are sRGB values from 0 to 1, linear pictures' as tonemap shows them */
+    bool is_shown;               /* the values compared are sRGB from 0 to 1, linear pictures as shown by `tonemap` */
     unsigned tonemap;            /* ec_tonemap */
-    double exposure;             /* stops, of that; or of A's values, if it was fitted to a B that is linear too */
-    char fitted;                 /* 'A' or 'B', whose exposure was; 0: none */
-    bool is_estimated;           /* A's noise, from its difference with B */
-    const char *why_a, *why_b;   /* why the file states no bound of its error; NULL: it does, or says nothing */
+    double exposure;             /* stops, used for showing; or those by which A was fitted to a B that is linear too */
+    char fitted;                 /* 'A' or 'B': the picture whose exposure was fitted; 0: none */
+    bool is_estimated;           /* the noise of A was estimated from its difference to B */
+    const char *why_a, *why_b;   /* why the file states no bound of its error; NULL: it does, or does not say why */
     ec_difference difference;
     bool tested;                 /* at least one of them has standard errors */
     ec_noise_test test;
     bool differ;                 /* by more than noise; without standard errors, in any pixel by more than rounding */
-    double flip, ssim;           /* means; ssim NaN: the picture has no whole window */
-    const char *diff_path;       /* the error map; NULL: none was asked for */
+    double flip, ssim;           /* means; ssim NaN: no window fits into the picture */
+    const char *diff_path;       /* path of the error map; NULL: not asked for */
 } ec_compare_report;
 
 void ec_compare_report_text(const ec_compare_report *report, FILE *to);

@@ -14,7 +14,7 @@ static stated in_words(const ec_stated_error *e)
     return s;
 }
 
-/* Where the denoiser does not pay it is said. */
+/* Prints the best picture's error, and where the denoiser does not help. */
 static void print_best(const ec_denoised *d, FILE *to)
 {
     fprintf(to, "best     error %s", in_words(&d->best).text);

@@ -1,4 +1,4 @@
-/* What --denoise came to, in words, in JSON and as attributes. NULL: nobody has asked for it. */
+/* Report the results of --denoise as text, JSON and attributes. denoised NULL: not asked for. */
 #ifndef EC_REPORT_DENOISE_REPORT_H
 #define EC_REPORT_DENOISE_REPORT_H
 

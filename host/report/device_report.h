@@ -11,8 +11,8 @@
 typedef struct ec_device_report {
     const ec_device_info *devices;
     uint32_t count;
-    int64_t chosen;   /* the default's index; -1 = none */
-    const char *why;  /* why that one, or why none */
+    int64_t chosen;   /* index of the default; -1: none */
+    const char *why;  /* why this one was chosen, or why none */
 } ec_device_report;
 
 void ec_device_report_text(const ec_device_report *report, FILE *to);

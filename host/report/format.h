@@ -1,4 +1,4 @@
-/* Numbers for people, as texts by value: ec_bytes(n).text. */
+/* Formats numbers for people; returned by value: ec_bytes(n).text. */
 #ifndef EC_REPORT_FORMAT_H
 #define EC_REPORT_FORMAT_H
 
@@ -9,9 +9,9 @@ typedef struct ec_figure {
 } ec_figure;
 
 ec_figure ec_count(double value);         /* 5.42 M */
-ec_figure ec_percent(double fraction);    /* 1.93 %: three digits */
+ec_figure ec_percent(double fraction);    /* 1.93 %, with three digits */
 ec_figure ec_bytes(uint64_t bytes);       /* 62.8 GiB */
-ec_figure ec_roulette(double survival);   /* auto, off, 0.8: as --rr takes it */
+ec_figure ec_roulette(double survival);   /* auto, off or 0.8, as in --rr */
 ec_figure ec_seconds(double seconds);     /* 12.3 s, 2 min 5 s */
 
 #endif

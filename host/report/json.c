@@ -22,7 +22,7 @@ void ec_json_whole(cJSON *object, const char *key, uint64_t value)
     cJSON_AddRawToObject(object, key, digits);
 }
 
-/* Bytes of the well-formed UTF-8 sequence at s; 0 if it is none (RFC 3629). */
+/* Returns the size of the well-formed UTF-8 sequence at s; 0: there is none (RFC 3629). */
 static int utf8_size(const unsigned char *s)
 {
     if (s[0] < 0x80) return 1;
@@ -93,7 +93,7 @@ ec_result ec_json_print(cJSON *object, FILE *to, ec_error *err)
     cJSON_Delete(object);
     if (!text) return ec_fail(err, "out of memory while writing the JSON report");
     errno = 0;
-    bool lost = fprintf(to, "%s\n", text) < 0; /* of an earlier failure stdio does not keep the reason */
+    bool lost = fprintf(to, "%s\n", text) < 0; /* stdio does not keep the reason of an earlier failure */
     int why = errno;
     cJSON_free(text);
     return lost ? ec_fail(err, "cannot write the result%s: %s", to == stdout ? " to standard output" : "", strerror(why)) : EC_OK;

@@ -13,11 +13,11 @@ typedef struct ec_merge_report {
     int files;
     uint64_t samples_per_pixel, replicates, heavy_pixels;
     ec_film_error error;
-    double limit, luminance; /* of --clamp, and of that a sample's most; 0: there is none */
+    double limit, luminance; /* of --clamp; and the largest luminance of a sample that it allows; 0: none */
     ec_clamp_error clamp;
     const ec_denoised *denoised; /* NULL: not asked for */
     const char *image_sha256;
-    double exposure;         /* EV, of the PNG */
+    double exposure;         /* stops, of the PNG */
     bool is_exposure_auto;
     const char **outputs;
     int output_count;

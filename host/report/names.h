@@ -1,4 +1,4 @@
-/* The words for choices, in options and in reports alike. Each list is in the order of its enum and NULL-terminated. */
+/* Words for choices, shared by options and reports. Each list is in the order of its enum and ended by NULL. */
 #ifndef EC_REPORT_NAMES_H
 #define EC_REPORT_NAMES_H
 
@@ -16,7 +16,7 @@ extern const char *const ec_scattering_names[]; /* ec_scattering */
 extern const char *const ec_terminator_names[]; /* ec_terminator */
 extern const char *const ec_tonemap_names[];    /* ec_tonemap */
 
-/* "env", "transparent" or "#3366cc". */
+/* Returns "env", "transparent" or "#3366cc". */
 typedef struct ec_background_text {
     char text[24];
 } ec_background_text;

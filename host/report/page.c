@@ -7,7 +7,7 @@
 #include "base/atomic_file.h"
 #include "image/image.h"
 
-/* With these characters written otherwise. */
+/* A character and its replacement. */
 typedef struct replaced {
     char character;
     const char *by;
@@ -23,7 +23,7 @@ static void put(FILE *to, const char *text, const replaced *replaced)
     }
 }
 
-/* Within a script element only < could end it. */
+/* Prints JSON within a script element, which only < could end. */
 static void put_json(FILE *to, const cJSON *object)
 {
     char *text = cJSON_PrintUnformatted(object);
@@ -51,7 +51,7 @@ static void put_page(FILE *to, const char *page, const ec_page_part *parts)
     fputs(page, to);
 }
 
-/* How every page begins: nothing comes from elsewhere. */
+/* The beginning of every page, which forbids loading anything from elsewhere. */
 static const char head[] = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"eclat\">\n"
                            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; "

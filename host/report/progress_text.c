@@ -6,7 +6,7 @@
 
 #include "report/format.h"
 
-/* Two digits are more than a forecast is worth; a third avoids jumps. */
+/* Rounds to two digits: a forecast is not more precise. */
 static void format_samples(double samples, char *text, size_t size)
 {
     double unit = pow(10, fmax(floor(log10(fmax(samples, 1))) - 1, 0));

@@ -10,7 +10,7 @@
 #include "report/render_report.h"
 #include "report/settings.h"
 
-/* As --eye, --look-at, --up and --fov or --parallel take them. */
+/* In the form of --eye, --look-at, --up and --fov or --parallel. */
 static void add_viewpoint(ec_report_attributes *attributes, const ec_viewpoint *v)
 {
     ec_attributes_made(attributes, "eclat.camera.eye", "%.9g,%.9g,%.9g", v->eye[0], v->eye[1], v->eye[2]);
@@ -20,7 +20,7 @@ static void add_viewpoint(ec_report_attributes *attributes, const ec_viewpoint *
     else ec_attributes_made(attributes, "eclat.camera.parallel", "%.9g", v->tall);
 }
 
-/* Whole numbers are texts: those of a seed fit no int. */
+/* Writes whole numbers as texts, since a seed may not fit an int. */
 static void add_option(ec_report_attributes *attributes, const ec_setting *setting, const ec_render_options *options)
 {
     ec_setting_value value;
@@ -50,7 +50,7 @@ static void add_setting(ec_report_attributes *attributes, const ec_render_report
     else EC_ATTRIBUTES(attributes, EC_STRING("eclat.png.tonemap", ec_tonemap_names[report->tonemap]));
 }
 
-/* "sheen; in shade; texels, 4 KB" in lines. */
+/* Lists lines like "sheen; in shade; texels, 4 KB". */
 static void add_built(ec_report_attributes *attributes, const ec_render_effects *effects)
 {
     char text[EC_EFFECT_BITS * (EC_EFFECT_MADE + 64)];
@@ -66,7 +66,7 @@ static void add_built(ec_report_attributes *attributes, const ec_render_effects 
     ec_attributes_made(attributes, "eclat.effects.built", "%s", text);
 }
 
-/* "sheen: material 1 "Velvet" has sheen" in lines. */
+/* Lists lines like "sheen: material 1 "Velvet" has sheen". */
 static void add_effects(ec_report_attributes *attributes, const ec_render_effects *effects)
 {
     char text[EC_EFFECT_BITS * (EC_EFFECT_WHY + 64)];
@@ -106,7 +106,7 @@ static void add_result(ec_report_attributes *attributes, const ec_render_report 
                   EC_WHOLE("eclat.invalid.accumulate", stats->invalid_accumulate));
 }
 
-/* Tells what computed it, but not the name of the machine. */
+/* Records what computed the picture, but not the name of the machine. */
 static void add_machine(ec_report_attributes *attributes, const ec_device_info *device)
 {
     struct utsname host;
@@ -118,7 +118,7 @@ static void add_machine(ec_report_attributes *attributes, const ec_device_info *
                  sysconf(_SC_NPROCESSORS_ONLN));
 }
 
-/* "0 NAME: 75 samples, 1 NAME: 85 samples": of several devices, a pixel in the mean. */
+/* Records shares of several devices, as mean samples per pixel: "0 NAME: 75 samples, 1 NAME: 85 samples". */
 static void add_shares(ec_report_attributes *attributes, const ec_render_report *report)
 {
     char text[2048] = "";
@@ -131,7 +131,7 @@ static void add_shares(ec_report_attributes *attributes, const ec_render_report 
     if (*text) ec_attributes_made(attributes, "eclat.devices", "%s", text);
 }
 
-/* As the specification names them. */
+/* Adds the attributes named by the Cryptomatte specification. */
 static void add_mattes(ec_report_attributes *attributes, const ec_matte_names *mattes)
 {
     for (uint32_t k = 0; mattes && k < EC_MATTE_KINDS; k++) {

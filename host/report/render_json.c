@@ -9,7 +9,7 @@
 #include "report/render_report.h"
 #include "report/settings.h"
 
-/* Adds what a frame takes over from those before it. */
+/* Adds what a frame takes over from earlier ones. */
 static void add_shared(cJSON *root, const ec_render_stats *stats)
 {
     const ec_follow_report *f = &stats->followed;
@@ -72,7 +72,7 @@ static void add_forecast(cJSON *root, const ec_forecast *f)
             EC_REAL("seconds_high", f->seconds_high), EC_REAL("error_bound", f->error_bound), EC_REAL("spread", f->spread));
 }
 
-/* Only where launches are bounded. */
+/* Adds launches, if these are bounded in time. */
 static void add_launches(cJSON *root, const ec_render_stats *stats)
 {
     if (!stats->launches) return;
@@ -93,7 +93,7 @@ static void add_cost(cJSON *root, const ec_render_report *report)
             EC_WHOLE("peak_memory_bytes", report->peak_memory_bytes), EC_WHOLE("device_bytes", stats->device_bytes));
 }
 
-/* Adds the share of each device, where there are several. */
+/* Adds the share of each device, if there are several. */
 static void add_shares(cJSON *root, const ec_render_report *report)
 {
     const ec_render_stats *stats = report->stats;

@@ -58,7 +58,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     if (report->verbose && !report->frame->name) print_shared(report->stats, to);
 }
 
-/* Four times the samples bring half the error where they are independent, and less where their order tells. */
+/* Foretells the error with four times the samples: half of it if they are independent, and less if their order helps. */
 static void format_more(const ec_render_stats *stats, char *text, size_t size)
 {
     *text = 0;
@@ -66,7 +66,7 @@ static void format_more(const ec_render_stats *stats, char *text, size_t size)
         snprintf(text, size, "; 4 times the samples would bring the picture's error to %s or less", ec_percent(stats->film.error / 2).text);
 }
 
-/* Which pixels' own errors can be trusted. Nothing to say without an error, or where every pixel's can. */
+/* Prints which pixels' own errors cannot be trusted; nothing without an error, or if all can. */
 static void print_heavy(const ec_render_report *report, FILE *to)
 {
     if (report->replicates < 2 || report->heavy_pixels == 0) return;
@@ -91,7 +91,7 @@ static void print_effects(const ec_render_effects *effects, FILE *to)
     fprintf(to, "effects  %s\n", line);
 }
 
-/* Set-up before the first ray. Some drivers keep kernels of earlier runs themselves, for others eclat does and counts them. */
+/* Prints the time before the first ray. Some drivers cache kernels themselves; for the others eclat does, and counts them. */
 static void print_setup(const ec_render_stats *stats, FILE *to)
 {
     char counted[64] = "", then[64] = "", guide[64] = "";
@@ -106,7 +106,7 @@ static void print_setup(const ec_render_stats *stats, FILE *to)
         fprintf(to, "         the device does not say that it rounds division and square root correctly: the render waits for its fast kernels and keeps them\n");
 }
 
-/* Only where launches are bounded. */
+/* Prints launches, if these are bounded in time. */
 static void print_launches(const ec_render_stats *stats, FILE *to)
 {
     if (!stats->launches) return;

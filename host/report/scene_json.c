@@ -21,7 +21,7 @@ static void add_lights(cJSON *root, const ec_scene_report *report)
             EC_FLAG("any", report->has_light));
 }
 
-/* Camera to world as a node's matrix has it, by columns: right, up, back, position. */
+/* Returns the camera-to-world matrix in the form of a node's, by columns: right, up, back, position. */
 static cJSON *camera_matrix(const ec_scene *scene, const ec_camera *camera)
 {
     double m[16] = {[15] = 1};
@@ -61,7 +61,7 @@ static void add_contents(cJSON *root, const ec_scene_contents *contents)
     ec_json_whole(root, "scene_shown", contents->scene);
     add_names(root, "variants", &contents->variants);
     cJSON *animations = cJSON_AddArrayToObject(root, "animations");
-    for (uint32_t i = 0; i < contents->animations.count; i++) /* seconds null: the file does not say */
+    for (uint32_t i = 0; i < contents->animations.count; i++) /* seconds null: the file does not tell */
         EC_JSON(ec_json_object(animations, NULL), EC_STRING("name", contents->animations.names[i]), EC_REAL("seconds", contents->seconds[i]));
 }
 
@@ -86,7 +86,7 @@ static void add_accels(cJSON *root, const ec_scene_report *report)
         else
             EC_JSON(object, EC_REAL("build_seconds", b->build_seconds), EC_WHOLE("bytes", b->bytes), EC_WHOLE("nodes", b->nodes),
                     EC_WHOLE("leaves", b->leaves), EC_WHOLE("references", b->references),
-                    EC_REAL("sah_cost", b->sah_cost > 0 ? b->sah_cost : INFINITY), /* null: means nothing */
+                    EC_REAL("sah_cost", b->sah_cost > 0 ? b->sah_cost : INFINITY), /* null: not meaningful */
                     EC_REAL("nodes_per_ray", a->probe.nodes), EC_REAL("triangles_per_ray", a->probe.triangles),
                     EC_REAL("rays_per_second", a->probe.rays_per_second));
     }

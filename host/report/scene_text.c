@@ -63,7 +63,7 @@ static void print_list(const char *title, const ec_scene_names *list, FILE *to)
     fputc('\n', to);
 }
 
-/* "0 'walk' (1.2 s), 1 'run'" */
+/* Prints e.g. "0 'walk' (1.2 s), 1 'run'". */
 static void print_names(const char *title, const ec_scene_names *list, const double *seconds, FILE *to)
 {
     if (list->count) fprintf(to, "%s", title);
@@ -75,7 +75,7 @@ static void print_names(const char *title, const ec_scene_names *list, const dou
     if (list->count) fputc('\n', to);
 }
 
-/* Scenes, variants and animations of the file to choose from. */
+/* Prints the scenes, variants and animations that can be chosen. */
 static void print_contents(const ec_scene_contents *contents, FILE *to)
 {
     if (contents->scenes.count > 1) {
@@ -94,7 +94,7 @@ static void print_cost(const ec_scene_report *report, FILE *to)
             ec_bytes(report->peak_memory_bytes).text);
     fprintf(to, "BVH         %u nodes, %u leaves, depth %u, SAH cost %.4g, leaf blocks %.0f %% full\n", bvh->node_count,
             bvh->leaf_count, bvh->max_depth, bvh->sah_cost, 100 * bvh->leaf_fill);
-    uint32_t triangles = ec_scene_flat_count(report->scene); /* of the rest there is one for each mesh that is kept once */
+    uint32_t triangles = ec_scene_flat_count(report->scene); /* meshes that are kept once have BVHs of their own */
     if (bvh->ref_count > triangles)
         fprintf(to, "            %u references: triangles cut into %.1f %% more parts\n", bvh->ref_count,
                 100.0 * (bvh->ref_count - triangles) / triangles);

@@ -11,7 +11,7 @@
 #define TEXT(value) .field = EC_STRING(NULL, value)
 #define WHOLE(value) .field = EC_WHOLE(NULL, value)
 #define REAL(value) .field = EC_REAL(NULL, value)
-#define NONE(value) .field = {.kind = EC_FIELD_NONE, .text = value} /* no number, as an endless depth: text says it, and JSON has null */
+#define NONE(value) .field = {.kind = EC_FIELD_NONE, .text = value} /* not a number, e.g. an endless depth: shown as text, null in JSON */
 
 GET(background, TEXT(o->hides_environment ? "hidden" : "env"), .is_unsaid = !o->hides_environment)
 GET(adaptive, .field = EC_FLAG(NULL, o->adaptive))
@@ -90,21 +90,21 @@ const ec_setting ec_settings[] = {
     {"sample", "sample", "eclat.sample", EC_IDENTITY_BY_VALUE, get_sample},
     {"max-depth", "max_depth", "eclat.maxDepth", EC_IDENTITY_BY_VALUE, get_max_depth},
     {"rr", "rr", "eclat.rr", EC_IDENTITY_BY_VALUE, get_rr},
-    {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reports: with what it took, report/error_text.h */
+    {"clamp", NULL, NULL, EC_IDENTITY_BY_VALUE, get_clamp}, /* reported with its effect in report/error_text.h */
     {"light-paths", "light_paths", "eclat.lightPaths", EC_IDENTITY_BY_VALUE, get_light_paths},
     {"guiding", "guiding", "eclat.guiding", EC_IDENTITY_BY_VALUE, get_guiding},
     {"fog", "fog", "eclat.fog", EC_IDENTITY_BY_VALUE, get_fog},
     {"terminator", "terminator", "eclat.terminator", EC_IDENTITY_BY_VALUE, get_terminator},
     {"scattering", "scattering", "eclat.scattering", EC_IDENTITY_BY_CONTENT, get_scattering},
     {"light-choice", "light_choice", "eclat.lightChoice", EC_IDENTITY_BY_CONTENT, get_light_choice},
-    {"background", NULL, NULL, EC_IDENTITY_BY_VALUE, get_background}, /* reports: which */
+    {"background", NULL, NULL, EC_IDENTITY_BY_VALUE, get_background}, /* reported by kind */
     {"filter", "filter", "eclat.filter", EC_IDENTITY_BY_VALUE, get_filter},
     {"filter-width", "filter_width", "eclat.filterWidth", EC_IDENTITY_BY_VALUE, get_filter_width},
     {"fstop", "fstop", "eclat.fstop", EC_IDENTITY_BY_VALUE, get_fstop},
     {"focus", "focus", "eclat.focus", EC_IDENTITY_BY_VALUE, get_focus},
     {"screen-window", "screen_window", "eclat.screenWindow", EC_IDENTITY_BY_VALUE, get_screen_window},
     {"cutoff", "cutoff", "eclat.cutoff", EC_IDENTITY_BY_VALUE, get_cutoff},
-    {"without", NULL, NULL, EC_IDENTITY_BY_VALUE, get_without}, /* reports: among the effects */
+    {"without", NULL, NULL, EC_IDENTITY_BY_VALUE, get_without}, /* reported among the effects */
     {"denoise", "denoise", "eclat.denoise", EC_IDENTITY_BY_VALUE, get_denoise},
     {"accel", "accel", "eclat.accel", EC_NOT_IDENTITY, get_accel},
 };

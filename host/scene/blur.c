@@ -1,4 +1,5 @@
-/* An environment blurred by a von Mises-Fisher distribution over directions, the sphere's normal one (Fisher 1953, "Dispersion on a sphere"). */
+/* Blurs an environment by a von Mises-Fisher distribution over directions, the analogue of the normal distribution on the sphere (Fisher 1953,
+ * "Dispersion on a sphere"). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,10 +7,10 @@
 #include "scene/blur.h"
 
 #define PI 3.14159265358979323846
-enum { LEAST = 16, MOST = 1024 }; /* texels around */
+enum { LEAST = 16, MOST = 1024 }; /* texels around the horizon */
 static const double reach = 4;    /* standard deviations: 0.03 % of the weight lies beyond */
 
-/* The mean of the texels of `from` around each texel's middle: as many looks each way as make every one of them count. */
+/* Shrinks the map: averages samples of `from` within each texel of `to`, enough of them that every texel counts. */
 static void shrink(const ec_environment *from, const ec_made_map *to)
 {
     const uint32_t looks = (from->width + to->width - 1) / to->width;
@@ -26,7 +27,7 @@ static void shrink(const ec_environment *from, const ec_made_map *to)
         }
 }
 
-/* One texel: the rows and columns that the bell reaches. All texels of a row weigh as their solid angle. */
+/* Blurs one texel, over the rows and columns within reach. All texels of a row have the weight of their solid angle. */
 static void blur_texel(const ec_made_map *from, uint32_t x, uint32_t y, double sigma, float *to)
 {
     const double theta = PI * (y + 0.5) / from->height, kappa = 1 / (sigma * sigma), most = fmin(reach * sigma, PI);
@@ -34,7 +35,7 @@ static void blur_texel(const ec_made_map *from, uint32_t x, uint32_t y, double s
     double sum[4] = {0};
     for (int32_t v = first < 0 ? 0 : first; v <= last && v < (int32_t)from->height; v++) {
         const double t = PI * (v + 0.5) / from->height, omega = ec_made_map_solid_angle(from, (uint32_t)v);
-        const double limit = (cos(most) - cos(theta) * cos(t)) / (sin(theta) * sin(t)); /* of the cosine between longitudes */
+        const double limit = (cos(most) - cos(theta) * cos(t)) / (sin(theta) * sin(t)); /* least cosine of the difference in longitude */
         const double side = limit >= 1 ? 0 : limit <= -1 ? PI : acos(limit);
         const int32_t half = (int32_t)fmin(ceil(side / (2 * PI) * from->width), from->width / 2);
         for (int32_t k = -half; k < (half < (int32_t)from->width / 2 ? half + 1 : half); k++) {
@@ -47,7 +48,7 @@ static void blur_texel(const ec_made_map *from, uint32_t x, uint32_t y, double s
     for (int c = 0; c < 3; c++) to[c] = (float)(sum[c] / sum[3]);
 }
 
-/* A texel is at most half a standard deviation wide. */
+/* Chooses texels at most half a standard deviation wide. */
 static uint32_t choose_width(double sigma)
 {
     uint32_t width = LEAST;

@@ -20,7 +20,7 @@ static ec_result read_sun(const char *spec, double *azimuth, double *elevation, 
                    EC_CUT(spec, 200));
 }
 
-/* The sun wants texels as fine as itself. */
+/* Makes either map; that of a sky is large enough for texels as fine as the sun. */
 ec_result ec_built_in_make(const char *spec, ec_made_map *map, ec_error *err)
 {
     const bool is_sky = strcmp(spec, EC_STUDIO) != 0;

@@ -1,4 +1,4 @@
-/* Environments that need no file: maps made by formula. */
+/* Environments that need no file: maps made by formulas. */
 #ifndef EC_SCENE_BUILT_IN_H
 #define EC_SCENE_BUILT_IN_H
 
@@ -10,25 +10,26 @@
 #define EC_STUDIO "studio"
 #define EC_SKY "sky:"
 
-/* Pixels as ec_environment has them; rgb is malloc'ed. */
+/* Pixels like those of ec_environment; rgb is malloc'ed. */
 typedef struct ec_made_map {
     uint32_t width, height;
     float *rgb;
 } ec_made_map;
 
-/* "studio" or "sky:AZIMUTH,ELEVATION"? Then no file of that name is meant. */
+/* Tells whether spec is "studio" or "sky:AZIMUTH,ELEVATION", and so not the name of a file. */
 bool ec_is_built_in(const char *spec);
 ec_result ec_built_in_make(const char *spec, ec_made_map *map, ec_error *err);
 
-/* A unit direction of texel (x, y)'s middle. */
+/* Computes the unit direction of the centre of texel (x, y). */
 void ec_made_map_direction(const ec_made_map *map, uint32_t x, uint32_t y, double d[3]);
-double ec_made_map_solid_angle(const ec_made_map *map, uint32_t y); /* of a texel in that row */
+double ec_made_map_solid_angle(const ec_made_map *map, uint32_t y); /* steradians of a texel in that row */
 
-/* Grey walls and five soft boxes, for a subject that faces +z; the mean radiance over all directions is 1. Maps have room. */
+/* Fills a map with grey walls and five soft boxes, for a subject that faces +z; the mean radiance over all directions is 1. map->rgb must be
+ * allocated. */
 void ec_studio_fill(const ec_made_map *map);
 
-/* A clear sky over grey ground. Degrees: azimuth from +z towards +x, elevation of the sun 0 to 90. In units of which the sun at the zenith
- * makes a white plate that lies flat have a radiance of 1. */
+/* Fills a map with a clear sky over grey ground. Degrees: azimuth from +z towards +x, elevation of the sun 0 to 90. The unit is such that the sun at
+ * the zenith gives a white horizontal plate a radiance of 1. */
 void ec_sky_fill(const ec_made_map *map, double azimuth, double elevation);
 
 #endif

@@ -1,4 +1,4 @@
-/* Names that one can choose among: scenes, variants, animations, cameras. */
+/* Lists of names to choose from: scenes, variants, animations, cameras. */
 #include "base/text.h"
 #include "scene/scene.h"
 

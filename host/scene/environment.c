@@ -1,5 +1,5 @@
-/* Light from infinitely far away: one colour or an equirectangular picture. The orientation is that of Khronos' sample
- * viewer and three.js; scene.h says it. */
+/* Light from infinitely far away: one colour, or an equirectangular picture. Its orientation is that of Khronos' sample viewer and three.js; see
+ * scene.h. */
 #include "base/text.h"
 #include "scene/scene.h"
 
@@ -13,10 +13,10 @@
 #include "image/image.h"
 #include "scene/built_in.h"
 
-/* "R,G,B": 1 = three numbers, 0 = does not look like numbers (so a file name), -1 = numbers, but not three good ones. */
+/* Parses "R,G,B". Returns 1 for three valid numbers, 0 if it does not look like numbers (so it is a file name), -1 for invalid numbers. */
 static int parse_color(const char *spec, float rgb[3])
 {
-    /* the letters are also those of inf, infinity, nan and of hexadecimal numbers, which are refused as numbers */
+    /* includes the letters of inf, infinity, nan and hexadecimal numbers, which are refused as numbers */
     if (strspn(spec, "0123456789+-.eE, \tinfatyINFATYxX") != strlen(spec) || !strchr(spec, ',')) return 0;
     int used = 0;
     bool is_good = !strpbrk(spec, "xX") && sscanf(spec, "%f ,%f ,%f %n", &rgb[0], &rgb[1], &rgb[2], &used) == 3 && used && !spec[used];
@@ -67,7 +67,7 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
     return EC_OK;
 }
 
-/* turn = rotation about +y times turn. */
+/* Multiplies turn by a rotation about +y from the left. */
 void ec_environment_turn(ec_environment *e, double degrees)
 {
     static const float upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -7,12 +7,12 @@
 #include "scene/material_fields.h"
 
 enum { VERTICES = 4, TRIANGLES = 2 };
-static const double hair = 1e-4; /* of the scene's radius: what stands on the ground is not one with it */
+static const double hair = 1e-4; /* of the scene's radius: distance to what stands on the ground, so that the two do not coincide */
 
-/* Room for the ground's elements behind `before` of `count`; what was there moves up. */
+/* Inserts room for `more` elements after `before` of `count`, moving up the rest. */
 static bool widen(void **array, size_t size, size_t count, size_t before, size_t more)
 {
-    if (!*array && count) return true; /* no such stream */
+    if (!*array && count) return true; /* the stream does not exist */
     char *wide = realloc(*array, size * (count + more));
     if (!wide) return false;
     memmove(wide + size * (before + more), wide + size * before, size * (count - before));
@@ -20,7 +20,7 @@ static bool widen(void **array, size_t size, size_t count, size_t before, size_t
     return true;
 }
 
-/* Vertices that stand in the world, as ec_scene_flat_count has triangles. */
+/* Returns the number of vertices in the world, corresponding to ec_scene_flat_count. */
 static uint32_t flat_vertices(const ec_scene *s) { return s->shape_count ? s->shapes[0].first_vertex : s->vertex_count; }
 
 static bool make_room(ec_scene *s)
@@ -36,7 +36,7 @@ static bool make_room(ec_scene *s)
            (!s->parts || widen((void **)&s->parts, sizeof *s->parts, s->part_count, s->part_count, 2));
 }
 
-/* Once there is room. */
+/* Adapts shapes and placed triangles; to be called once there is room. */
 static void move_placed(ec_scene *s)
 {
     if (!s->shape_count) return;
@@ -45,7 +45,7 @@ static void move_placed(ec_scene *s)
     for (uint32_t i = 0; i < s->placed_count; i++) s->placed[i].id += TRIANGLES;
 }
 
-/* Parts tell which node triangles are of: the ground's are of none, and the file's go on behind it. */
+/* Inserts a part without a node for the ground into the list of triangles' nodes. */
 static void move_parts(ec_scene *s, uint32_t ground)
 {
     uint32_t k = s->part_count;
@@ -60,12 +60,12 @@ static ec_material matte(void)
     ec_material m = ec_material_default();
     for (int k = 0; k < 3; k++) m.base_color[k] = 0.5f;
     m.metallic = m.specular = 0;
-    m.double_sided = true; /* no light comes from below */
+    m.double_sided = true; /* no light comes from below, whichever side is seen */
     m.name = strdup("ground");
     return m;
 }
 
-/* What the ground lies under: the scene, or all that it is in its animation. Recentred. */
+/* Gets the box above the ground: that of the scene, or of its whole animation. Recentred. */
 static void box_of(const ec_scene *s, double low[3], double high[3])
 {
     for (int k = 0; k < 3; k++) {

@@ -1,14 +1,14 @@
-/* A ground under a scene: content as any other, but made by us. */
+/* Adds a ground under a scene, which is then content like any other. */
 #ifndef EC_SCENE_GROUND_H
 #define EC_SCENE_GROUND_H
 
 #include "scene/scene.h"
 
-/* The floor reaches so many times as far as the scene's bounding sphere. */
+/* Half the side of the ground, over the radius of the scene's bounding sphere. */
 #define EC_GROUND_REACH 12
 
-/* Adds a square of two triangles, matte and of reflectance 0.5, that faces +y a hair under the lowest point, of a frame under that of its whole animation; ids of placed triangles move up by two.
- * Fails where the scene has no surface. On failure the scene is as it was. */
+/* Adds a square of two triangles, matte with reflectance 0.5, that faces +y slightly below the lowest point of the scene or, for a frame, of its
+ * whole animation; ids of placed triangles rise by two. Fails, and leaves the scene unchanged, if the scene has no surface or there is no memory. */
 ec_result ec_scene_add_ground(ec_scene *scene, ec_error *err);
 
 #endif

@@ -1,4 +1,4 @@
-/* Triangles against the pyramid of a camera's view, until one is seen. */
+/* Clips triangles against the camera's view until one is seen. */
 #include "scene/in_sight.h"
 
 #include <math.h>
@@ -6,10 +6,10 @@
 
 #include "base/vec3.h"
 
-enum { MOST = 9 }; /* corners of a triangle that six planes have cut */
-typedef double corner[3]; /* to the right, up, forward */
+enum { MOST = 9 }; /* corners of a triangle clipped by six planes */
+typedef double corner[3]; /* components right, up, forward */
 
-/* How far within a plane of the view a corner is. */
+/* Returns how far inside a plane of the view a corner is. */
 static double within(const corner c, int plane, bool is_flat, const double window[4])
 {
     if (plane == 4) return c[2];
@@ -17,7 +17,7 @@ static double within(const corner c, int plane, bool is_flat, const double windo
     return plane % 2 ? bound - c[plane / 2] : c[plane / 2] - bound;
 }
 
-/* Cuts the polygon off at the plane (Sutherland and Hodgman 1974); returns how many corners are left. */
+/* Clips the polygon at a plane (Sutherland and Hodgman 1974); returns the number of corners left. */
 static int cut(corner *polygon, int count, int plane, bool is_flat, const double window[4])
 {
     corner left[MOST];
@@ -48,7 +48,7 @@ static bool is_front(corner c[3], bool is_flat)
     double u[3], v[3], n[3];
     for (int k = 0; k < 3; k++) u[k] = c[1][k] - c[0][k], v[k] = c[2][k] - c[0][k];
     ec_cross(u, v, n);
-    /* the camera's right, up and forward are a left-handed frame: normals there point the other way */
+    /* the camera's right, up and forward are a left-handed frame, where normals point the other way */
     return (is_flat ? n[2] : ec_dot(n, c[0])) > 0;
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 
-/* Something that shines: the environment, a light, a material. */
+/* Something that gives light: the environment, a light, a material. */
 typedef struct source {
     char name[EC_GROUP_NAME];
     uint32_t *group;
@@ -16,13 +16,13 @@ typedef struct source {
 typedef struct finder {
     source *sources;
     uint32_t count;
-    char names[EC_GROUPS_MOST][EC_GROUP_NAME]; /* of groups, in the order in which they came */
+    char names[EC_GROUPS_MOST][EC_GROUP_NAME]; /* of groups, in the order of their creation */
     uint32_t groups;
 } finder;
 
 enum { NONE = UINT32_MAX };
 
-/* A name that channels can have: those of EXR files take a dot for the end of a layer. */
+/* Makes a name that channels can have: in EXR files, a dot ends the name of a layer. */
 static void name_source(source *s, const char *name, const char *kind, uint32_t number, uint32_t *group)
 {
     *group = NONE;
@@ -50,7 +50,7 @@ static void list_sources(const ec_scene *scene, ec_light_groups *g, finder *f)
         if (shines(scene, i)) name_source(&f->sources[f->count++], scene->materials[i].name, "material", i, &g->of_material[i]);
 }
 
-/* The group of that name, a new one if need be; NONE: there are too many. */
+/* Returns the group of that name, a new one if needed; NONE: there are too many. */
 static uint32_t group_of(finder *f, const char *name)
 {
     for (uint32_t k = 0; k < f->groups; k++)
@@ -73,7 +73,7 @@ static ec_result too_many(ec_error *err)
     return ec_fail(err, "--light-groups: there can be %d groups at most; put several lights into one, as in key=lamp+sun", EC_GROUPS_MOST);
 }
 
-/* All sources of one name into a group. */
+/* Puts all sources of one name into a group. */
 static ec_result take(finder *f, const char *name, uint32_t group, ec_error *err)
 {
     bool any = false;
@@ -87,7 +87,7 @@ static ec_result take(finder *f, const char *name, uint32_t group, ec_error *err
     return any ? EC_OK : refuse_name(f, name, err);
 }
 
-/* GROUP=NAME+NAME, or a NAME. */
+/* Takes GROUP=NAME+NAME, or a NAME. */
 static ec_result take_entry(finder *f, const char *text, size_t size, ec_error *err)
 {
     char entry[1024], name[EC_GROUP_NAME];
@@ -113,7 +113,7 @@ static ec_result take_entry(finder *f, const char *text, size_t size, ec_error *
 static void take_all(finder *f)
 {
     for (uint32_t i = 0; i < f->count; i++) {
-        const bool is_last = f->groups + 1 == EC_GROUPS_MOST && i + 1 < f->count; /* keeps one for the rest */
+        const bool is_last = f->groups + 1 == EC_GROUPS_MOST && i + 1 < f->count; /* reserves one for the rest */
         if (*f->sources[i].group == NONE) *f->sources[i].group = group_of(f, is_last ? "rest" : f->sources[i].name);
     }
 }
@@ -135,7 +135,7 @@ static ec_result take_list(finder *f, const char *list, ec_error *err)
 
 static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
 
-/* The groups by name; what shines nothing is of the first. */
+/* Sorts the groups by name; what gives no light is assigned to the first. */
 static void settle(finder *f, const ec_scene *scene, ec_light_groups *g)
 {
     uint32_t place[EC_GROUPS_MOST];

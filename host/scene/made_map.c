@@ -1,4 +1,4 @@
-/* Where the texels of an equirectangular map lie, oriented as scene.h says. */
+/* Computes directions and solid angles of an equirectangular map's texels, oriented as scene.h says. */
 #include <math.h>
 
 #include "scene/built_in.h"

@@ -13,14 +13,14 @@ enum { FLOAT_WHOLE = 1 << 24, LABEL = 24 };
 const char *const ec_matte_kind_names[EC_MATTE_KINDS] = {"CryptoObject", "CryptoMaterial", "CryptoAsset"};
 
 typedef struct thing {
-    const char *name;   /* NULL: label is */
+    const char *name;   /* NULL: use label */
     char label[LABEL];
-    bool shown;         /* a triangle is of it */
+    bool shown;         /* a triangle belongs to it */
 } thing;
 
 static const char *name_of(const thing *t) { return t->name && *t->name ? t->name : t->label; }
 
-/* Floats with the bits of the hash must be finite and no denormal ones, which programs may take for 0. */
+/* Hashes a name. The hash's bits must be a finite, normal float, as programs may take denormals for 0. */
 static uint32_t hash_of(const thing *t)
 {
     const uint32_t hash = ec_murmur3(name_of(t), strlen(name_of(t)), 0), exponent = hash >> 23 & 255;
@@ -29,7 +29,7 @@ static uint32_t hash_of(const thing *t)
 
 static int compare(const void *a, const void *b) { return strcmp(name_of(*(const thing *const *)a), name_of(*(const thing *const *)b)); }
 
-/* Each name once, in the order of the alphabet. */
+/* Writes the manifest: each name once, in alphabetical order. */
 static char *write_manifest(const thing *things, uint32_t count)
 {
     uint32_t shown = 0;
@@ -50,7 +50,7 @@ static char *write_manifest(const thing *things, uint32_t count)
     return text;
 }
 
-/* Everything of a kind by its number plus 1. */
+/* Lists all things of a kind, by index plus 1. */
 static void list_nodes(const ec_scene *s, bool roots, thing *things)
 {
     snprintf(things[0].label, LABEL, "ground");
@@ -71,7 +71,7 @@ static void list_materials(const ec_scene *s, thing *things)
     for (uint32_t i = 0; i < s->triangle_count; i++) things[s->triangle_material[i] + 1].shown = true;
 }
 
-/* The key of a kind's attributes is the beginning of its name's hash. */
+/* Makes keys: that of a kind's attributes is the beginning of its name's hash. */
 static void write_keys(ec_matte_names *names, enum ec_matte_kind kind)
 {
     static const char *const fields[EC_MATTE_FIELDS] = {"name", "hash", "conversion", "manifest"};

@@ -1,4 +1,4 @@
-/* The names that Cryptomatte knows things by: of a node or else of its mesh, of a material, and of the node that all of it hangs below. */
+/* Names under which Cryptomatte knows things: of a node (or else its mesh), of a material, and of the root above a node. */
 #ifndef EC_SCENE_MATTE_NAMES_H
 #define EC_SCENE_MATTE_NAMES_H
 
@@ -7,16 +7,16 @@
 
 enum { EC_MATTE_FIELDS = 4, EC_MATTE_FIELD = 32 };
 
-/* Kinds that are asked for have names; others are NULL. All owned. */
+/* Kinds that are not asked for have NULLs. All owned. */
 typedef struct ec_matte_names {
-    uint32_t *hashes[EC_MATTE_KINDS];  /* by number plus 1 of a node, of a material; 0 is what is of no node */
-    char *manifests[EC_MATTE_KINDS];   /* which name has which hash, JSON */
-    char keys[EC_MATTE_KINDS][EC_MATTE_FIELDS][EC_MATTE_FIELD]; /* names of what a file says of it: name, hash, conversion, manifest */
+    uint32_t *hashes[EC_MATTE_KINDS];  /* by index plus 1 of a node or material; entry 0 is for what has no node */
+    char *manifests[EC_MATTE_KINDS];   /* JSON: names and their hashes */
+    char keys[EC_MATTE_KINDS][EC_MATTE_FIELDS][EC_MATTE_FIELD]; /* names of attributes in a file: name, hash, conversion, manifest */
 } ec_matte_names;
 
-extern const char *const ec_matte_kind_names[EC_MATTE_KINDS]; /* as of channels: CryptoObject */
+extern const char *const ec_matte_kind_names[EC_MATTE_KINDS]; /* as in channels: CryptoObject */
 
-/* kinds: a bit for each ec_matte_kind. */
+/* kinds: bits by ec_matte_kind. */
 ec_result ec_matte_names_find(const ec_scene *scene, uint32_t kinds, ec_matte_names *names, ec_error *err);
 void ec_matte_names_free(ec_matte_names *names); /* zero-initialised ones are fine */
 

@@ -1,4 +1,4 @@
-/* The arithmetic of kernels/lib/instance.h, one corner at a time. */
+/* Repeats the arithmetic of kernels/lib/instance.h, one corner at a time. */
 #include "scene/placed.h"
 
 #include <float.h>

@@ -1,5 +1,5 @@
-/* Most meshes are quads cut in two. Neighbours in the list that share an edge are rotated to (p, q, r) and (p, r, s), so that
- * later steps can tell a quad by comparing two vertices. Rotation keeps winding, normals and interpolation as they are. */
+/* Most meshes are quads cut in two. Neighbours in the list that share an edge are rotated to (p, q, r) and (p, r, s), so that later steps recognise a
+ * quad by comparing two vertices. Rotation preserves winding, normals and interpolation. */
 #include <string.h>
 
 #include "scene/validate.h"
@@ -15,14 +15,14 @@ static void rotate(uint32_t *corner, int by)
     for (int k = 0; k < 3; k++) corner[k] = old[(k + by) % 3];
 }
 
-/* Rotates both where edge i -> i + 1 of one is edge j + 1 -> j of the other. */
+/* Rotates both if edge i -> i + 1 of one is edge j + 1 -> j of the other. */
 static bool join(const ec_scene *s, uint32_t *first, uint32_t *second)
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             if (!is_same_point(s, first[i], second[(j + 1) % 3]) || !is_same_point(s, first[(i + 1) % 3], second[j])) continue;
             rotate(first, (i + 1) % 3); /* the shared edge becomes r -> p */
-            rotate(second, j);          /* and here p -> r */
+            rotate(second, j);          /* here it becomes p -> r */
             return true;
         }
     return false;

@@ -1,4 +1,4 @@
-/* The scene as a whole: what it owns. */
+/* Frees what a scene owns. */
 #include "scene/scene.h"
 
 #include <stdlib.h>

@@ -1,6 +1,7 @@
-/* A clear sky: light of the sun scattered once by air and haze (Nishita et al. 1993), what comes after that as if it were alike in all directions
- * (Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique"), whose coefficients these are, in linear Rec. 709.
- * Kilometres; places by their distance r from the Earth's centre, directions by cosines: mu to the zenith, mu_s of the sun's, nu between. */
+/* A clear sky: sunlight scattered once by air and haze (Nishita et al. 1993), and further scattering as if it were isotropic (Hillaire 2020, "A
+ * Scalable and Production Ready Sky and Atmosphere Rendering Technique"), whose coefficients are used, in linear Rec. 709. Units are kilometres;
+ * positions are given by their distance r from the Earth's centre, directions by cosines: mu to the zenith, mu_s of the sun's direction, nu between
+ * the two. */
 #include <math.h>
 #include <string.h>
 
@@ -11,9 +12,9 @@
 #define TOP 6460.0
 #define OBSERVER (GROUND + 0.05)
 #define ALBEDO 0.3        /* of the ground */
-#define SUN_RADIUS 0.0087 /* radians, as wide as a map of 1024 can show it: 1.9 times the sun's own */
+#define SUN_RADIUS 0.0087 /* radians, the smallest that a map 1024 wide can show: 1.9 times the sun's own */
 #define HAZE 0.8          /* g of the phase function */
-/* Irradiance of the sun above the air, white: what makes that below it, with the sky's, pi where the sun is at the zenith. */
+/* Irradiance of the sun above the air, white: it gives, with the sky's, pi on the ground if the sun is at the zenith. */
 #define SUN 3.318
 
 enum { STEPS = 32, SUN_STEPS = 16, HEIGHTS = 12, SUNS = 32, ROWS = 96, COLUMNS = 64 };
@@ -21,7 +22,7 @@ enum { STEPS = 32, SUN_STEPS = 16, HEIGHTS = 12, SUNS = 32, ROWS = 96, COLUMNS =
 static const double air[3] = {0.005802, 0.013558, 0.033100}, ozone[3] = {0.000650, 0.001881, 0.000085};
 static const double haze = 0.003996, haze_absorbs = 0.004400;
 
-/* By height and the sun's elevation there: radiance of light scattered twice or more, for a sun of irradiance 1. */
+/* By height and the sun's elevation: radiance of light scattered twice or more, for a sun of irradiance 1. */
 typedef struct multiple {
     double radiance[HEIGHTS][SUNS][3];
 } multiple;
@@ -38,7 +39,7 @@ static double extinction(const double density[3], int c) { return air[c] * densi
 
 static double at_distance(double r, double mu, double t) { return sqrt(r * r + t * t + 2 * r * t * mu); }
 
-/* Distance to a sphere around the Earth's centre; negative: the ray misses it. */
+/* Returns the distance to a sphere around the Earth's centre; negative: the ray misses it. */
 static double to_sphere(double r, double mu, double radius, bool far_side)
 {
     const double root = radius * radius - r * r * (1 - mu * mu);
@@ -47,7 +48,7 @@ static double to_sphere(double r, double mu, double radius, bool far_side)
 
 static bool meets_ground(double r, double mu) { return mu < 0 && to_sphere(r, mu, GROUND, false) >= 0; }
 
-/* Of the sun's light; steps grow, since air thins. */
+/* Computes the transmittance towards the sun; steps grow, as the air thins. */
 static void transmittance(double r, double mu, double t[3])
 {
     double depth[3] = {0}, density[3];
@@ -73,8 +74,8 @@ static void look_up(const multiple *m, double r, double mu_s, double l[3])
                v * ((1 - u) * m->radiance[i + 1][k][c] + u * m->radiance[i + 1][k + 1][c]);
 }
 
-/* Radiance that comes along a ray from air, and how much of a light that is 1 everywhere would be scattered into it. Without m: scattered once,
- * alike in all directions, and the ground's. */
+/* Integrates along a ray. l: radiance scattered towards the eye; f: how much of a uniform radiance of 1 would be scattered into the ray. With m NULL:
+ * light scattered once, isotropically, and the ground's. */
 static void march(double r, double mu, double mu_s, double nu, const multiple *m, double l[3], double f[3])
 {
     const bool ends = meets_ground(r, mu);
@@ -104,7 +105,7 @@ static void march(double r, double mu, double mu_s, double nu, const multiple *m
     for (int c = 0; c < 3; c++) l[c] += through[c] * sun[c] * sun_there * ALBEDO / PI;
 }
 
-/* The mean over directions; what comes back from it again and again is a geometric series. */
+/* Averages over directions; repeated scattering sums as a geometric series. */
 static void fill_multiple(multiple *m)
 {
     enum { UP = 8, AROUND = 4 };
@@ -122,7 +123,7 @@ static void fill_multiple(multiple *m)
         }
 }
 
-/* The sky by elevation, closer together towards the horizon, and by angle around the zenith from the sun. */
+/* Fills a table of the sky by elevation, denser towards the horizon, and by azimuth from the sun. */
 static void fill_dome(const multiple *m, double mu_s, double dome[ROWS][COLUMNS][3])
 {
 #pragma omp parallel for schedule(dynamic, 1)
@@ -148,7 +149,7 @@ static void add_texel(const ec_made_map *map, uint32_t x, uint32_t y, const doub
     for (int c = 0; c < 3; c++) map->rgb[3 * ((uint64_t)y * map->width + x) + (uint64_t)c] += (float)(SUN * l[c]);
 }
 
-/* As much light as the sun sends, over the texels around it. */
+/* Distributes the sun's light over the texels around it. */
 static void add_sun(const ec_made_map *map, const double sun[3], const double light[3])
 {
     double all = 0;
@@ -183,7 +184,7 @@ void ec_sky_fill(const ec_made_map *map, double azimuth, double elevation)
             ec_made_map_direction(map, x, y, d);
             if (d[1] > 0) look_up_dome(dome, asin(d[1]), fabs(remainder(atan2(d[0], d[2]) - a, 2 * PI)), l);
             for (int c = 0; c < 3 && d[1] > 0; c++) ground[c] += l[c] * d[1] * ec_made_map_solid_angle(map, y);
-            for (int c = 0; c < 3 && d[1] <= 0; c++) l[c] = ground[c] * ALBEDO / PI; /* the upper rows come first */
+            for (int c = 0; c < 3 && d[1] <= 0; c++) l[c] = ground[c] * ALBEDO / PI; /* the upper rows come first, and have filled `ground` */
             add_texel(map, x, y, l);
         }
     add_sun(map, sun, light);

@@ -1,4 +1,4 @@
-/* Vertices and triangles: the arrays that grow with a scene. */
+/* Arrays of vertices and triangles, which grow with a scene. */
 #include "scene/scene.h"
 
 #include <stdlib.h>

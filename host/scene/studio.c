@@ -1,22 +1,22 @@
-/* A photographer's studio: soft boxes in front of grey walls. All of it is grey, so that colours are the subject's. */
+/* A photographer's studio: soft boxes in front of grey walls. It is colourless, so that all colour comes from the subject. */
 #include <math.h>
 
 #include "scene/built_in.h"
 
 #define RADIAN (3.14159265358979323846 / 180)
-#define SOFT 0.06 /* half the width of a box's edge, as its size */
+#define SOFT 0.06 /* half the width of a box's soft edge, in units of its size */
 
-/* A rectangle on the plane at distance 1 before its middle. */
+/* A rectangle on the plane at distance 1 in front of its direction. */
 typedef struct soft_box {
     double azimuth, elevation; /* degrees: from +z towards +x, and up */
     double half_width, half_height, radiance;
 } soft_box;
 
 static const soft_box boxes[] = {
-    {-42, 33, 0.45, 0.40, 9},   /* key, from the left of who looks */
-    {55, 12, 0.60, 0.70, 2.4},  /* fill */
-    {0, 90, 0.50, 0.34, 4},     /* above */
-    {-150, 18, 0.14, 0.70, 11}, /* rims, from behind */
+    {-42, 33, 0.45, 0.40, 9},   /* key light, from the viewer's left */
+    {55, 12, 0.60, 0.70, 2.4},  /* fill light */
+    {0, 90, 0.50, 0.34, 4},     /* top light */
+    {-150, 18, 0.14, 0.70, 11}, /* rim lights, from behind */
     {145, 18, 0.14, 0.70, 11},
 };
 

@@ -1,5 +1,5 @@
-/* Texels of pictures in one piece, as kernels read them. Pictures and the device have them in common: the last one to leave frees them. Threads may
- * keep and leave at once. */
+/* Texels of pictures in one block, as kernels read them. Pictures and the device share them; the last user frees them. ec_texels_keep and _leave are
+ * thread-safe. */
 #ifndef EC_SCENE_TEXELS_H
 #define EC_SCENE_TEXELS_H
 
@@ -9,11 +9,11 @@
 typedef struct ec_texels {
     atomic_uint users;
     uint64_t count;
-    uint32_t *words; /* one a texel, R lowest; and a zero behind the last, as some are read two at a time. As ec_shared_alloc gives them */
+    uint32_t *words; /* one per texel, R lowest, and a zero behind the last, as some are read two at a time. From ec_shared_alloc */
 } ec_texels;
 
-ec_texels *ec_texels_make(uint64_t count); /* for one user, of any values; NULL: there is no memory */
-ec_texels *ec_texels_keep(ec_texels *texels); /* for one more */
+ec_texels *ec_texels_make(uint64_t count); /* for one user, uninitialised; NULL: out of memory */
+ec_texels *ec_texels_keep(ec_texels *texels); /* adds a user */
 void ec_texels_leave(ec_texels *texels); /* NULL is fine */
 
 #endif

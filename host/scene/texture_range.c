@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#define LANES 32 /* values side by side: compilers make a few instructions of them; a multiple of the channels */
+#define LANES 32 /* values side by side, so that compilers vectorise; a multiple of the channels */
 
-/* The range of `count` values: that of lane k in low[k] and high[k]. */
+/* Finds the range of `count` values, for lane k in low[k] and high[k]. */
 #define FIND(type, name)                                                                           \
     static void name(const type *values, size_t count, type low[LANES], type high[LANES])          \
     {                                                                                              \

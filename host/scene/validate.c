@@ -1,4 +1,4 @@
-/* The promises of scene.h, checked. */
+/* Checks the guarantees of scene.h. */
 #include "scene/validate.h"
 #include "base/text.h"
 #include "scene/material_fields.h"

@@ -1,4 +1,4 @@
-/* An instanced scene as triangles alone, corner for corner what rays meet in it. */
+/* Writes out an instanced scene as triangles, corner for corner as rays meet it. */
 #include "scene/scene.h"
 
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static void write_triangles(const ec_scene *s, const ec_placed *p, ec_scene *w)
         for (int k = 0; k < 3; k++) to[k] = from[p->mirrored && k ? 3 - k : k] - shape->first_vertex + w->vertex_count;
         const float *a = w->positions + 3 * (size_t)to[0], *b = w->positions + 3 * (size_t)to[1],
                     *c = w->positions + 3 * (size_t)to[2];
-        if (ec_placed_is_flat(a, b, c)) to[1] = to[2] = to[0]; /* a point: no ray meets it */
+        if (ec_placed_is_flat(a, b, c)) to[1] = to[2] = to[0]; /* a single point: no ray meets it */
         w->triangle_material[w->triangle_count + t] = s->triangle_material[shape->first + t];
     }
 }
@@ -61,7 +61,7 @@ ec_result ec_scene_write_out(const ec_scene *s, ec_scene *w, ec_error *err)
     w->shapes = NULL;
     w->placed = NULL;
     w->shape_count = w->placed_count = 0;
-    /* An accelerator takes more than the triangles themselves: 200 bytes a triangle are a low estimate. */
+    /* 200 bytes per triangle is a low estimate, as an accelerator takes more than the triangles themselves. */
     uint64_t memory = ec_memory_of_machine(), needed = triangles * 200;
     bool fits = triangles <= INT32_MAX && vertices <= INT32_MAX && needed <= memory;
     if (!allocate(s, fits ? vertices + 1 : 0, fits ? triangles + 1 : 0, w) || !fits) {

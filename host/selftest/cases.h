@@ -1,4 +1,4 @@
-/* The building blocks of cases, for host/selftest and for tests written as cases. */
+/* Building blocks of cases, for host/selftest and for tests written as cases. */
 #ifndef EC_SELFTEST_CASES_H
 #define EC_SELFTEST_CASES_H
 
@@ -7,14 +7,14 @@
 typedef struct ec_selftest {
     ec_cl *cl;
     bool full;
-    uint32_t lanes;        /* a width: never 0 */
+    uint32_t lanes;        /* a width, never 0 */
     const struct ec_selftest_case *current;
     ec_selftest_report *report;
-    struct ec_tracer *tracer; /* once a case has asked for it: see tracer.h */
+    struct ec_tracer *tracer; /* set once a case has asked for it: see tracer.h */
 } ec_selftest;
 
-/* Every case: CASE(name, is long, function, what breaks elsewhere where it fails). A case is here if a device or its driver may fail it; short ones
- * together take a few seconds, so that whoever has a new one runs them all. Proofs of formulas and algorithms in the same form are in
+/* All cases: CASE(name, is long, function, what breaks elsewhere if it fails). A case is here if a device or its driver may fail it; the short ones
+ * together take a few seconds, so that everybody with a new device or driver runs them all. Proofs of formulas and algorithms in the same form are in
  * tests/robust (cases.h). */
 #define EC_SELFTEST_CASES(CASE)                                                                                                  \
     CASE("transport/furnace", false, ec_selftest_furnace, "light lost or made at a bounce (Nori's test-furnace)")                \
@@ -45,21 +45,20 @@ typedef struct ec_selftest_case {
     const char *breaks;
 } ec_selftest_case;
 
-/* As ec_selftest_run, for these cases. */
+/* Like ec_selftest_run, for these cases. */
 ec_result ec_selftest_run_cases(ec_cl *cl, const ec_selftest_case *cases, uint32_t count, const ec_selftest_options *options,
                                 ec_selftest_report *report, ec_error *err);
 
-/* Each of these adds a row to the report. `what` follows the case's name; "" where it has only one row. All can only fail for want
- * of memory. */
+/* Each of these adds a row to the report. `what` follows the case's name; "" if it has only one row. They fail only for lack of memory. */
 
-/* A value. noise: its standard error, 0 for none; tolerance: absolute. */
+/* Compares a value. noise: its standard error, 0 for none; tolerance: absolute. */
 ec_result ec_selftest_value(ec_selftest *t, const char *what, double expected, double measured, double noise, double tolerance,
                             ec_error *err);
-/* The largest relative error of many values: expected 0. note (may be NULL): where it is. */
+/* Compares the largest relative error of many values with 0. note (may be NULL): where it is. */
 ec_result ec_selftest_largest(ec_selftest *t, const char *what, double error, double tolerance, const char *note, ec_error *err);
-/* How many of so many are wrong: expected 0. Digits: -log10 of the share, were one wrong. */
+/* Compares the number of wrong values with 0. Digits: -log10 of the share if one were wrong. */
 ec_result ec_selftest_none(ec_selftest *t, const char *what, uint64_t wrong, uint64_t of, const char *note, ec_error *err);
-/* The case could not be run. */
+/* Records that the case could not be run. */
 ec_result ec_selftest_broken(ec_selftest *t, const char *why, ec_error *err);
 
 #endif

@@ -1,4 +1,4 @@
-/* Glass in small pictures whose radiance is known. */
+/* Renders glass in small pictures whose radiance is known. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static void sheet(ec_model *m, double z, double radiance)
     ec_model_quad(m, ec_model_material(m, &lambert), (double[3]){-90, -90, z}, (double[3]){180, 0, 0}, (double[3]){0, 180, 0});
 }
 
-/* A slab 0.4 thick, seen head-on; behind it a lamp of 1, or black and light from everywhere else. */
+/* A slab 0.4 thick, seen head-on. Behind it is a lamp of radiance 1, or black with light from everywhere else. */
 static ec_result slab(ec_selftest *t, const char *what, ec_material material, bool lamp, double expected, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -32,7 +32,7 @@ static ec_result slab(ec_selftest *t, const char *what, ec_material material, bo
     return ec_shot_only_row(t, what, scene, &o, expected, err);
 }
 
-/* Light goes to and fro between the faces: R = 2 F / (1 + F), T = 1 - R. Index 1 reflects nothing and is not seen. */
+/* Light is reflected to and fro between the faces: R = 2 F / (1 + F), T = 1 - R. Index 1 reflects nothing and is invisible. */
 ec_result ec_selftest_slabs(ec_selftest *t, ec_error *err)
 {
     double F = 0.04, R = 2 * F / (1 + F), sigma = 2;
@@ -40,12 +40,12 @@ ec_result ec_selftest_slabs(ec_selftest *t, ec_error *err)
     EC_TRY(slab(t, "passes", ec_material_glass(1.5, 0, 0), true, 1 - R, err));
     EC_TRY(slab(t, "index 1, absorbs", ec_material_glass(1, 0, sigma), true, exp(-sigma * 0.4), err));
     EC_TRY(slab(t, "index 1, passes", ec_material_glass(1, 0, 0), true, 1, err));
-    EC_TRY(slab(t, "index 1, absorbs all", ec_material_glass(1, 0, 1e30), true, 0, err)); /* attenuation distance 0; the row above: infinite */
+    EC_TRY(slab(t, "index 1, absorbs all", ec_material_glass(1, 0, 1e30), true, 0, err)); /* attenuation distance 0; in the row above, infinite */
     return slab(t, "index 1 + 1e-6, passes", ec_material_glass(1 + 1e-6, 0, 0), true, 1, err);
 }
 
-/* Renders m in white light from everywhere, where the picture is white and without noise if no light is lost. Paths end by max_depth alone: what is
- * missing then is lost, or still inside after so many segments. */
+/* Renders m in white light from everywhere, where the picture is white and without noise if no light is lost. Paths end only by max_depth: missing
+ * light was lost, or is still inside after that many segments. */
 static ec_result white_row(ec_selftest *t, ec_model *m, uint32_t max_depth, ec_error *err)
 {
     ec_scene *scene;
@@ -68,7 +68,7 @@ ec_result ec_selftest_nested_glass(ec_selftest *t, ec_error *err)
     return white_row(t, m, 1000, err);
 }
 
-/* Nor does milk lose any that absorbs nothing: hundreds of events, and total reflection from inside. */
+/* Milk that absorbs nothing loses no light either, in spite of hundreds of events and total internal reflection. */
 ec_result ec_selftest_milk(ec_selftest *t, ec_error *err)
 {
     ec_model *m = ec_model_new();

@@ -4,7 +4,7 @@
 #include "gltf/model.h"
 #include "selftest/shot.h"
 
-/* Looks down on a white floor of 2 half x 2 half, at a square of 2 size x 2 size about the origin. */
+/* Looks down on a white floor of 2 half x 2 half, at a square of 2 size x 2 size around the origin. */
 static ec_model *floor_model(double half, double size)
 {
     ec_model *m = ec_model_new();
@@ -27,7 +27,7 @@ ec_result ec_selftest_facing_squares(ec_selftest *t, ec_error *err)
     return ec_shot_only_row(t, "", scene, &o, 0.19982489, err);
 }
 
-/* Punctual lights have no noise: floor radiance E / pi. */
+/* Punctual lights have no noise: the floor's radiance is E / pi. */
 ec_result ec_selftest_punctual(ec_selftest *t, ec_error *err)
 {
     static const char *const names[] = {"point", "spot", "directional"};
@@ -42,7 +42,7 @@ ec_result ec_selftest_punctual(ec_selftest *t, ec_error *err)
         ec_result result = ec_shot_take(t, scene, &o, &shot, err);
         ec_scene_free(scene);
         EC_TRY(result);
-        /* 3 W/sr at distance 2, or 3 W/m^2, at cos 0.8; some twenty operations, and the camera sees 1e-6 around. */
+        /* 3 W/sr at distance 2, or 3 W/m^2, at cos 0.8; some twenty operations, and the camera's field of view changes it by 1e-6. */
         double expected = 3 * 0.8 / 3.14159265358979323846 / (i == EC_LIGHT_DIRECTIONAL ? 1 : 4);
         result = ec_selftest_value(t, names[i], expected, shot.mean, shot.noise, expected * (20 * 0x1p-24 + 2e-6), err);
         ec_shot_free(&shot);
@@ -51,8 +51,8 @@ ec_result ec_selftest_punctual(ec_selftest *t, ec_error *err)
     return EC_OK;
 }
 
-/* A camera that sees nothing but a lamp: every sample is its radiance. They are summed in float batch by batch, batches averaged in float in
- * groups (film/parts.h). */
+/* A camera that sees only a lamp: every sample is its radiance. Samples are summed in float batch by batch, and batches averaged in float in groups
+ * (film/parts.h). */
 ec_result ec_selftest_sums(ec_selftest *t, ec_error *err)
 {
     ec_scene *scene;

@@ -1,11 +1,11 @@
-/* Properties of a device's float arithmetic that the renderer relies on. */
+/* Properties of a device's float arithmetic on which the renderer relies. */
 #include <math.h>
 
 #include "selftest/numbers_run.h"
 
 static const double u = 0x1p-24;
 
-/* In ulps of the exact value. */
+/* Returns the error in ulps of the exact value. */
 static double ulps_off(float got, double exact)
 {
     int exponent;
@@ -13,8 +13,8 @@ static double ulps_off(float got, double exact)
     return exact == 0 ? (got == 0 ? 0 : INFINITY) : fabs((double)got - exact) / ldexp(1, exponent - 24);
 }
 
-/* Rounded once where the device says so: half an ulp, from which double is off by 2^-29 of one. OpenCL 1.2 asks for 2.5 and 3. Sum
- * and fma are rounded once on every device; a b - c is rounded twice, or edges of triangles do not meet. */
+/* Operations are rounded once if the device says so: half an ulp, from which double differs by 2^-29 of one; otherwise OpenCL 1.2 allows 2.5 and 3
+ * ulps. Sum and fma are rounded once on every device; a b - c must be rounded twice, or edges of triangles do not meet. */
 ec_result ec_selftest_arithmetic(ec_selftest *t, ec_error *err)
 {
     bool exact = t->cl->info.correctly_rounded_divide_sqrt;
@@ -30,7 +30,7 @@ ec_result ec_selftest_arithmetic(ec_selftest *t, ec_error *err)
     for (uint32_t i = 0; i < EC_NUMBERS_N; i++) {
         run.a[i] = fabsf(ec_any_float(&random));
         run.b[i] = ec_any_float(&random);
-        run.c[i] = run.a[i] * run.b[i]; /* rounded: what fma leaves of the product is what was lost */
+        run.c[i] = run.a[i] * run.b[i]; /* rounded: fma then gives what rounding took from the product */
     }
     ec_result result = EC_OK;
     for (int r = 0; r < 5 && result == EC_OK; r++) {
@@ -42,15 +42,15 @@ ec_result ec_selftest_arithmetic(ec_selftest *t, ec_error *err)
             double off = ulps_off(run.out[i], want);
             if (!(off <= worst)) worst = off;
         }
-        /* the error in ulps, as one of a value near 1 */
+        /* the error in ulps, expressed as that of a value near 1 */
         result = ec_selftest_largest(t, rows[r].name, worst * 2 * u, (rows[r].most + 1e-6) * 2 * u, NULL, err);
     }
     ec_numbers_close(&run);
     return result;
 }
 
-/* NaN and infinity are recognised by their bits, and no comparison holds with NaN but !=: a compiler that takes finiteness for granted drops
- * both. Denormals may count as zero, and as nothing else. */
+/* NaN and infinity are recognised by their bits, and only != holds with NaN: a compiler that assumes finite values drops both tests. Denormals may
+ * count as zero, and as nothing else. */
 ec_result ec_selftest_not_finite(ec_selftest *t, ec_error *err)
 {
     static const uint32_t bits[] = {0x7f800000, 0xff800000, 0x7fc00000, 0xffc00000, 0x7f800001, 0xff800001, 0x7fffffff, 0xffffffff,

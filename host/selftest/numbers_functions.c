@@ -1,4 +1,4 @@
-/* The renderer's own functions of numbers, against double. */
+/* The renderer's own numerical functions, compared with double. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,7 +9,7 @@ static const double u = 0x1p-24, pi = 3.14159265358979323846;
 typedef struct function {
     const char *name;
     int function;
-    double tolerance; /* of 1 + |value| where it is absolute, else of the value */
+    double tolerance; /* relative to 1 + |value| if absolute, otherwise to the value */
     bool relative;
     void (*draw)(uint64_t *random, uint32_t i, float *a, float *b);
     double (*exact)(double a, double b);
@@ -42,7 +42,7 @@ static double exact_exp(double a, double b) { return (void)b, exp(a); }
 static double exact_log(double a, double b) { return (void)b, log(a); }
 static double exact_atan2(double a, double b) { return atan2(a, b) / (2 * pi); }
 
-/* The errors that kernels/lib/elementary.h states for its polynomials; of turns, 2.5e-8 of an eighth and three roundings. */
+/* Tolerances are the errors that kernels/lib/elementary.h states for its polynomials; for turns, 2.5e-8 of an eighth and three roundings. */
 ec_result ec_selftest_functions(ec_selftest *t, ec_error *err)
 {
     const function functions[] = {

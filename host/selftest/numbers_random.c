@@ -1,8 +1,8 @@
-/* Random numbers: the same on every device. */
+/* Random numbers must be the same on every device. */
 #include "selftest/numbers_run.h"
 
-/* Owen-scrambled Sobol points, written as in the papers and not as in kernels/lib/sampler.h: bits are reversed one by one, and the
- * second dimension comes from its direction numbers v(k + 1) = v(k) ^ v(k) >> 1. */
+/* Owen-scrambled Sobol points, written as in the papers rather than as in kernels/lib/sampler.h: bits are reversed one by one, and the second
+ * dimension comes from its direction numbers v(k + 1) = v(k) ^ v(k) >> 1. */
 static uint32_t mixed(uint32_t x)
 {
     x = (x ^ x >> 16) * 0x21f0aaadu;

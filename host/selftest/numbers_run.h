@@ -1,4 +1,4 @@
-/* Functions of numbers on the device, over arrays. Inside host/selftest only. */
+/* Evaluates numerical functions on the device, over arrays. Inside host/selftest only. */
 #ifndef EC_SELFTEST_NUMBERS_RUN_H
 #define EC_SELFTEST_NUMBERS_RUN_H
 
@@ -14,15 +14,15 @@ typedef struct ec_numbers_run {
     float *a, *b, *c, *out; /* EC_NUMBERS_N each */
 } ec_numbers_run;
 
-ec_result ec_numbers_open(ec_selftest *t, ec_numbers_run *run, ec_error *err); /* on failure nothing is left to close */
+ec_result ec_numbers_open(ec_selftest *t, ec_numbers_run *run, ec_error *err); /* on failure there is nothing to close */
 void ec_numbers_close(ec_numbers_run *run);
-/* out = function(a, b, c), an ec_numbers_function. */
+/* Computes out = function(a, b, c); function: an ec_numbers_function. */
 ec_result ec_numbers_go(ec_selftest *t, ec_numbers_run *run, uint32_t function, ec_error *err);
-/* Pairs of random integers of `index` and `pixel`, n of either. */
+/* Computes pairs of random integers for n values of `index` and `pixel`. */
 ec_result ec_numbers_random(ec_selftest *t, ec_numbers_run *run, uint32_t seed, const uint32_t *pixel,
                             const uint32_t *index, uint32_t pair, uint32_t *pairs, ec_error *err);
 
-/* A float of any size that leaves products, quotients and what rounding takes from them normal. */
+/* Returns a float of random size for which products, quotients and their rounding errors are normal. */
 static inline float ec_any_float(uint64_t *random)
 {
     uint32_t bits = (uint32_t)ec_random_bits(random);

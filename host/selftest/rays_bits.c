@@ -1,4 +1,4 @@
-/* How a picture is computed must not show in it: every lane width and accelerator gives the same bits. */
+/* The way of computing a picture must not show in it: every lane width and accelerator gives the same bits. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,8 +8,8 @@
 
 enum { SIZE = 16, NUMBERS = 3 * SIZE * SIZE };
 
-/* A floor, a lamp, and a smooth ball that stands turned, mirrored, sheared and in itself: one mesh, which one
- * accelerator keeps and the others have written out. */
+/* A floor, a lamp, and a smooth ball in four places: turned, mirrored, sheared, and overlapping another. One accelerator keeps the mesh once, for the
+ * others it is written out. */
 static ec_result balls(ec_scene **scene, ec_error *err)
 {
     static const double places[4][16] = {{0.3, 0, 0.4, 0, 0, 0.5, 0, 0, -0.4, 0, 0.3, 0, -0.8, 0.5, 0, 1},
@@ -45,7 +45,7 @@ static ec_result compare(ec_selftest *t, const ec_scene *scene, const ec_render_
     return EC_OK;
 }
 
-/* The balls as the defaults and the kernels that most cases share show them, then in other ways, by kernels for what they need: that must not
+/* Renders the balls with the defaults and the kernels that most cases share, then in other ways, with kernels for the effects needed, which must not
  * show either. lanes, accels: NULL keeps the default. */
 static ec_result same_balls(ec_selftest *t, const uint32_t *lanes, const char *const *accels, uint32_t count, ec_error *err)
 {

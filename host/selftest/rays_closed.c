@@ -5,8 +5,8 @@
 #include "base/random.h"
 #include "selftest/tracer.h"
 
-/* A point within a ball of ec_soup_ball: one of its surface, moved towards the middle; or, near a target, across its longest axis only,
- * unless that leaves it within 2 % of the ball's thickness of where it was. */
+/* Chooses a point within a ball of ec_soup_ball: a point of its surface moved towards the centre; or, near a target, moved only across its longest
+ * axis, unless that moves it by less than 2 % of the ball's thickness. */
 static void put_origin(const double surface[3], double in, bool near, const double centre[3], const double stretch[3], float o[3])
 {
     double longest = fmax(stretch[0], fmax(stretch[1], stretch[2])),
@@ -35,7 +35,7 @@ void ec_rays_within(ec_tracer *r, uint64_t *random, const double centre[3], cons
         put_origin(surface, in, i % 3 == 2, centre, stretch, o);
         for (int k = 0; k < 3; k++) at[k] = o[k];
         ec_float_direction(at, target, d);
-        if (i % 13 == 0) /* from the same height as a vertex, in two axes at once */
+        if (i % 13 == 0) /* at the same height as a vertex, in two axes at once */
             for (int k = 0; k < 3; k++) {
                 int axis = (int)(i / 13 % 3);
                 if (k != axis) o[k] = i % 2 ? (float)centre[k] : (float)(centre[k] + 0.5 * (v[k] - centre[k]));
@@ -52,9 +52,9 @@ typedef struct shape {
     double bumps, stretch[3], centre[3];
     bool is_long;
 } shape;
-/* Along a needle the rounding of a hit's weights, u (length / width)^2, gives a t that is short against its length any sign: without
- * edges_settle one ray in 900 leaves the needles. At 1e-7 one in 6000 does with it: what is nearer along the ray than 8 u of a triangle's
- * depth is not met. */
+/* Along a needle the rounding of a hit's weights, u (length / width)^2, makes a t that is short compared with its length have any sign: without
+ * edges_settle one ray in 900 leaves the needles. At 1e-7 one in 6000 does with it: nothing nearer along the ray than 8 u of a triangle's depth is
+ * met. */
 static const shape shapes[] = {
     {"icosphere", 4, 0, {1, 1, 1}, {0, 0, 0}, false},
     {"spindle of slivers", 4, 0, {1e-3, 1e-3, 1}, {0, 0, 0}, false},
@@ -66,7 +66,7 @@ static const shape shapes[] = {
     {"icosphere far away", 4, 0, {1, 1, 1}, {700, -300, 1.0 / 3}, true},
 };
 
-/* Moeller and Trumbore's test misses 9 % of rays aimed at vertices of a closed mesh, 11 % of those at edges. */
+/* Moeller and Trumbore's test misses 9 % of the rays aimed at vertices of a closed mesh, and 11 % of those aimed at edges. */
 ec_result ec_selftest_watertight(ec_selftest *t, ec_error *err)
 {
     enum { COUNT = sizeof shapes / sizeof shapes[0], LONG_RUNS = 96 }; /* 10^8 rays in all */

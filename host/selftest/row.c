@@ -1,4 +1,4 @@
-/* Rows of the report. */
+/* Adds rows to the report. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,10 +6,10 @@
 
 #include "selftest/cases.h"
 
-/* How many digits a relative error leaves. */
+/* Returns how many digits a relative error leaves. */
 static double digits_of(double relative)
 {
-    if (!(relative < 1)) return 0; /* NaN too */
+    if (!(relative < 1)) return 0; /* also for NaN */
     return fmin(-log10(relative), EC_SELFTEST_DIGITS);
 }
 
@@ -20,7 +20,7 @@ static ec_result add(ec_selftest *t, const char *what, ec_selftest_row row, cons
     if (!grown) return ec_fail(err, "out of memory for the report");
     r->rows = grown;
     row.breaks = t->current->breaks;
-    row.pass = fabs(row.measured - row.expected) <= row.tolerance; /* not where it is NaN */
+    row.pass = fabs(row.measured - row.expected) <= row.tolerance; /* false for NaN */
     snprintf(row.name, sizeof row.name, "%s%s%s", t->current->name, *what ? " " : "", what);
     snprintf(row.note, sizeof row.note, "%s", note ? note : "");
     r->rows[r->count++] = row;

@@ -7,7 +7,7 @@
 #include "gltf/model.h"
 #include "shared/features.h"
 
-/* The effects that most cases need. Textures, coverage and further lobes are left out: kernels with all effects take PoCL 20 s to build. */
+/* Effects that most cases need. Textures, coverage and further lobes are left out: PoCL takes 20 s to build kernels with all effects. */
 #define EC_SHOT_EFFECTS                                                                                                          \
     (EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | \
      EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION |      \

@@ -42,7 +42,7 @@ ec_result ec_soup_ball(int levels, double bumps, const double stretch[3], const 
     ec_result result = ec_soup_from_scene(scene, soup, err);
     ec_scene_free(scene);
     EC_TRY(result);
-    /* Equal corners stay equal, so it stays closed. */
+    /* Equal corners stay equal, so the ball stays closed. */
     for (size_t i = 0; i < 3 * (size_t)soup->count; i++) {
         float *p = soup->vertices + 3 * i;
         double radius = 1 + bumps * (sin(9.0 * p[0]) * sin(7.0 * p[1] + 1) + sin(31.0 * p[2]) * cos(23.0 * p[0] + 40.0 * p[1])) / 2;

@@ -1,4 +1,4 @@
-/* An environment map most of whose light comes from next to nowhere. */
+/* Renders an environment map most of whose light comes from almost a single point. */
 #include "selftest/sun.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The tent spans two texels each way. Its longitude integrates to one texel; that of its latitude by Simpson's rule over each half. */
+/* The tent spans two texels in each direction. Its longitude integrates to one texel; its latitude by Simpson's rule over each half. */
 double ec_sun_irradiance(uint32_t width, uint32_t height, uint32_t y)
 {
     double step = pi / height, sum = 0;
@@ -42,7 +42,7 @@ ec_result ec_sun_row(ec_selftest *t, const char *what, const ec_sun_map *map, do
     return result;
 }
 
-/* All of the irradiance divided by pi, since the floor is white. */
+/* The floor is white, so its radiance is the irradiance divided by pi. */
 ec_result ec_selftest_sun(ec_selftest *t, ec_error *err)
 {
     const uint32_t width = t->full ? 4096 : 512, height = width / 2, y = height / 5;

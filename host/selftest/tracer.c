@@ -67,7 +67,7 @@ void ec_tracer_close(ec_tracer *r)
 ec_result ec_tracer_build(ec_tracer *r, const ec_soup *soup, ec_error *err)
 {
     free_accels(r);
-    memset(r->hits, 0, (size_t)EC_HIT_PROBE_FIELDS * EC_TRACER_RAYS * sizeof *r->hits); /* no triangle of another soup stays */
+    memset(r->hits, 0, (size_t)EC_HIT_PROBE_FIELDS * EC_TRACER_RAYS * sizeof *r->hits); /* no triangle of another soup remains */
     r->soup = soup;
     r->largest = ec_soup_largest(soup);
     EC_FREED uint32_t *indices = malloc((3 * (size_t)soup->count + 1) * sizeof *indices);
@@ -101,7 +101,7 @@ void ec_tracer_given(const ec_tracer *r, uint32_t i, float o[3], float d[3])
     }
 }
 
-enum { BUFFERS_AT = 10, ARGUMENTS = 27 }; /* of traverse_NAME's kernel: the structure's buffers; what follows them is not read here */
+enum { BUFFERS_AT = 10, ARGUMENTS = 27 }; /* positions in traverse_NAME's kernel: the structure's buffers; arguments behind them are not used here */
 
 ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *err)
 {

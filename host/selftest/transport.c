@@ -1,4 +1,4 @@
-/* Scenes whose radiance is known without rendering: energy is neither lost nor made, however long a path. */
+/* Scenes whose radiance is known without rendering: energy is neither lost nor created, however long a path. */
 #include <math.h>
 #include <stdio.h>
 
@@ -26,7 +26,7 @@ ec_result ec_selftest_furnace(ec_selftest *t, ec_error *err)
     return EC_OK;
 }
 
-/* GGX of reflectance 1 scatters once: its directional albedo under light from everywhere, by quadrature. */
+/* GGX of reflectance 1 scatters once: the expected values are its directional albedo under uniform light, by quadrature. */
 ec_result ec_selftest_metal(ec_selftest *t, ec_error *err)
 {
     static const double alphas[] = {0.1, 0.5, 1}, cosines[] = {1, 0.5, 0.1};
@@ -52,7 +52,7 @@ ec_result ec_selftest_metal(ec_selftest *t, ec_error *err)
             o.camera = (uint32_t)c;
             snprintf(what, sizeof what, "alpha %g, cos %g", alphas[a], cosines[c]);
             if ((result = ec_shot_take(t, scene, &o, &shot, err)) != EC_OK) break;
-            /* the table's last digit, and four standard errors */
+            /* the table's last digit, plus four standard errors */
             result = ec_selftest_value(t, what, albedo[a][c], shot.mean, shot.noise, 1e-5 + fmin(4 * shot.noise, 0.01), err);
             ec_shot_free(&shot);
         }

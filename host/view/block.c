@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#define MARGIN 0.6 /* of a line's height, all around */
+#define MARGIN 0.6 /* of a line's height, on all sides */
 
 static double margin(const ec_view_block *b) { return b->text->size * MARGIN; }
 
@@ -16,7 +16,7 @@ void ec_block_start(ec_view_block *b, const ec_view_text *text, double width, do
     b->most = (uint32_t)fmin(fmax(rows, 0), EC_BLOCK_ROWS);
 }
 
-/* How much of a text goes into a row: to its last space, if that is not too far back. */
+/* Returns how many characters of a text go into a row: up to its last space, if that is not too far back. */
 static size_t take(const char *text, size_t columns)
 {
     size_t length = strnlen(text, columns);

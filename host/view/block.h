@@ -1,4 +1,4 @@
-/* Rows of text that fit a width, on a dark veil. */
+/* A block of rows of text that fit a width, on a translucent dark rectangle. */
 #ifndef EC_VIEW_BLOCK_H
 #define EC_VIEW_BLOCK_H
 
@@ -11,7 +11,7 @@
 enum { EC_BLOCK_ROWS = 64, EC_BLOCK_COLUMNS = 255 };
 typedef struct ec_view_block {
     const ec_view_text *text;
-    size_t columns;           /* that there is room for */
+    size_t columns;           /* that fit into the width */
     uint32_t count, most;     /* rows */
     struct {
         char line[EC_BLOCK_COLUMNS + 1];
@@ -19,17 +19,17 @@ typedef struct ec_view_block {
     } row[EC_BLOCK_ROWS];
 } ec_view_block;
 
-/* Empty; for so many pixels of width and height, margins included. */
+/* Starts an empty block for a width and height in pixels, including margins. */
 void ec_block_start(ec_view_block *block, const ec_view_text *text, double width, double height);
 
-/* Goes on in the next row where it is too long, indented by `indent` characters. false: no row was left for the end of it. */
+/* Adds a line, continued in further rows if it is too long, indented by `indent` characters. Returns false if there are not enough rows. */
 bool ec_block_add(ec_view_block *block, const char *line, size_t indent, const float rgb[3]);
 
-/* With its margins, in pixels. */
+/* Size in pixels, including margins. */
 double ec_block_height(const ec_view_block *block);
 double ec_block_width(const ec_view_block *block);
 
-/* Its top left corner there; the veil reaches to x1. */
+/* Draws it with its top left corner at (x, top); its background reaches to x1. */
 void ec_block_draw(const ec_view_block *block, double x, double top, double x1);
 
 #endif

@@ -1,4 +1,4 @@
-/* Keys and mouse of the window. */
+/* Handles keys and mouse of the window. */
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <ctype.h>
@@ -7,13 +7,13 @@
 
 #include "view/window.h"
 
-#define TAP 0.3     /* seconds: S that is down longer than this flies */
-#define WHEEL (log(0.9) / 3) /* heights of the picture that a click of the wheel drags: a tenth nearer */
-#define CLICK 4     /* pixels: a drag that goes no further selects */
+#define TAP 0.3     /* seconds: holding S longer than this flies */
+#define WHEEL (log(0.9) / 3) /* drag, in heights of the picture, for a click of the wheel: a tenth nearer */
+#define CLICK 4     /* pixels: a shorter drag is a click, which selects */
 
 static ec_window *of(GLFWwindow *glfw) { return glfwGetWindowUserPointer(glfw); }
 
-/* The picture's, under the cursor; UINT32_MAX: none. */
+/* Finds the pixel of the picture under the cursor; UINT32_MAX: none. */
 static void find_pixel(const ec_window *w, uint32_t *px, uint32_t *py)
 {
     const eclat_wish *wish = &w->input.wish;
@@ -21,7 +21,7 @@ static void find_pixel(const ec_window *w, uint32_t *px, uint32_t *py)
     glfwGetFramebufferSize(w->glfw, &width, &height);
     double x = w->cursor_x * wish->width / fmax(width, 1), y = w->cursor_y * wish->height / fmax(height, 1),
            half = 0.5 * wish->width;
-    if (w->input.layout == EC_LAYOUT_BESIDE) x = 2 * (x < half ? x : x - half), y = 2 * y - 0.5 * wish->height; /* window.c has them so */
+    if (w->input.layout == EC_LAYOUT_BESIDE) x = 2 * (x < half ? x : x - half), y = 2 * y - 0.5 * wish->height; /* as drawn in window.c */
     bool inside = w->points && x >= 0 && y >= 0 && x < wish->width && y < wish->height;
     *px = inside ? (uint32_t)x : UINT32_MAX;
     *py = inside ? (uint32_t)y : UINT32_MAX;
@@ -53,7 +53,7 @@ void ec_window_point(ec_window *w)
 {
     double at_x, at_y;
     glfwGetCursorPos(w->glfw, &at_x, &at_y);
-    bool at_corner = at_x == 0 && at_y == 0 && glfwGetWindowAttrib(w->glfw, GLFW_HOVERED); /* of which GLFW's X11 tells nobody */
+    bool at_corner = at_x == 0 && at_y == 0 && glfwGetWindowAttrib(w->glfw, GLFW_HOVERED); /* which GLFW does not report under X11 */
     if (at_corner && (w->cursor_x != 0 || w->cursor_y != 0 || !w->points)) on_cursor(w->glfw, 0, 0);
     find_pixel(w, &w->input.wish.x, &w->input.wish.y);
 }
@@ -80,11 +80,11 @@ static void on_scroll(GLFWwindow *glfw, double x, double y)
 {
     ec_window *w = of(glfw);
     (void)x;
-    if (w->input.facts.serial && y != 0) ec_view_input_drag(&w->input, EC_DRAG_DOLLY, 0, y * WHEEL); /* sideways it does nothing */
+    if (w->input.facts.serial && y != 0) ec_view_input_drag(&w->input, EC_DRAG_DOLLY, 0, y * WHEEL); /* horizontal scrolling does nothing */
     w->dirty = true;
 }
 
-/* Characters, so that every keyboard layout has them where they are printed. */
+/* Takes characters, so that keys are found where each keyboard layout prints them. */
 static void on_char(GLFWwindow *glfw, unsigned code)
 {
     ec_window *w = of(glfw);
@@ -95,7 +95,8 @@ static void on_char(GLFWwindow *glfw, unsigned code)
     ec_view_input_key(&w->input, name);
 }
 
-/* The small Latin letter on a key; 0: none. Where a keyboard has other letters, the one at its place on a US keyboard: *is_other. */
+/* Returns the small Latin letter of a key; 0: none. On keyboards with other letters, *is_other is set, and the letter is the one at that place on a
+ * US keyboard. */
 static char letter_of(int key, int scancode, bool *is_other)
 {
     const char *label = glfwGetKeyName(key, scancode);
@@ -120,7 +121,7 @@ static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int mods
         const char *name;
     } named[] = {{GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_TAB, "Tab"}, {GLFW_KEY_F5, "F5"}, {GLFW_KEY_F11, "F11"}};
     bool is_other;
-    if (action == GLFW_PRESS && (mods & GLFW_MOD_SUPER)) return; /* the desktop's */
+    if (action == GLFW_PRESS && (mods & GLFW_MOD_SUPER)) return; /* belongs to the desktop */
     char letter = letter_of(key, scancode, &is_other);
     bool is_s = letter == 's';
     hold(w, letter, action);
@@ -163,7 +164,7 @@ static void on_framebuffer(GLFWwindow *glfw, int width, int height)
 {
     ec_window *w = of(glfw);
     w->dirty = true;
-    if (width <= 0 || height <= 0) return; /* minimised, on some systems */
+    if (width <= 0 || height <= 0) return; /* some systems report this when minimised */
     ec_window_fit(w, width, height);
 }
 

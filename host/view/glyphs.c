@@ -14,7 +14,7 @@
 
 #include "view/view.h"
 
-extern const unsigned char ec_bytes_font[]; /* tools/embed_bytes.py */
+extern const unsigned char ec_bytes_font[]; /* made by tools/embed_bytes.py */
 
 enum { FIRST = 32, COUNT = 95, ATLAS_MOST = 2048 };
 
@@ -83,7 +83,7 @@ void ec_view_text_draw(const ec_view_text *t, double x, double y, double right, 
     glBegin(GL_QUADS);
     for (const unsigned char *c = (const unsigned char *)line; *c && (double)pen + t->advance <= right; c++) {
         stbtt_aligned_quad q;
-        if ((*c & 0xc0) == 0x80) continue; /* the rest of a UTF-8 character */
+        if ((*c & 0xc0) == 0x80) continue; /* continuation byte of a UTF-8 character */
         int glyph = *c >= FIRST && *c < FIRST + COUNT ? *c - FIRST : '?' - FIRST;
         stbtt_GetPackedQuad(t->glyphs->packed, t->glyphs->atlas, t->glyphs->atlas, glyph, &pen, &down, &q, 1);
         glTexCoord2f(q.s0, q.t0), glVertex2d((double)q.x0, base - (double)q.y0);

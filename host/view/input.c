@@ -14,7 +14,7 @@ static const eclat_viewpoint *scene_camera(const ec_view_input *in)
     return &f->cameras[in->wish.camera < 0 ? f->camera : (uint32_t)in->wish.camera];
 }
 
-/* A camera that nobody moved stays where it was too, whatever the file says now. */
+/* Keeps the camera where it was, even if it was not moved, whatever the file says now. */
 void ec_view_input_learn(ec_view_input *in, const eclat_facts *facts)
 {
     eclat_wish *w = &in->wish;
@@ -26,7 +26,7 @@ void ec_view_input_learn(ec_view_input *in, const eclat_facts *facts)
     in->selected.node = -1;
 }
 
-/* From here on the camera is the window's own. */
+/* Returns the viewpoint; from here on the camera is the window's own. */
 static eclat_viewpoint *take_camera(ec_view_input *in)
 {
     eclat_wish *w = &in->wish;
@@ -36,7 +36,8 @@ static eclat_viewpoint *take_camera(ec_view_input *in)
 
 static void moved(ec_view_input *in) { in->wish.is_moved = in->wish.is_moving = in->moved = true; }
 
-/* In radii of the scene, as far as floats tell eye and target apart and the scene from a point; from beyond it goes only back. */
+/* Multiplies the distance, within limits relative to the scene's radius where floats can tell eye and target apart, and the scene from a point; from
+ * beyond them it only moves back. */
 static void dolly(ec_view_input *in, double factor)
 {
     const double least = 1e-6 * in->facts.radius, most = 1e4 * in->facts.radius;
@@ -95,7 +96,7 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
 {
     eclat_wish *w = &in->wish;
     bool of_scene = action == EC_DO_CAMERA || action == EC_DO_FRAME || action == EC_DO_RESET;
-    if (of_scene && !in->facts.serial) return; /* it is being loaded; all else is for it to be seen so */
+    if (of_scene && !in->facts.serial) return; /* the scene is being loaded; other actions apply to it once it is shown */
     switch (action) {
     case EC_DO_NOTHING: break;
     case EC_DO_HELP: in->help = !in->help, in->effects = false; break;
@@ -129,7 +130,7 @@ void ec_view_input_do(ec_view_input *in, ec_view_action action)
 void ec_view_input_drag(ec_view_input *in, ec_view_drag drag, double dx, double dy)
 {
     eclat_viewpoint *v = take_camera(in);
-    switch (drag) { /* what is under the hand follows it */
+    switch (drag) { /* the picture follows the mouse */
     case EC_DRAG_ORBIT: ec_orbit_turn(v, -half_turn * dx, half_turn * dy); break;
     case EC_DRAG_PAN: ec_orbit_pan(v, -dx, dy); break;
     case EC_DRAG_DOLLY: dolly(in, exp(3 * dy)); break;

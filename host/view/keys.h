@@ -1,11 +1,11 @@
-/* One table of what keys do: the window asks it, the help overlay and `eclat view --help` are made of it. */
+/* One table of keys, used by the window, the help overlay and `eclat view --help`. */
 #ifndef EC_VIEW_KEYS_H
 #define EC_VIEW_KEYS_H
 
 #include <stddef.h>
 
 typedef enum ec_view_action {
-    EC_DO_NOTHING, /* a line of help only: what the mouse does, or held keys */
+    EC_DO_NOTHING, /* only a line of help: what the mouse or held keys do */
     EC_DO_HELP,
     EC_DO_INTEGRATOR_PATH, /* in the order of eclat_integrator */
     EC_DO_INTEGRATOR_WHITTED,
@@ -33,16 +33,16 @@ typedef enum ec_view_action {
 } ec_view_action;
 
 typedef struct ec_view_key {
-    const char *names[2]; /* as on the key, with the layout and shift that are in use; or of a key without a character */
+    const char *names[2]; /* the characters it types with the current layout and shift; or the name of a key without a character */
     ec_view_action action;
-    const char *shown;    /* how the help calls it */
+    const char *shown;    /* its name in the help */
     const char *help;
 } ec_view_key;
 
 extern const ec_view_key ec_view_keys[];
 extern const size_t ec_view_key_count;
 
-/* By a typed character ("e", "E", "?") or a name ("Escape", "F11", "Tab"). */
+/* Finds an action by a typed character ("e", "E", "?") or a name ("Escape", "F11", "Tab"). */
 ec_view_action ec_view_action_of(const char *name);
 
 #endif

@@ -7,8 +7,8 @@
 #include "view/block.h"
 #include "view/keys.h"
 
-#define LEAST 9      /* pixels: smaller text cannot be read */
-#define LINE 1.15    /* from one row to the next over the text's height */
+#define LEAST 9      /* pixels: smaller text is illegible */
+#define LINE 1.15    /* distance of rows over the height of text */
 
 static const float white[3] = {1, 1, 1}, grey[3] = {0.6f, 0.65f, 0.7f};
 
@@ -37,7 +37,7 @@ void ec_view_help_draw(const ec_view_text *text, double width, double height)
     bool fits = true;
     ec_view_block b;
     ec_block_start(&b, text, width, height);
-    if (b.columns < 60) keys = 0; /* no table */
+    if (b.columns < 60) keys = 0; /* too narrow for a table */
     for (size_t i = 0; i < ec_view_key_count && fits; i++) {
         snprintf(line, sizeof line, "%-*s  %s", keys, ec_view_keys[i].shown, ec_view_keys[i].help);
         fits = ec_block_add(&b, line, (size_t)keys + 2, white);

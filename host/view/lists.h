@@ -1,4 +1,4 @@
-/* The lists that open over the picture: help, and effects. */
+/* Lists that open over the picture: help and effects. */
 #ifndef EC_VIEW_LISTS_H
 #define EC_VIEW_LISTS_H
 
@@ -6,14 +6,14 @@
 
 #include "view/glyphs.h"
 
-/* The largest text, in pixels, but no larger than `most`, with which all of the help is seen. */
+/* Returns the largest text size in pixels, at most `most`, with which all of the help fits. */
 double ec_view_help_size(double most, double width, double height);
 void ec_view_help_draw(const ec_view_text *text, double width, double height);
 
-/* Nine at a time. page: any number. */
+/* Draws nine effects at a time. page: any number, taken modulo. */
 void ec_view_effects_draw(const eclat_facts *facts, uint32_t page, uint64_t without, const ec_view_text *text, double width, double height);
 
-/* The effect of a digit from 1 on; NULL: none. */
+/* Returns the effect of a digit from 1 on; NULL: none. */
 const eclat_effect *ec_view_effect_of_digit(const eclat_facts *facts, uint32_t page, int digit);
 
 #endif

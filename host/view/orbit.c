@@ -13,14 +13,14 @@ static void cross(const double a[3], const double b[3], double out[3])
     for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* A vector without length stays as it is. */
+/* Leaves a vector without length unchanged. */
 static void normalize(double v[3])
 {
     double length = sqrt(dot(v, v));
     for (int k = 0; k < 3 && length > 0; k++) v[k] /= length;
 }
 
-/* right, upright and forward, all of length 1, as ec_camera_look has them. */
+/* Unit vectors right, upright and forward, as in ec_camera_look. */
 typedef struct axes {
     double right[3], up[3], forward[3];
 } axes;
@@ -34,7 +34,7 @@ static axes axes_of(const eclat_viewpoint *v)
     for (int k = 0; k < 3; k++) a.forward[k] = v->target[k] - v->eye[k];
     normalize(a.forward);
     cross(a.forward, up, a.right);
-    if (dot(a.right, a.right) < 1e-12) { /* along the pole any direction will do */
+    if (dot(a.right, a.right) < 1e-12) { /* looking along the pole, any direction will do */
         const double other[3] = {fabs(up[0]) < 0.9, fabs(up[0]) >= 0.9, 0};
         cross(up, other, a.right);
     }
@@ -43,7 +43,7 @@ static axes axes_of(const eclat_viewpoint *v)
     return a;
 }
 
-/* v turned about a unit axis (Rodrigues). */
+/* Rotates v about a unit axis (Rodrigues). */
 static void rotate(double v[3], const double axis[3], double angle)
 {
     double c = cos(angle), s = sin(angle), along = dot(v, axis), side[3];
@@ -51,7 +51,7 @@ static void rotate(double v[3], const double axis[3], double angle)
     for (int k = 0; k < 3; k++) v[k] = v[k] * c + side[k] * s + axis[k] * along * (1 - c);
 }
 
-/* A direction that looks from a point, turned: yaw about the pole to the right, pitch up, short of the poles. */
+/* Turns a direction of view: yaw about the pole to the right, pitch up, short of the poles. */
 static void turn_direction(const eclat_viewpoint *v, double d[3], double yaw, double pitch)
 {
     axes a = axes_of(v);
@@ -61,7 +61,7 @@ static void turn_direction(const eclat_viewpoint *v, double d[3], double yaw, do
     double sine = dot(d, pole) / (length > 0 ? length : 1), height = asin(fmin(fmax(sine, -1), 1));
     double most = 0.5 * half_turn - NEAREST_POLE;
     double wanted = fmin(fmax(height + pitch, -most), most);
-    if (fabs(height) > most && fabs(height + pitch) > fabs(height)) wanted = height; /* stays where it was put */
+    if (fabs(height) > most && fabs(height + pitch) > fabs(height)) wanted = height; /* it stays where it was put */
     rotate(d, a.right, wanted - height);
     rotate(d, pole, -yaw);
 }

@@ -19,7 +19,7 @@ static const char *tonemap_name(eclat_tonemap tonemap)
     return option.choices[tonemap];
 }
 
-/* Three digits. */
+/* Formats three digits. */
 static void format_percent(double fraction, char *text, size_t size)
 {
     int decimals = 0;
@@ -34,7 +34,7 @@ static void format_seconds(double seconds, char *text, size_t size)
     else snprintf(text, size, "%d:%02d min", (int)seconds / 60, (int)seconds % 60);
 }
 
-/* "38.2 s left to 1 % error" */
+/* Formats e.g. "38.2 s left to 1 % error". */
 static void format_prediction(const ec_window *w, char *text, size_t size)
 {
     const eclat_status *s = &w->status;
@@ -50,7 +50,7 @@ static void format_prediction(const ec_window *w, char *text, size_t size)
     else snprintf(text, size, "until %s", target);
 }
 
-/* ", best of both 1.2 % (under 1.3 %)", or why there is none. */
+/* Formats ", best of both 1.2 % (under 1.3 %)", or why there is none. */
 static void format_best(const ec_window *w, char *text, size_t size)
 {
     const eclat_status *s = &w->status;

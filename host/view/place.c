@@ -1,22 +1,21 @@
-/* Where the window stands: wholly on one monitor, full screen on that which has most of it, and back; monitors come and go. */
+/* Places the window: entirely on one monitor, or full screen on the monitor that has most of it, and back. Monitors may come and go. */
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <math.h>
 
 #include "view/window.h"
 
-#define SETTLES 1 /* seconds in which window managers have moved windows from a monitor that is gone, some of them hardly into sight, and
-                   * Wayland has told how dense the one is that a new window is on */
+#define SETTLES 1 /* seconds in which window managers rescue windows from a monitor that is gone, and Wayland tells a new window's density */
 
 typedef ec_window_place place;
 
-/* GLFW tells it to the process, not to a window. */
+/* Counts changes of monitors, which GLFW reports to the process, not to a window. */
 static unsigned monitor_changes;
 static void on_monitor(GLFWmonitor *monitor, int event) { (void)monitor, (void)event, monitor_changes++; }
 
 static place place_of(GLFWwindow *glfw)
 {
-    place p = {0}; /* under Wayland nobody knows it */
+    place p = {0}; /* under Wayland it is unknown */
     glfwGetWindowPos(glfw, &p.x, &p.y);
     glfwGetWindowSize(glfw, &p.width, &p.height);
     return p;
@@ -30,7 +29,7 @@ static place whole_of(GLFWmonitor *monitor)
     return p;
 }
 
-/* The part of it that panels and the window's own frame leave free. */
+/* Returns the part of a monitor that panels and the window's frame leave free. */
 static place room_of(GLFWmonitor *monitor, GLFWwindow *glfw)
 {
     int left = 0, top = 0, right = 0, bottom = 0;
@@ -47,7 +46,7 @@ static double shared_area(const place *a, const place *b)
     return wide > 0 && high > 0 ? wide * high : 0;
 }
 
-/* The one that has most of a place, *area of it; the first where none has any. NULL: there are none. */
+/* Returns the monitor with most of a place, and *area, its share of it; the first one if none has any; NULL: there are no monitors. */
 static GLFWmonitor *monitor_of(const place *p, double *area)
 {
     int count;
@@ -61,7 +60,7 @@ static GLFWmonitor *monitor_of(const place *p, double *area)
     return best;
 }
 
-/* Moved into the room, and made smaller in proportion where that is too small for it. */
+/* Moves a place into the room, and shrinks it in proportion if it is too large. */
 static place put_into(const place *room, const place *p)
 {
     double shrink = fmin(1, fmin((double)room->width / p->width, (double)room->height / p->height));
@@ -77,7 +76,7 @@ static void move_to(GLFWwindow *glfw, const place *from, const place *to)
     if (to->x != from->x || to->y != from->y) glfwSetWindowPos(glfw, to->x, to->y);
 }
 
-/* In the mode that it has. */
+/* Fills a monitor, in its current mode. */
 static void fill(GLFWwindow *glfw, GLFWmonitor *monitor)
 {
     const GLFWvidmode *mode = glfwGetVideoMode(monitor);
@@ -92,11 +91,11 @@ void ec_window_follow_monitors(ec_window *w)
     else if (glfwGetTime() > w->monitors_settle) return;
     w->monitor_changes = monitor_changes;
     GLFWmonitor *monitor = glfwGetWindowMonitor(w->glfw);
-    if (monitor && changed) fill(w->glfw, monitor); /* it may lie elsewhere now */
+    if (monitor && changed) fill(w->glfw, monitor); /* it may have moved */
     if (monitor) return;
     place now = place_of(w->glfw), wanted;
     if (changed || w->is_full) w->restores = w->is_full;
-    if (w->is_full) w->is_full = w->input.fullscreen = false; /* GLFW has lost it with its monitor */
+    if (w->is_full) w->is_full = w->input.fullscreen = false; /* GLFW has left full screen with the monitor */
     wanted = w->restores ? w->before : now; /* whatever window managers do to it meanwhile */
     monitor = monitor_of(&wanted, &area);
     if (!monitor) return;
@@ -113,7 +112,7 @@ double ec_window_density(GLFWwindow *glfw)
     return width > 0 && across > 0 ? (double)across / width : 1;
 }
 
-/* So many pixels as were asked for, as far as there is room. hidden: where, is for the window manager to say. */
+/* Sets the size that was asked for in pixels, as far as there is room. hidden: its position is left to the window manager. */
 static void take_size(ec_window *w, bool hidden)
 {
     double area, density = ec_window_density(w->glfw);
@@ -131,7 +130,7 @@ static void take_size(ec_window *w, bool hidden)
 
 void ec_window_fit(ec_window *w, int width, int height)
 {
-    w->input.wish.width = (uint32_t)fmin(fmax(width, 1), w->textures.largest); /* beyond that it is stretched */
+    w->input.wish.width = (uint32_t)fmin(fmax(width, 1), w->textures.largest); /* a larger window shows it stretched */
     w->input.wish.height = (uint32_t)fmin(fmax(height, 1), w->textures.largest);
 }
 
@@ -144,7 +143,7 @@ void ec_window_stand(ec_window *w, uint32_t width, uint32_t height)
     take_size(w, true);
     glfwShowWindow(w->glfw);
     glfwPollEvents();
-    take_size(w, false); /* on which monitor it stands, and how dense that is, is known only now */
+    take_size(w, false); /* only now its monitor and that one's density are known */
     glfwPollEvents();
     w->opens_until = glfwGetTime() + SETTLES;
 }

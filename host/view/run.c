@@ -1,4 +1,4 @@
-/* The window's loop: events in, wishes out, frames on the screen. It sleeps in glfwWaitEvents unless something moves. */
+/* The window's loop: takes events, sends wishes, draws frames. Sleeps in glfwWaitEvents unless something moves. */
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <math.h>
@@ -11,12 +11,12 @@
 #include "view/view.h"
 #include "view/window.h"
 
-#define TOLD_FOR 6        /* seconds that the message of a save is shown */
+#define TOLD_FOR 6        /* seconds for which the message of a save is shown */
 #define FRAME (1.0 / 60)
-#define RESTS_AFTER 0.12  /* seconds without a move */
-#define PATIENCE 0.35     /* seconds that the window waits for the scene, whose camera says how wide it is */
+#define RESTS_AFTER 0.12  /* seconds without a move after which the camera is at rest */
+#define PATIENCE 0.35     /* seconds that the window waits for the scene, whose camera tells its width */
 
-/* The process's, as GLFW is. */
+/* Of the process, like GLFW. */
 static atomic_bool is_open;
 
 static void wake(void)
@@ -53,14 +53,14 @@ static bool key_at(size_t i, const char **shown, const char **help)
     return true;
 }
 
-/* Tells the session what is wished now, and learns what there is. */
+/* Sends the current wish to the session, and takes what is new. */
 static void exchange(ec_window *w)
 {
     ec_view_input *in = &w->input;
     const uint32_t saves = w->status.saves;
     const double now = glfwGetTime();
     if (in->moved) w->moved_at = now, in->moved = false;
-    if (now - w->moved_at > (w->drag < 0 ? RESTS_AFTER : 4 * RESTS_AFTER)) in->wish.is_moving = false; /* the hand may hold still */
+    if (now - w->moved_at > (w->drag < 0 ? RESTS_AFTER : 4 * RESTS_AFTER)) in->wish.is_moving = false; /* during a drag the mouse may pause */
     in->wish.is_paused = w->iconified;
     const eclat_facts *facts = eclat_live_facts(w->live);
     if (facts->serial != in->facts.serial) ec_view_input_learn(in, facts);
@@ -78,7 +78,7 @@ static void exchange(ec_window *w)
     in->under = status.under;
 }
 
-/* Seconds; infinite where only an event can bring something new. */
+/* Returns seconds; INFINITY if only an event can bring something new. */
 static double time_to_wait(const ec_window *w, double last)
 {
     bool flying = w->s_down > 0 || w->flies;
@@ -89,7 +89,7 @@ static double time_to_wait(const ec_window *w, double last)
     return w->telling ? fmax(w->told_at + TOLD_FOR - glfwGetTime(), 0) + 0.001 : INFINITY;
 }
 
-/* Until the scene is there, or long enough. false: there will be none. */
+/* Waits until the scene is loaded, or PATIENCE is over. Returns false if there will be no scene. */
 static bool wait_for_size(ec_window *w, uint32_t *width, uint32_t *height)
 {
     const double until = glfwGetTime() + PATIENCE;
@@ -106,7 +106,7 @@ static bool wait_for_size(ec_window *w, uint32_t *width, uint32_t *height)
     return !w->status.has_failed;
 }
 
-/* NULL, or why no picture will come. */
+/* Returns why no picture will come; NULL: one will. */
 static const char *why_stuck(const eclat_status *s)
 {
     const char *camera = s->trouble[ECLAT_TROUBLE_CAMERA], *setup = s->trouble[ECLAT_TROUBLE_SETUP];
@@ -178,7 +178,7 @@ static eclat_result run(const ec_view_request *request, eclat_error *err)
     if (result == ECLAT_OK) {
         atomic_store(&is_open, true);
         loop(&w);
-        glfwHideWindow(w.glfw); /* a kernel that is being compiled is waited for out of sight */
+        glfwHideWindow(w.glfw); /* hidden before waiting for a kernel that is being compiled */
         result = conclude(&w, err);
         atomic_store(&is_open, false);
     }

@@ -10,7 +10,7 @@
 
 static const struct {
     const char *verb;
-    int numbers; /* that follow it; -1: a key */
+    int numbers; /* numbers after it; -1: a key */
 } verbs[] = {{"turn", 3}, {"pan", 3}, {"dolly", 2}, {"wait", 1}, {"settle", 0}, {"key", -1}, {"quit", 0}};
 
 static bool read_step(const char *line, ec_script_step *step)
@@ -58,7 +58,7 @@ eclat_result ec_script_read(ec_script *s, const char *name, eclat_error *err)
     return result;
 }
 
-/* The part of a move that `share` of its time does. */
+/* Does a share of a move. */
 static void do_part(const ec_script_step *step, ec_view_input *in, double share)
 {
     if (!strcmp(step->verb, "turn")) ec_view_input_drag(in, EC_DRAG_ORBIT, -step->a / 180 * share, step->b / 180 * share);
@@ -66,7 +66,7 @@ static void do_part(const ec_script_step *step, ec_view_input *in, double share)
     if (!strcmp(step->verb, "dolly")) ec_view_input_drag(in, EC_DRAG_DOLLY, 0, log(step->a) / 3 * share);
 }
 
-/* Runs a step that takes no time; is it over? */
+/* Runs a step that takes no time; returns whether it is over. */
 static bool is_over(const ec_script_step *step, ec_view_input *in, const eclat_status *status)
 {
     if (!strcmp(step->verb, "settle")) return status->is_settled;
@@ -94,6 +94,6 @@ void ec_script_run(ec_script *s, ec_view_input *in, const eclat_status *status, 
     } else if (!is_over(step, in, status)) {
         return;
     }
-    s->at++; /* what comes of it is known in the next frame */
+    s->at++; /* its effect is known in the next frame */
     s->done = 0;
 }

@@ -17,7 +17,7 @@ eclat_result ec_view_textures_make(ec_view_textures *t, eclat_error *err)
     for (int i = 0; i < ECLAT_SHOWN_COUNT; i++) {
         glBindTexture(GL_TEXTURE_2D, t->texture[i]);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST); /* a sample is a square, and a pixel is what it is */
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST); /* pixels and samples are shown as squares, not smoothed */
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
@@ -30,7 +30,7 @@ void ec_view_textures_free(ec_view_textures *t)
     glDeleteTextures(ECLAT_SHOWN_COUNT, t->texture);
 }
 
-/* By a buffer: the graphics card takes it from there while the window goes on. */
+/* Uploads through a buffer, from which the graphics card copies while the window goes on. */
 static void upload(ec_view_textures *t, eclat_shown which, const eclat_image *image)
 {
     GLsizei width = (GLsizei)image->width, height = (GLsizei)image->height;

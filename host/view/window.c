@@ -9,9 +9,9 @@
 #include "view/view.h"
 #include "view/lists.h"
 
-#define TEXT_SIZE 15     /* pixels, where the monitor's scale is 1 */
+#define TEXT_SIZE 15     /* pixels, for a monitor scale of 1 */
 #define TEXT_LEAST 11
-#define COLUMNS 64       /* that text grows smaller for */
+#define COLUMNS 64       /* text shrinks until this many fit */
 
 static eclat_result glfw_failed(const char *what, eclat_error *err)
 {
@@ -29,11 +29,11 @@ eclat_result ec_window_open(ec_window *w, eclat_error *err)
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE); /* full screen stays while one works on another monitor */
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE); /* stays full screen while another monitor is used */
     w->glfw = glfwCreateWindow(640, 480, "eclat", NULL, NULL);
     if (!w->glfw) return glfw_failed("cannot open one with OpenGL 2.1", err);
     glfwMakeContextCurrent(w->glfw);
-    glfwSwapInterval(getenv("WAYLAND_DISPLAY") ? 0 : 1); /* Wayland tears nothing, and does not let go where nobody sees the window */
+    glfwSwapInterval(getenv("WAYLAND_DISPLAY") ? 0 : 1); /* Wayland does not tear, and would block while the window is out of sight */
     float x, y;
     glfwGetWindowContentScale(w->glfw, &x, &y);
     w->scale = (double)fmaxf(x, y);
@@ -66,7 +66,7 @@ static void draw_pictures(const ec_window *w, double width, double height)
     const ec_view_textures *t = &w->textures;
     double wipe = fmin(fmax(w->cursor_x, 0), width);
     if (w->input.layout == EC_LAYOUT_BESIDE) {
-        double shown = 0.5 * height, foot = 0.25 * height; /* as wide as half the window, in proportion */
+        double shown = 0.5 * height, foot = 0.25 * height; /* half as wide as the window, in proportion */
         glPushMatrix();
         glTranslated(0, foot, 0);
         ec_view_textures_draw(t, ECLAT_PICTURE, 0, 0.5 * width, shown, 0, 1);
@@ -110,7 +110,7 @@ void ec_window_draw(ec_window *w)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     if (w->text.glyphs && (w->small.glyphs || !w->input.help)) ec_view_overlay_draw(w, width, height);
     glfwSwapBuffers(w->glfw);
-    w->dirty = width != w->drawn_width || height != w->drawn_height; /* some drivers learn of a new size from the frame that is wrong */
+    w->dirty = width != w->drawn_width || height != w->drawn_height; /* some drivers learn of a new size only from the first, wrong frame */
     w->drawn_width = width;
     w->drawn_height = height;
 }

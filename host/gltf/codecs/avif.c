@@ -1,4 +1,4 @@
-/* AVIF through libavif. */
+/* Decodes AVIF with libavif. */
 #include <avif/avif.h>
 #include <stdlib.h>
 
@@ -6,7 +6,7 @@
 
 const bool ec_has_avif = true;
 
-/* A picture of one colour is some hundred bytes long, whatever its size: only the longest side limits it. */
+/* A picture of one colour takes some hundred bytes, whatever its size: only the longest side limits it. */
 #define PIXELS_PER_BYTE (1 << 24)
 
 static bool convert(const avifImage *in, size_t length, ec_image *image, ec_decode_error *err)
@@ -33,7 +33,7 @@ static bool convert(const avifImage *in, size_t length, ec_image *image, ec_deco
     return true;
 }
 
-/* The first picture. The decoder's own limit of pixels stands: ec_image_check_size knows the size only when they are decoded. */
+/* Decodes the first picture. The decoder's own limit of pixels is kept, since ec_image_check_size gets the size only after decoding. */
 bool ec_image_decode_avif(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)
 {
     avifDecoder *decoder = avifDecoderCreate();

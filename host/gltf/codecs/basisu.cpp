@@ -1,4 +1,4 @@
-/* KTX2 of KHR_texture_basisu through Basis Universal's transcoder: ETC1S and UASTC, also compressed by Zstandard. */
+/* Decodes KTX2 of KHR_texture_basisu, both ETC1S and UASTC, also compressed by Zstandard, with Basis Universal's transcoder. */
 #include <basisu_transcoder.h>
 
 #include <cstdlib>
@@ -10,14 +10,14 @@ extern "C" {
 
 extern "C" const bool ec_has_basisu = true;
 
-/* A picture of one colour is some hundred bytes long, whatever its size: only the longest side limits it. */
+/* A picture of one colour takes some hundred bytes, whatever its size: only the longest side limits it. */
 #define PIXELS_PER_BYTE (1 << 24)
-/* A block of Zstandard's takes four bytes or more, and holds 128 KiB at most. */
+/* A block of Zstandard takes at least four bytes, and holds at most 128 KiB. */
 #define ZSTD_BYTES_PER_BYTE (1 << 15)
 
 namespace {
 
-/* Decodes the largest level; a message where that fails. */
+/* Decodes the largest level. Returns nullptr, or a message if that fails. */
 const char *transcode(const uint8_t *bytes, size_t length, ec_image *image, uint8_t *&pixels)
 {
     static const bool is_ready = (basist::basisu_transcoder_init(), true);
@@ -25,7 +25,7 @@ const char *transcode(const uint8_t *bytes, size_t length, ec_image *image, uint
     if (!is_ready || !file.init(bytes, uint32_t(length))) return "its KTX2 header is broken, or it is neither ETC1S nor UASTC";
     if (file.get_faces() != 1 || file.get_layers() > 1) return "it is a cube or an array of pictures, and a texture is one";
     if (const char *reason = ec_image_check_size(file.get_width(), file.get_height(), length, PIXELS_PER_BYTE)) return reason;
-    const auto &level = file.get_level_index()[0]; /* the transcoder clears as much memory as it claims, up to 2 GiB */
+    const auto &level = file.get_level_index()[0]; /* the transcoder would clear as much memory as the level claims, up to 2 GiB */
     const bool claims_more = level.m_uncompressed_byte_length.get_uint64() / ZSTD_BYTES_PER_BYTE > level.m_byte_length.get_uint64();
     if (claims_more || !file.start_transcoding()) return "its KTX2 data are broken or truncated";
     const uint32_t count = file.get_width() * file.get_height();
@@ -47,7 +47,7 @@ extern "C" bool ec_image_decode_ktx2(const uint8_t *bytes, size_t length, ec_ima
     bool is_short = false;
     try {
         wrong = transcode(bytes, length, image, pixels);
-    } catch (...) { /* only of memory */
+    } catch (...) { /* thrown only for lack of memory */
         is_short = true;
     }
     if (!wrong && !is_short) return true;

@@ -1,4 +1,4 @@
-/* KHR_draco_mesh_compression through libdraco. */
+/* Decodes KHR_draco_mesh_compression with libdraco. */
 #include <draco/compression/decode.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@ extern "C" const bool ec_has_draco = true;
 
 namespace {
 
-/* All of an attribute, one element a point. */
+/* Returns all values of an attribute, one element for each point, malloc'ed; nullptr on failure. */
 template <typename T> uint8_t *values_of(const draco::Mesh &mesh, const draco::PointAttribute &attribute)
 {
     const int8_t n = attribute.num_components();
@@ -42,7 +42,7 @@ size_t size_of(uint32_t type)
     return type == EC_GLTF_BYTE || type == EC_GLTF_UBYTE ? 1 : type == EC_GLTF_SHORT || type == EC_GLTF_USHORT ? 2 : 4;
 }
 
-/* The accessor says how many there are; so must the data. */
+/* Hands `values` over to the accessor; fails if the data do not have as many elements as the accessor says. */
 bool give(ec_gltf_accessor &accessor, uint8_t *values, uint64_t count, uint64_t stride)
 {
     if (!values || accessor.count != count) {
@@ -99,7 +99,7 @@ extern "C" ec_result ec_draco_decode(ec_gltf *g, ec_gltf_primitive *p, const uin
     const char *wrong = "take more memory than there is";
     try {
         wrong = decode(g, p, bytes, length);
-    } catch (...) { /* only of memory */
+    } catch (...) { /* thrown only for lack of memory */
     }
     return wrong ? ec_fail(err, "%s: %s: its Draco data %s", g->path, where, wrong) : EC_OK;
 }

@@ -1,4 +1,4 @@
-/* meshopt through libmeshoptimizer, which checks what it reads and returns non-zero where that is broken. */
+/* Decodes meshopt data with libmeshoptimizer, which checks what it reads and returns non-zero if that is broken. */
 #include <math.h>
 #include <meshoptimizer.h>
 
@@ -6,8 +6,8 @@
 
 const bool ec_has_meshopt = true;
 
-/* The filter COLOR, which libmeshoptimizer has from 0.25 on: K bits of Y, Co, Cg and, behind a bit that says K, alpha. Component i of an element
- * that has `bytes` in each. */
+/* Decodes the filter COLOR, which libmeshoptimizer has only from version 0.25 on: K bits each of Y, Co and Cg, and alpha below a bit that marks K.
+ * `component` reads component i of an element with `bytes` bytes per component. */
 static int component(const uint8_t *element, int i, int bytes)
 {
     return bytes == 1 ? element[i] : element[2 * i] | element[2 * i + 1] << 8;
@@ -30,7 +30,7 @@ static void decode_color(uint8_t *element, int bytes)
     }
 }
 
-/* The first byte says the format's version. */
+/* Recognises the format's version by the first byte. */
 const char *ec_meshopt_hint(const ec_gltf_meshopt *p, const uint8_t *bytes)
 {
     return p->mode == EC_MESHOPT_ATTRIBUTES && bytes[0] == 0xa1 && MESHOPTIMIZER_VERSION < 230

@@ -1,4 +1,4 @@
-/* Built without libavif: as it is, unless cmake is told -DECLAT_AVIF=ON. */
+/* Stands in for libavif, which is used only if cmake is given -DECLAT_AVIF=ON. */
 #include "gltf/codecs.h"
 
 const bool ec_has_avif = false;

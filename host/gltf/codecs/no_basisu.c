@@ -1,4 +1,4 @@
-/* Built without Basis Universal's transcoder. */
+/* Stands in for Basis Universal's transcoder in builds without it. */
 #include "gltf/codecs.h"
 
 const bool ec_has_basisu = false;

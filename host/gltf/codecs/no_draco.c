@@ -1,4 +1,5 @@
-/* Built without libdraco: files that also hold the plain mesh show that; others are refused by their extensionsRequired. */
+/* Stands in for libdraco in builds without it: files that also hold the uncompressed mesh use that; others are refused because of their
+ * extensionsRequired. */
 #include "gltf/codecs.h"
 
 const bool ec_has_draco = false;

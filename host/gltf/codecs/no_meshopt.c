@@ -1,4 +1,4 @@
-/* Built without libmeshoptimizer: files with a fallback show that; others are refused by their extensionsRequired. */
+/* Stands in for libmeshoptimizer in builds without it: files with a fallback use that; others are refused because of their extensionsRequired. */
 #include "gltf/codecs.h"
 
 const bool ec_has_meshopt = false;

@@ -1,4 +1,4 @@
-/* Built without libwebp. */
+/* Stands in for libwebp in builds without it. */
 #include "gltf/codecs.h"
 
 const bool ec_has_webp = false;

@@ -1,4 +1,4 @@
-/* WebP through libwebp. */
+/* Decodes WebP with libwebp. */
 #include <stdlib.h>
 #include <webp/decode.h>
 
@@ -6,7 +6,7 @@
 
 const bool ec_has_webp = true;
 
-/* A lossless picture of one colour is a few bytes long, whatever its size: only the longest side limits it. */
+/* A lossless picture of one colour takes a few bytes, whatever its size: only the longest side limits it. */
 #define PIXELS_PER_BYTE (1 << 24)
 
 bool ec_image_decode_webp(const uint8_t *bytes, size_t length, ec_image *image, ec_decode_error *err)

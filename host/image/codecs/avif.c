@@ -1,11 +1,11 @@
-/* AVIF out by libavif. */
+/* Writes AVIF with libavif. */
 #include <avif/avif.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/gather.h"
 
-enum { QUANTIZER = 12, SPEED = 6 }; /* of 63, where 0 has no loss; of 10, the fastest */
+enum { QUANTIZER = 12, SPEED = 6 }; /* of 63, 0 being lossless; of 10, the fastest */
 
 static const char *encode(const ec_raster *of, const uint8_t *pixels, uint8_t **bytes, size_t *size)
 {
@@ -27,7 +27,7 @@ static const char *encode(const ec_raster *of, const uint8_t *pixels, uint8_t **
         encoder->minQuantizer = encoder->maxQuantizer = QUANTIZER;
         encoder->minQuantizerAlpha = encoder->maxQuantizerAlpha = AVIF_QUANTIZER_LOSSLESS;
         encoder->speed = SPEED;
-        encoder->maxThreads = 1; /* the same bytes everywhere */
+        encoder->maxThreads = 1; /* so that the bytes are the same on all machines */
         result = avifImageRGBToYUV(image, &rgb);
     }
     if (result == AVIF_RESULT_OK) result = avifEncoderWrite(encoder, image, &data);

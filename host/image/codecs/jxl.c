@@ -1,4 +1,4 @@
-/* JPEG XL out by libjxl, without loss. */
+/* Writes JPEG XL with libjxl, lossless. */
 #include <jxl/encode.h>
 #include <stdlib.h>
 
@@ -22,7 +22,7 @@ static const char *settle(JxlEncoder *encoder, const ec_raster *of, JxlEncoderFr
     return is_taken ? NULL : "libjxl does not take a picture like it";
 }
 
-/* Takes what libjxl has encoded; the room doubles until all is there. */
+/* Collects what libjxl has encoded, doubling the buffer until all of it fits. */
 static const char *drain(JxlEncoder *encoder, uint8_t **bytes, size_t *size)
 {
     size_t room = 0;

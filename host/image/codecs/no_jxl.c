@@ -1,4 +1,4 @@
-/* Built without libjxl: as it is, unless cmake is told -DECLAT_JXL=ON. */
+/* Stands in for libjxl, which is used only if cmake is given -DECLAT_JXL=ON. */
 #include "image/gather.h"
 
 ec_encode *const ec_encode_jxl = NULL;

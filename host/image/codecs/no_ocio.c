@@ -1,4 +1,4 @@
-/* Built without OpenColorIO: as it is, unless cmake is told -DECLAT_OCIO=ON. */
+/* Stands in for OpenColorIO, which is used only if cmake is given -DECLAT_OCIO=ON. */
 #include <stddef.h>
 
 #include "image/ocio.h"

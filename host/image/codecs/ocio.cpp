@@ -1,4 +1,4 @@
-/* Views by OpenColorIO. Its exceptions end here. */
+/* Applies views of OpenColorIO, and catches its exceptions. */
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <cstring>
@@ -16,7 +16,7 @@ struct ec_ocio {
 
 extern "C" const bool ec_has_ocio = true;
 
-/* Names of linear Rec. 709 in configs of ACES 1.2, of ACES 1.3 and 2, of Blender and of the old ones of Sony Pictures. */
+/* Names of linear Rec. 709 in the configs of ACES 1.2, of ACES 1.3 and 2, of Blender, and in the old ones of Sony Pictures. */
 static const char *const linear_names[] = {"lin_rec709_scene", "lin_rec709", "lin_srgb", "Linear Rec.709 (sRGB)", "Linear Rec.709",
                                            "Utility - Linear - sRGB", "Utility - Linear - Rec.709", "Linear", "lnf"};
 

@@ -1,16 +1,15 @@
-/* Live sessions: a picture that follows a camera. A part of eclat.h, which includes it.
- * For windows and viewports:
+/* Live sessions: a picture that follows a camera, for windows and viewports. A part of eclat.h, which includes it.
  *
  *     eclat_live_open(job, NULL, &listener, &live, &err);
  *     eclat_wish wish = eclat_live_wished(live);
  *     wish.width = 640, wish.height = 480;
- *     eclat_live_wish(live, &wish);                                      whenever something else is wished
+ *     eclat_live_wish(live, &wish);                                      whenever the wish changes
  *     if (eclat_live_take(live, ECLAT_PICTURE, &image)) draw(&image);    whenever listener.wake was called
  *     eclat_live_close(live);
  *
- * A session has threads of its own. They load the scene, and again when one of its files changes; render what is wished, coarse while the camera
- * moves, then finer, then as the job would until its limits are met; and sleep where there is nothing to do. No function but eclat_live_close waits
- * for them. */
+ * A session has threads of its own. They load the scene, and load it again when one of its files changes. They render what is wished: coarsely while
+ * the camera moves, then finer, then like the job until one of its limits is met. They sleep when there is nothing to do. No function but
+ * eclat_live_close waits for them. A session may be used by one thread at a time. */
 
 #ifndef ECLAT_LIVE_H
 #define ECLAT_LIVE_H
@@ -25,61 +24,62 @@ extern "C" {
 
 typedef struct eclat_live eclat_live;
 
-/* Both are called from the session's threads, may be NULL, and must not call functions of the session. */
+/* Callbacks, made from the session's threads. Each may be NULL, and must not call functions of the session. */
 typedef struct eclat_live_listener {
     void *user;
     void (*wake)(void *user);                       /* there is something new: status, facts or a picture */
-    void (*saved)(void *user, const char *command); /* the files are written; command: the `eclat render` that makes them again, bit for bit */
+    void (*saved)(void *user, const char *command); /* files were written; command: the `eclat render` that writes them again, bit for bit */
 } eclat_live_listener;
 
-/* The job's options say what is loaded, on which device, which limits end the picture, and the first wish; "output" names what is saved. They are
- * copied, as both listeners are; messages come from the session's threads. Options of pictures in parts, of sequences and "adaptive" are refused.
- * against: an .exr to stand beside the picture, or NULL. Files that cannot be loaded are told by the status, later. */
+/* Opens a session for a job of "render" with one scene. The job's options say what is loaded, on which device, which limits end the picture, and what
+ * the first wish is; "output" names the files of eclat_live_save. Options and both listeners are copied; the job's listener gets messages from the
+ * session's threads. Options of sequences and of pictures in parts, and "adaptive", are refused. against: an .exr to show beside the picture, or
+ * NULL. Scene files that cannot be loaded are reported later, in the status. */
 eclat_result eclat_live_open(const eclat_job *job, const char *against, const eclat_live_listener *listener, eclat_live **live, eclat_error *err);
-void eclat_live_close(eclat_live *live); /* NULL is fine. Waits for what cannot be broken off, such as a compiler */
+void eclat_live_close(eclat_live *live); /* NULL is fine. Waits for what cannot be interrupted, such as a compiler */
 
 typedef enum eclat_integrator { ECLAT_PATH, ECLAT_WHITTED, ECLAT_RASTER, ECLAT_LIGHT, ECLAT_INTEGRATOR_COUNT } eclat_integrator;
-/* The order of the option tonemap's choices. */
+/* In the order of the choices of the option "tonemap". */
 typedef enum eclat_tonemap {
     ECLAT_TONEMAP_NEUTRAL, ECLAT_TONEMAP_NONE, ECLAT_TONEMAP_ACES, ECLAT_TONEMAP_AGX, ECLAT_TONEMAP_FILMIC, ECLAT_TONEMAP_COUNT
 } eclat_tonemap;
 
-/* A second picture: maps of the error or of the samples, another integrator's picture, or the file `against`. */
+/* A second picture: a map of the error or of the samples, another integrator's picture, or the file `against`. */
 typedef enum eclat_second {
     ECLAT_SECOND_NONE, ECLAT_SECOND_ERROR, ECLAT_SECOND_SAMPLES, ECLAT_SECOND_INTEGRATOR, ECLAT_SECOND_FILE, ECLAT_SECOND_COUNT
 } eclat_second;
 
-/* In metres and the file's coordinates. */
+/* In metres, in the coordinates of the file. */
 typedef struct eclat_viewpoint {
-    double eye[3], target[3], up[3]; /* up: a direction */
-    double fov;                      /* degrees from the picture's bottom to its top; 0: parallel rays */
-    double tall;                     /* of parallel rays: metres from bottom to top */
+    double eye[3], target[3], up[3]; /* up: a direction of any length */
+    double fov;                      /* vertical field of view in degrees; 0: parallel rays */
+    double tall;                     /* for parallel rays: height of the picture in metres */
 } eclat_viewpoint;
 
 typedef struct eclat_wish {
     uint32_t width, height;          /* pixels; 0: no picture yet */
-    int32_t camera;                  /* one of the facts' cameras; -1: the job's */
-    int32_t is_moved;                /* the camera is `viewpoint` instead */
+    int32_t camera;                  /* index into the facts' cameras; -1: the job's */
+    int32_t is_moved;                /* 1: the camera is `viewpoint` instead */
     eclat_viewpoint viewpoint;
-    double env_degrees;              /* turns the environment, as the option env-rotate */
+    double env_degrees;              /* turns the environment, like the option "env-rotate" */
     double exposure;                 /* stops, -100 to 100 */
-    uint64_t without;                /* bits of effects that are left out; also of such as the scene calls for none of now: another one may */
+    uint64_t without;                /* bits of effects to leave out; may include effects that this scene does not call for, as a reloaded one may */
     eclat_tonemap tonemap;
     eclat_integrator integrator;
     eclat_second second;
     eclat_integrator second_integrator;
-    int32_t is_denoised;             /* shows the best of the denoised and the noisy picture, as the option denoise; begins anew when it changes */
-    int32_t is_moving;               /* the camera is: speed before detail */
-    int32_t is_paused;               /* nobody looks: nothing is rendered */
-    uint32_t more;                   /* how often the limits are raised: four times the samples and the time, half the error */
-    uint32_t reloads;                /* the scene is loaded again when this changes */
-    uint32_t x, y;                   /* a pixel of which the status tells; outside of the picture: none */
+    int32_t is_denoised;             /* 1: shows the best blend of denoised and noisy picture, like the option "denoise"; a change begins the picture anew */
+    int32_t is_moving;               /* 1: the camera is moving, and speed matters more than detail */
+    int32_t is_paused;               /* 1: nobody is looking, and nothing is rendered */
+    uint32_t more;                   /* how often the limits are raised: each time to four times the samples and the time, and half the error */
+    uint32_t reloads;                /* any change of this number loads the scene again */
+    uint32_t x, y;                   /* the pixel that the status' `under` describes; outside of the picture: none */
 } eclat_wish;
 
-/* What was wished last; at first what the job's options say, without a size. */
+/* Returns the latest wish; at first, that of the job's options, without a size. */
 eclat_wish eclat_live_wished(const eclat_live *live);
 
-/* Replaces it. Makes of *wish what can be had: a moved camera has numbers of nine digits, as commands have them. */
+/* Replaces the wish, and changes *wish to what is possible: values are limited, and a moved camera is rounded to nine digits, as in commands. */
 void eclat_live_wish(eclat_live *live, eclat_wish *wish);
 
 typedef struct eclat_effect {
@@ -88,68 +88,68 @@ typedef struct eclat_effect {
 } eclat_effect;
 
 typedef struct eclat_facts {
-    uint32_t serial;                 /* counts loads; 0: the scene is not there yet, and only the next two lines are known */
-    uint32_t width, height;          /* by the option size; else 0 until the scene is there, then 600 high and as wide as the job's camera asks */
-    const char *scene, *device;      /* its file; a name */
-    uint32_t camera, camera_count;   /* the job's, of so many: */
+    uint32_t serial;                 /* counts loads; 0: the scene is not loaded yet, and only the next two lines are known */
+    uint32_t width, height;          /* by the option "size"; else 0 until the scene is loaded, then 600 high and as wide as the job's camera asks */
+    const char *scene, *device;      /* path of the scene; name of the device */
+    uint32_t camera, camera_count;   /* the job's camera, and the length of `cameras` */
     const eclat_viewpoint *cameras;
     uint32_t effect_count;
-    const eclat_effect *effects;     /* that the scene calls for, and that can be left out */
+    const eclat_effect *effects;     /* those that the scene calls for and that can be left out */
     double center[3], radius;        /* a sphere around the scene */
-    int has_map;                     /* an environment that can be turned */
+    int has_map;                     /* 1: there is an environment that can be turned */
 } eclat_facts;
 
-/* Facts of the scene as it was loaded last; all they point to lasts until this is called again. */
+/* Returns facts of the scene as it was last loaded. They and all they point to are valid until the next call. */
 const eclat_facts *eclat_live_facts(eclat_live *live);
 
 /* What a pixel shows. */
 typedef struct eclat_probe {
     uint32_t x, y;
-    int is_inside;                   /* of the picture; else nothing below is known */
-    int has_value, has_error;        /* radiance, and its standard error: */
+    int is_inside;                   /* the pixel is in the picture; otherwise nothing below is known */
+    int has_value, has_error;        /* radiance, in rgb, and its standard error, in se, are known */
     double rgb[3], se[3];
-    int has_surface;                 /* seen by the pixel's centre: */
+    int has_surface;                 /* the pixel's centre sees a surface, which the fields below describe */
     double depth;                    /* metres from the camera */
-    int64_t material, node;          /* numbers in the file; -1: none */
+    int64_t material, node;          /* indices in the file; -1: none */
     char material_name[100], node_name[100];
-    double center[3], radius;        /* a sphere around the node's triangles; 0: it has none */
+    double center[3], radius;        /* a sphere around the node's triangles; radius 0: it has none */
 } eclat_probe;
 
-/* Which of these fails now: the last load of the files, the last set-up of a device, the current camera. */
+/* What may be failing now: the last load of the files, the last set-up of a device, the current camera. */
 typedef enum eclat_trouble { ECLAT_TROUBLE_FILES, ECLAT_TROUBLE_SETUP, ECLAT_TROUBLE_CAMERA, ECLAT_TROUBLE_COUNT } eclat_trouble;
 
 typedef struct eclat_status {
     uint64_t pictures;               /* made so far */
-    double first_light;              /* seconds from eclat_live_open to the first of them */
-    uint32_t preview;                /* pixels of a side that a sample stands for; 0: the picture has all samples so far */
+    double first_light;              /* seconds from eclat_live_open to the first picture */
+    uint32_t preview;                /* side in pixels of the square that one sample stands for; 0: the picture has all samples so far */
     eclat_integrator integrator;     /* of the picture */
-    eclat_second second;             /* what stands beside it; ECLAT_SECOND_NONE: nothing yet */
+    eclat_second second;             /* the second picture that is shown; ECLAT_SECOND_NONE: none yet */
     eclat_integrator second_integrator;
-    uint64_t samples;                /* a pixel */
-    double seconds;                  /* of rendering */
-    double error, error_bound;       /* as eclat_picture_error has them */
-    int is_denoised;                 /* the picture is the best of both, of as many samples as there were when it was made last: */
+    uint64_t samples;                /* per pixel */
+    double seconds;                  /* spent rendering */
+    double error, error_bound;       /* as in eclat_picture_error */
+    int is_denoised;                 /* 1: the picture is the best blend, made of the samples there were then; `best` is its error */
     eclat_stated_error best;
-    char undenoised[320];            /* why it is not, though it was wished; empty: it is, or will be */
+    char undenoised[320];            /* why it is not, although wished; empty: it is, or will be */
     double spp_limit, time_limit, error_limit; /* as raised so far; 0: none */
-    double seconds_left;             /* to the first limit; < 0: nothing is known yet */
-    int is_settled;                  /* nothing is left to do for what was wished last */
-    int is_complete;                 /* a limit is met: */
+    double seconds_left;             /* until the first limit is met; < 0: unknown yet */
+    int is_settled;                  /* 1: the latest wish is fulfilled */
+    int is_complete;                 /* 1: a limit is met, which stopped_by names */
     char stopped_by[16];             /* "spp", "time" or "error" */
-    uint32_t saves;                  /* that are done, or were given up */
-    int is_unsaved;                  /* the last one: */
-    char told[2304];                 /* where that one went, or why not */
-    int has_failed;                  /* 1 + the trouble by which there will never be a picture; 0: none */
-    char trouble[ECLAT_TROUBLE_COUNT][2304]; /* empty: it goes well */
+    uint32_t saves;                  /* done or given up so far */
+    int is_unsaved;                  /* 1: the last one failed or was given up */
+    char told[2304];                 /* where the last one went, or why it failed */
+    int has_failed;                  /* 0, or 1 + the eclat_trouble because of which there will never be a picture */
+    char trouble[ECLAT_TROUBLE_COUNT][2304]; /* by eclat_trouble; empty: none */
     char loading[64];                /* what is being loaded or built; empty: nothing */
     char effects[1024];              /* names of those that are simulated */
-    eclat_probe under;               /* the wish's pixel */
-    uint32_t picks;                  /* that are answered, the last one by: */
+    eclat_probe under;               /* the pixel x, y of the wish */
+    uint32_t picks;                  /* answered so far; `picked` answers the last one */
     eclat_probe picked;
 } eclat_status;
 void eclat_live_status(eclat_live *live, eclat_status *status);
 
-/* Tone-mapped, 3 bytes a pixel, row by row from the top; smaller than was wished while it is a preview. */
+/* A tone-mapped picture, 3 bytes per pixel, row by row from the top; smaller than wished while it is a preview. */
 typedef struct eclat_image {
     uint32_t width, height;
     const uint8_t *rgb;
@@ -157,15 +157,16 @@ typedef struct eclat_image {
 
 typedef enum eclat_shown { ECLAT_PICTURE, ECLAT_SECOND_PICTURE, ECLAT_SHOWN_COUNT } eclat_shown;
 
-/* The latest, which stays as it is until the next is taken. 0, and *image is as it was: there is none that was not taken before. */
+/* Takes the latest picture, if it was not taken before: returns 1 and sets *image, whose pixels stay valid until the next one is taken. Otherwise
+ * returns 0 and leaves *image as it was. */
 int eclat_live_take(eclat_live *live, eclat_shown which, eclat_image *image);
 
-/* Asks once what lies under a pixel, in the picture as it is then. Returns the status' number of picks with the answer. */
+/* Asks once what the picture shows at a pixel. Returns the value that the status' `picks` has once `picked` answers this call. */
 uint32_t eclat_live_pick(eclat_live *live, uint32_t x, uint32_t y);
 
-/* Replaces the wish, and saves its picture with the samples that it has, or will have first, whatever is wished since; given up where the camera
- * moves before that. To the files of "output", else to the scene's name with .exr and .png; later pictures are NAME-2 and so on. Returns the status'
- * number of saves with it. */
+/* Replaces the wish, and saves its picture with the samples that it has, or with the first ones that it gets, whatever is wished meanwhile; gives up
+ * if the camera moves before that. Writes the files of "output" or, without it, the scene's name with .exr and .png; later pictures are NAME-2 and so
+ * on. Returns the value that the status' `saves` has once this one is done or given up. */
 uint32_t eclat_live_save(eclat_live *live, eclat_wish *wish);
 
 #ifdef __cplusplus
