@@ -146,7 +146,7 @@ static ec_result choose_next(const ec_device_info *devices, uint32_t count, cons
                              const char *id, uint32_t *indices, uint32_t most, uint32_t *chosen, ec_error *err)
 {
     if (!*id)
-        return ec_fail(err, "the list of devices '%s' has an empty place; give numbers or names with commas between",
+        return ec_fail(err, "the list of devices '%s' has an empty place; give numbers or names separated by commas",
                        list);
     if (is_all(id))
         return ec_fail(err, "the list of devices '%s' has 'all' in it; give all alone, or numbers and names", list);

@@ -32,7 +32,7 @@ static const ec_option options[] = {
      .help = EC_EXPOSURE_HELP, .otherwise = "0"},
     {.name = "json", .help = "print one JSON object instead of text"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .uses = EC_OPTION_REPEATS,
-     .help = "write FILE, an .exr (all data, sums included, so that it can be merged again) a .png, a .jpg or an .hdr; may be repeated"},
+     .help = "write FILE, an .exr (all data, sums included, so that it can be merged again), a .png, .jpg, .avif, .jxl or .hdr; may be repeated"},
     {.name = "partial", EC_STORED(FLAG, partial), .help = "write the picture even if samples are missing"},
     {.name = "quiet", .letter = 'q', .help = "print only warnings and errors"},
     {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(tonemap, ec_tonemap_names), .help = EC_TONE_CURVES_HELP, .otherwise = "neutral"},

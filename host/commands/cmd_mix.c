@@ -21,7 +21,7 @@ static const ec_option options[] = {
     {.name = "exposure", .metavar = "EV", EC_RANGED(REAL, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST), .help = "brightness of the PNG, in stops", .otherwise = "0"},
     {.name = "json", .help = "print one JSON object instead of text"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .uses = EC_OPTION_REPEATS,
-     .help = "write FILE, an .exr (with its layers, so that it can be mixed again), a .png, a .jpg or an .hdr; may be repeated"},
+     .help = "write FILE, an .exr (with its layers, so that it can be mixed again), a .png, .jpg, .avif, .jxl or .hdr; may be repeated"},
     {.name = "quiet", .letter = 'q', .help = "print only warnings and errors"},
     {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(tonemap, ec_tonemap_names), .help = EC_TONE_CURVES_HELP, .otherwise = "neutral"},
 };

@@ -10,7 +10,7 @@ static const ec_option own[] = {
      .help = "move the camera and press keys as a script says, then close; the script orbit turns once around. Lines: turn YAW PITCH SECONDS (degrees), "
              "pan RIGHT UP SECONDS (picture heights), dolly FACTOR SECONDS, wait SECONDS, settle (until the limit is met), key NAME (e, E, 1, Tab, Save, ...; "
              "after X digits switch effects), quit. 0 SECONDS means at once"},
-    {.name = "stats", EC_STORED(FLAG, stats), .help = "report at the end when there was first light, and how long frames took while the camera moved"},
+    {.name = "stats", EC_STORED(FLAG, stats), .help = "report at the end the time to the first picture, and frame times while the camera moved"},
 };
 
 static int list_rows(ec_option rows[EC_OPTIONS_MAX])

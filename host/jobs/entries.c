@@ -31,7 +31,7 @@ ec_result ec_entries_check(const ec_given_options *given, ec_error *err)
     static const char *const alone[] = {"checkpoint", "plan", "resume", "samples", "snapshot"};
     for (size_t i = 0; i < sizeof alone / sizeof *alone; i++)
         if (ec_given_has(given, alone[i]))
-            return ec_usage(err, "--%s belongs to one picture, and there are several: the same command goes on with those that are not there; leave --%s out",
+            return ec_usage(err, "--%s works with a single picture, but several are given; leave --%s out: the same command, run again, skips pictures that exist",
                             alone[i], alone[i]);
     return EC_OK;
 }
@@ -107,7 +107,7 @@ static ec_result check_alike(const ec_entries *entries, ec_error *err)
         find_places(a->scene, of_a);
         for (uint32_t k = 0; k < i; k++) {
             const ec_entry *b = &entries->list[k];
-            if (!strcmp(a->scene, b->scene)) return ec_usage(err, "'%s' is given twice; leave it out once", a->scene);
+            if (!strcmp(a->scene, b->scene)) return ec_usage(err, "'%s' is given twice; remove one", a->scene);
             find_places(b->scene, of_b);
             for (int o = 0; o < a->given.count; o++)
                 if (!strcmp(a->given.list[o].option, "output") && !strcmp(a->given.list[o].value, b->given.list[o].value))

@@ -66,7 +66,7 @@ static ec_result read_gain(const char *text, const char *value, double gain[3], 
         }
     }
     if (c == 1) gain[1] = gain[2] = gain[0];
-    return c == 1 || c == 3 ? EC_OK : ec_usage(err, "'%.200s': a gain is a number from 0 to %g, or three with commas between them, as in lamp=0.5 or lamp=1,0.8,0.6", text, GAIN_MOST);
+    return c == 1 || c == 3 ? EC_OK : ec_usage(err, "'%.200s': a gain is a number from 0 to %g, or three separated by commas, as in lamp=0.5 or lamp=1,0.8,0.6", text, GAIN_MOST);
 }
 
 static ec_result read_gains(const ec_layers *layers, char **gains, int count, ec_mix *mix, ec_error *err)

@@ -188,13 +188,13 @@ static bool scan_list(const char *at, int count, double *values)
 ec_result ec_parse_triple(const char *option, const char *text, double xyz[3], ec_error *err)
 {
     if (scan_list(text, 3, xyz)) return EC_OK;
-    return ec_usage(err, "--%s: '%s' is not three numbers with commas between them, as in 1,2.5,-3", option, text);
+    return ec_usage(err, "--%s: '%s' is not three numbers separated by commas, as in 1,2.5,-3", option, text);
 }
 
 ec_result ec_parse_window(const char *option, const char *text, double most, double window[4], ec_error *err)
 {
     double read[4];
-    if (!scan_list(text, 4, read)) return ec_usage(err, "--%s: '%s' is not four numbers with commas between them, as in -1,1,-0.5,1.5", option, text);
+    if (!scan_list(text, 4, read)) return ec_usage(err, "--%s: '%s' is not four numbers separated by commas, as in -1,1,-0.5,1.5", option, text);
     for (int i = 0; i < 4; i++)
         if (!(fabs(read[i]) <= most)) return ec_usage(err, "--%s: '%s' reaches too far; give numbers from -%g to %g", option, text, most, most);
     for (int i = 0; i < 4; i += 2)

@@ -63,7 +63,7 @@ ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
 {
     uint32_t kind;
     if (!kind_of(path, &kind))
-        return ec_usage(err, "-o: '%s' must be named NAME.exr (all data) or NAME.png, NAME.jpg (picture) or NAME.hdr (radiance)", path);
+        return ec_usage(err, "-o: '%s' has no known extension; use .exr (all data), .png, .jpg, .avif or .jxl (picture), or .hdr (radiance)", path);
     const ec_format *format = kind == EC_OUTPUT_EXR ? NULL : &ec_formats[kind - EC_OUTPUT_PIXELS];
     if (format && format->encode && !*format->encode)
         return ec_usage(err, "-o: '%s' takes %s, which this eclat was built without; write a .png, or build eclat with %s-dev", path, format->library, format->library);

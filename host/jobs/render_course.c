@@ -72,7 +72,7 @@ static void warn_of_older(const ec_render_job *job, const ec_log *log)
     uint32_t first;
     if (path && ec_store_peek(path, &old, &first) &&
         !ec_identity_differs(&old.job.identity, &job->job.identity, difference, sizeof difference))
-        ec_warn(log, "'%s' has %llu samples a pixel of this render, which begins anew and writes over them; '--resume %s' goes on", path,
+        ec_warn(log, "'%s' holds %llu samples per pixel of this render and will be overwritten; '--resume %s' continues it instead", path,
                 (unsigned long long)ec_schedule_samples(old.film.replicates, old.film.batch_count), path);
     ec_stored_free(&old);
 }

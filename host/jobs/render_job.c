@@ -256,7 +256,7 @@ static ec_result find_layers(ec_render_job *job, ec_error *err)
     EC_TRY(ec_matte_names_find(job->scene, o->layers.mattes, &job->mattes, err));
     for (uint32_t k = 0; k < EC_MATTE_KINDS; k++) o->layers.matte_hashes[k] = job->mattes.hashes[k];
     if ((o->layers.count || o->layers.mattes) && job->ranks)
-        return ec_usage(err, "--channels direct, indirect, position, uv, motion or cryptomatte, and --light-groups, are for one process; leave them out, or mpirun");
+        return ec_usage(err, "--channels direct, indirect, position, uv, motion or cryptomatte, and --light-groups, do not work with several processes; leave them out, or run without mpirun");
     return EC_OK;
 }
 

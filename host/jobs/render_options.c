@@ -43,26 +43,29 @@ const ec_option ec_render_rows[] = {
 
     /* Picture */
     {.name = "background", .metavar = "WHAT", .set = ec_set_background, .group = EC_GROUP_PICTURE,
-     .help = "what the camera sees where no surface is: env, the environment; transparent, which the alpha of a .png and an .exr says; blur or blur:R, the "
-             "environment blurred by R degrees, " EC_TEXT(EC_BLUR) " for blur alone; white, black or RRGGBB, an sRGB colour. Blur and colours are those of files for the screen. The light stays the same, and so does what surfaces mirror",
+     .help = "what the camera sees where no surface is: env, the environment; transparent, stored in the alpha of a .png or .exr; blur or blur:R, the environment "
+             "blurred by R degrees, " EC_TEXT(EC_BLUR) " for blur alone; white, black or RRGGBB, an sRGB colour. Blur and colours appear only in files for the screen; "
+             "lighting and reflections do not change",
      .otherwise = "env", .not_in_window = "a window shows the environment"},
     {.name = "camera", .metavar = "NAME|INDEX", EC_STORED(TEXT, camera), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA | EC_OPTION_COST,
      .help = "camera to look through", .otherwise = "the scene's first; if it has none, one that frames the whole scene"},
     {.name = "channels", .metavar = "LIST", .set = ec_set_channels, .group = EC_GROUP_PICTURE,
-     .help = "channels of the EXR beside R, G and B, with commas between them: all, default, A, samples, stderr, low95 and high95 (the interval of each "
-             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, motion, cryptomatte (or of it CryptoObject, CryptoMaterial, CryptoAsset), or one of a layer as in stderr.Y. Slices hold all; "
-             "the last four have to be named",
+     .help = "channels of the EXR in addition to R, G and B, separated by commas: all, default, A, samples, stderr, low95 and high95 (the interval of each "
+             "pixel), heavy, clamped, denoised, best, albedo, normal, depth, direct, indirect, position, uv, motion, cryptomatte (or a part of it: CryptoObject, "
+             "CryptoMaterial, CryptoAsset), or a single channel of a layer, such as stderr.Y. Slices hold all of them; uv, position, motion and cryptomatte are "
+             "written only if named",
      .otherwise = "A, samples, stderr, heavy; with --clamp, clamped; with --denoise, denoised and best"},
     {.name = "light-groups", .metavar = "LIST", EC_STORED(TEXT, light_groups), .group = EC_GROUP_PICTURE, .integrators = PATHS,
-     .help = "layers of the EXR for the light of each group, which add up to the picture: names of lights' nodes, of materials that emit and environment, with commas "
-             "between them; NAME=A+B puts several into one, all makes a group of each. What is left over is in rest. eclat mix weighs them anew",
+     .help = "layers of the EXR for the light of each group, which add up to the picture: names of lights' nodes, of materials that emit and environment, "
+             "separated by commas; NAME=A+B puts several into one, all makes one group per light. Light of no group is in the layer rest. eclat mix changes their "
+             "weights",
      .not_in_window = "a window shows the sum"},
     {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = ec_set_denoise, .choices = ec_denoiser_names, .group = EC_GROUP_PICTURE,
      .integrators = PATHS_OR_LIGHT, .uses = EC_OPTION_WINDOW,
-     .help = "denoise the picture, and judge the denoiser: state the error of the denoised picture, and blend it tile by tile with "
-             "the noisy one by which is nearer to the truth. The PNG shows the blend, best; the EXR keeps R, G and B as they are and has denoised, "
-             "best and denoised.stderr beside them. --error is then that of best. oidn takes Intel's Open Image Denoise, atrous a filter of eclat's own "
-             "on the OpenCL device, auto, like --denoise alone, the first where it is installed and else the second",
+     .help = "denoise the picture, and judge the denoiser: state the error of the denoised picture, and blend it with the noisy picture, tile by tile, in favour "
+             "of the one with the smaller error. The PNG shows the blend, best; the EXR keeps R, G and B as they are and has denoised, best and denoised.stderr "
+             "beside them. --error is then that of best. oidn uses Intel's Open Image Denoise; atrous uses eclat's own filter on the OpenCL device; auto (the "
+             "same as --denoise alone) uses oidn if it is installed, otherwise atrous",
      .otherwise = "off"},
     {.name = "env", .metavar = "FILE|R,G,B", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
@@ -98,8 +101,8 @@ const ec_option ec_render_rows[] = {
              "camera's field of view; requires --focus",
      .otherwise = "a pinhole"},
     {.name = "ground", .metavar = "KIND", .value_optional = true, .set = ec_set_ground, .choices = ec_ground_names, .group = EC_GROUP_PICTURE,
-     .help = "lay a ground under the scene, at its lowest point: matte, like --ground alone, a grey floor; shadow, one that is not seen but for the shadows "
-             "on it, which the alpha of a .png and an .exr holds (requires --background)",
+     .help = "lay a ground under the scene, at its lowest point: matte (the same as --ground alone), a grey floor; shadow, an invisible ground that shows only "
+             "the shadows on it, stored in the alpha of a .png or .exr (requires --background)",
      .otherwise = "none", .not_in_window = "a window shows the scene as it is"},
     {.name = "light", .metavar = "NAME|FILE", EC_STORED(TEXT, environment), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
@@ -111,16 +114,16 @@ const ec_option ec_render_rows[] = {
      .help = "point the camera at this position", .otherwise = "where the camera looks; with --eye, the centre of the scene"},
     {.name = "output", .letter = 'o', .metavar = "FILE", EC_STORED(OUTPUT, outputs), .group = EC_GROUP_PICTURE,
      .uses = EC_OPTION_WINDOW | EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_REPEATS | EC_OPTION_OUTPUT,
-     .help = "write FILE: an .exr (linear, with errors: --channels), a .png, .jpg, .avif or .jxl for the screen, or an .hdr (linear); may be repeated. {name} stands for the "
-             "scene's base name, {folder} for its folder's: several scenes need one of them",
+     .help = "write FILE: an .exr (linear, with errors: --channels), a .png, .jpg, .avif or .jxl for the screen, or an .hdr (linear); may be repeated. {name} "
+             "stands for the scene's base name, {folder} for the name of its folder; with several scenes, use one of them",
      .otherwise = "the scene's base name with .exr and with .png, in the current directory"},
     {.name = "ocio", .metavar = "CONFIG", EC_STORED(TEXT, ocio.config), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_NO_IDENTITY,
-     .help = "show pictures for the screen by a view of this OpenColorIO config, a file or a built-in one as ocio://default, in place of --tonemap; where "
-             "eclat was built with OpenColorIO"},
+     .help = "convert pictures for the screen with a view of this OpenColorIO config, a file or a built-in one such as ocio://default, instead of --tonemap; "
+             "requires a build with OpenColorIO"},
     {.name = "ocio-display", .metavar = "NAME", EC_STORED(TEXT, ocio.display), .group = EC_GROUP_PICTURE,
      .help = "display of that config", .otherwise = "the first"},
     {.name = "ocio-space", .metavar = "NAME", EC_STORED(TEXT, ocio.space), .group = EC_GROUP_PICTURE,
-     .help = "the config's colour space of linear Rec. 709, in which pictures are", .otherwise = "found by the names that configs have for it"},
+     .help = "the config's colour space of linear Rec. 709, in which pictures are", .otherwise = "the one with a usual name of that space"},
     {.name = "ocio-view", .metavar = "NAME", EC_STORED(TEXT, ocio.view), .group = EC_GROUP_PICTURE,
      .help = "view of that display", .otherwise = "the display's first"},
     {.name = "parallel", .metavar = "M", .set = ec_set_parallel, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_CAMERA,
@@ -128,7 +131,7 @@ const ec_option ec_render_rows[] = {
     {.name = "png-depth", .metavar = "BITS", EC_CHOSEN(png_depth, ec_png_depths), .group = EC_GROUP_PICTURE,
      .help = "bits of each channel of a .png or .jxl: 8 or 16", .otherwise = "8"},
     {.name = "screen-window", .metavar = "L,R,B,T", .set = ec_set_screen_window, .group = EC_GROUP_PICTURE, .uses = EC_OPTION_INFO,
-     .help = "show what lies between left, right, bottom and top in the camera's image plane: 0,0 is its axis, 1 half the height of its view. For lens "
+     .help = "show the part between left, right, bottom and top of the camera's image plane, where 0,0 is the axis and 1 is half the height of the view. For lens "
              "shift, crops, and pixels that are not square",
      .otherwise = "-A,A,-1,1 for a picture A times as wide as high"},
     {.name = "size", .metavar = "WxH", EC_STORED(SIZE, options.width), EC_TOLD(has_size), .group = EC_GROUP_PICTURE, .uses = EC_OPTION_WINDOW,
@@ -161,31 +164,31 @@ const ec_option ec_render_rows[] = {
              "frame number (default: NAME.%04d.exr and .png). Frames of the same job that already exist are skipped",
      .not_in_window = MOVING},
     {.name = "orbit", .metavar = "N", EC_RANGED(U32, orbit, 1, EC_FRAME_MOST), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_PART,
-     .help = "turntable: frames 0 to N-1, in which the camera goes round the scene once, to its right, about --up (0,1,0) through --look-at (the centre of the "
-             "scene). Animations stand still, unless --fps is given; --frames renders some of the frames",
+     .help = "turntable: frames 0 to N-1, in which the camera circles the scene once, moving to its right, about --up (0,1,0) through --look-at (the centre of "
+             "the scene). Animations stand still, unless --fps is given; --frames renders some of the frames",
      .not_in_window = MOVING},
     {.name = "overwrite", EC_STORED(FLAG, overwrite), .group = EC_GROUP_ANIMATION, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE,
      .help = "replace existing frames of a different job; without this option they are an error", .not_in_window = MOVING},
 
     /* Several pictures */
     {.name = "out", .metavar = "FOLDER", EC_STORED(TEXT, folder), .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
-     .help = "with --scenarios: write NAME.exr and NAME.png of each scenario into FOLDER, which is made, with index.html and index.png, all of them with their "
-             "errors", .not_in_window = MANY},
+     .help = "with --scenarios: write NAME.exr and NAME.png of each scenario into FOLDER, which is created, and index.html and index.png, which show all pictures "
+             "with their errors", .not_in_window = MANY},
     {.name = "scenarios", .metavar = "FILE", EC_STORED(TEXT, scenarios), .group = EC_GROUP_SERIES,
      .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
      .help = "render the scenarios of FILE in place of a SCENE: models, cameras, light, size and tone curve, as in the config.json of <model-viewer>'s and Khronos' "
              "fidelity tests. Options given here replace a scenario's", .not_in_window = MANY},
     {.name = "shard", .metavar = "I/N", .set = ec_set_shard, .group = EC_GROUP_SERIES, .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
-     .help = "render only every N-th picture, from the I-th on, as in 3/8: N machines share the work", .not_in_window = MANY},
+     .help = "render only every N-th picture, from the I-th on, e.g. 3/8; used to divide the work among N machines", .not_in_window = MANY},
     {.name = "sheet", .metavar = "FILE", EC_STORED(FILE, sheet), .ending = ".png", .group = EC_GROUP_SERIES,
      .uses = EC_OPTION_NO_IDENTITY | EC_OPTION_SEQUENCE | EC_OPTION_PART,
-     .help = "write a contact sheet, a .png with small pictures of all, in their order from the top left; of --frames too", .not_in_window = MANY},
+     .help = "write a contact sheet, a .png with small versions of all pictures in order from the top left; also for --frames", .not_in_window = MANY},
 
     /* Resume and distribute */
     {.name = "checkpoint", .metavar = "FILE", EC_STORED(FILE, checkpoint), .ending = ".exr", .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
      .help = "write FILE, an .exr, at intervals, atomically; it is a picture and holds all that --resume needs", .not_in_window = LASTING},
     {.name = "every", .metavar = "S", EC_STORED(SECONDS, every), .group = EC_GROUP_RESUME, .uses = EC_OPTION_KEEPING,
-     .help = "seconds between checkpoints, or snapshots; there is one at the end too, also after Ctrl-C", .otherwise = EC_TEXT(EC_DEFAULT_EVERY), .not_in_window = LASTING},
+     .help = "seconds between checkpoints, or snapshots; one is also written at the end, and after Ctrl-C", .otherwise = EC_TEXT(EC_DEFAULT_EVERY), .not_in_window = LASTING},
     {.name = "plan", .metavar = "RANKS", .set = ec_set_plan, .group = EC_GROUP_RESUME,
      .help = "measure a few batches, predict how long 1 to RANKS processes of an MPI job would take, and print why; renders no picture. RANKS,GBIT,US "
              "assumes GBIT Gbit/s between two machines and US microseconds per message (default: 10,50)",
@@ -210,17 +213,17 @@ const ec_option ec_render_rows[] = {
     {.name = "cutoff", .metavar = "W", EC_RANGED(REAL, options.cutoff, 0, 1), .group = EC_GROUP_TRANSPORT, .integrators = OF(WHITTED),
      .help = "whitted only: drop branches whose weight is below W, 0 to 1; 0 follows all", .otherwise = EC_TEXT(EC_DEFAULT_CUTOFF)},
     {.name = "fog", .metavar = "D,A,G", .set = ec_set_fog, .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,
-     .help = "fill the ball about the scene, but for its bodies, with fog: D, what it takes of light per metre; A, the share of that which it scatters, 0 to 1; G, the "
-             "mean cosine of the angle, -0.999 (back) to 0.999 (forward). As in 0.05,0.9,0.6"},
+     .help = "fill the scene's bounding sphere, outside of its bodies, with fog. D: extinction per metre; A: scattering albedo, 0 to 1; G: mean cosine of the "
+             "scattering angle, -0.999 (back) to 0.999 (forward). For example 0.05,0.9,0.6"},
     {.name = "integrator", .metavar = "NAME", EC_CHOSEN(options.integrator, ec_integrator_names), .group = EC_GROUP_TRANSPORT,
      .uses = EC_OPTION_INFO | EC_OPTION_WINDOW,
-     .help = "path is the path tracer. For comparison, light traces paths from the lights alone, which find caustics at once and nothing that is seen in mirrors or "
-             "through glass; whitted traces mirrored and refracted rays, with hard shadows from the centres of lights; raster draws direct light from these "
-             "centres without shadows",
+     .help = "path is the path tracer. For comparison, light traces paths from the lights only: it finds caustics quickly, but nothing seen in mirrors or through "
+             "glass; whitted traces mirrored and refracted rays, with hard shadows from the centres of lights; raster draws direct light from these centres "
+             "without shadows",
      .otherwise = "path"},
     {.name = "light-choice", .metavar = "NAME", EC_CHOSEN(options.light_choice, ec_light_choice_names), .group = EC_GROUP_TRANSPORT,
      .integrators = PATHS, .uses = EC_OPTION_INFO,
-     .help = "how a surface picks a light to sample: power prefers bright lights; tree also those that are near and face it; auto takes tree where lights are "
+     .help = "how a surface picks a light to sample: power prefers bright lights; tree also those that are near and face it; auto chooses tree if lights are far "
              "apart. The image is the same",
      .otherwise = "auto"},
     {.name = "max-depth", .metavar = "N", .set = ec_set_max_depth, .group = EC_GROUP_TRANSPORT, .integrators = TRACERS,
@@ -228,14 +231,14 @@ const ec_option ec_render_rows[] = {
     {.name = "light-paths", .metavar = "N", .set = ec_set_light_paths, .group = EC_GROUP_TRANSPORT, .integrators = PATHS_OR_LIGHT,
      .uses = EC_OPTION_INFO,
      .help = "trace N paths from the lights for each path from the camera, towards what bends or mirrors light sharply, and weigh what both find: caustics "
-             "converge many times sooner; auto traces as many as a first look foretells to pay, with --guiding where caustics are hardly ever met, or "
-             "none. Only with --sample mis, and without --clamp",
+             "converge many times sooner. auto estimates the best number from a few paths traced first; it may choose none, and turns on --guiding if caustics "
+             "are rarely found. Only with --sample mis, and without --clamp",
      .otherwise = "auto; with --integrator light 1"},
     {.name = "guiding", EC_STORED(FLAG, options.guiding), .group = EC_GROUP_TRANSPORT, .integrators = PATHS, .uses = EC_OPTION_INFO,
-     .help = "learn from paths from the lights where light comes from, where something bends or mirrors it sharply, and sample directions by it too (path "
-             "guiding): caustics, also those seen in mirrors and through glass, converge sooner. Only with --sample mis"},
+     .help = "path guiding: learn from light paths where light arrives, if something refracts or mirrors it sharply, and sample those directions too: caustics, "
+             "also those seen in mirrors and through glass, converge sooner. Only with --sample mis"},
     {.name = "rr", .metavar = "P", .set = ec_set_rr, .group = EC_GROUP_TRANSPORT, .integrators = PATHS_OR_LIGHT,
-     .help = "Russian roulette: a survival probability at every surface, as in 0.8; auto, by throughput from the fifth segment on; or off, which requires "
+     .help = "Russian roulette: a survival probability at every surface, such as 0.8; auto, by the throughput after three segments; or off, which requires "
              "--max-depth N",
      .otherwise = "auto"},
     {.name = "sample", .metavar = "NAME", EC_CHOSEN(options.sample, ec_sample_names), .group = EC_GROUP_TRANSPORT, .integrators = PATHS,
@@ -261,7 +264,8 @@ const ec_option ec_render_rows[] = {
      .help = "OpenCL device: its number in eclat devices, or part of its name; for several, a list such as 0,2, or all",
      .otherwise = "$ECLAT_DEVICE, else the first GPU, else the first CPU"},
     {.name = "compile", .metavar = "WHEN", EC_CHOSEN(options.compile, ec_compile_names), .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
-     .help = "when to compile kernels that the driver does not have yet: beside (a render begins with narrow kernels, which compile sooner), first, or not at all: narrow, for small images; the image is the same",
+     .help = "when to compile kernels that the driver does not have yet: beside (a render begins with narrow kernels, which compile sooner), first, or narrow: "
+             "use only narrow kernels, for small images; the image is the same",
      .otherwise = "auto: $ECLAT_COMPILE, else beside"},
     {.name = "lanes", .metavar = "N", EC_STORED(LANES, options.lanes), .choices = ec_lanes_names, .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
      .help = "paths per work-item: 1, 4, 8, 16 or auto; the image is the same", .otherwise = "auto"},

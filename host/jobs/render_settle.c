@@ -39,7 +39,7 @@ static ec_result check_plan(const ec_option *options, int count, const bool *giv
     if (!plan || !given[plan - options]) return EC_OK;
     for (int i = 0; i < count; i++)
         if (given[i] && options[i].uses & EC_OPTION_PART)
-            return ec_usage(err, "--plan and --%s: a plan is of one whole picture, from its first sample on; leave --%s out", options[i].name,
+            return ec_usage(err, "--plan and --%s: a plan needs one whole picture from its first sample on; leave --%s out", options[i].name,
                             options[i].name);
     return EC_OK;
 }
@@ -78,7 +78,7 @@ static ec_result check_combinations(const ec_option *options, int count, const b
     if (asked->light_paths > 0 && asked->sample != EC_SAMPLE_MIS)
         return ec_usage(err, "--light-paths and --sample %s: light paths are weighed against both other ways; leave one out", ec_sample_names[asked->sample]);
     if (asked->light_paths > 0 && asked->clamp > 0)
-        return ec_usage(err, "--light-paths and --clamp: light paths bring the light that a clamp would take; leave one out");
+        return ec_usage(err, "--light-paths and --clamp: light paths add the light that --clamp would remove; leave one out");
     if (asked->integrator == EC_INTEGRATOR_LIGHT && asked->light_paths == 0)
         return ec_usage(err, "--integrator light and --light-paths 0: no path would be traced; leave one out");
     if (asked->guiding && asked->sample != EC_SAMPLE_MIS)
@@ -107,7 +107,7 @@ static ec_result settle_slice(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
     if (!request->has_slice) return EC_OK;
-    if (request->adaptive == EC_ADAPTIVE_ON) return ec_usage(err, "--samples and --adaptive: what a pixel is due there depends on the samples before; leave one out");
+    if (request->adaptive == EC_ADAPTIVE_ON) return ec_usage(err, "--samples and --adaptive: how many samples a pixel gets depends on earlier ones, which a slice does not have; leave one out");
     if (o->error_target > 0)
         return ec_usage(err, "--samples and --error: a slice does not know the error of the whole; leave one out");
     if (o->spp == 0) request->slice_of_any = true, o->spp = request->slice_end;
@@ -131,7 +131,7 @@ static ec_result settle_adaptive(ec_render_request *request, ec_error *err)
 {
     ec_render_options *o = &request->options;
     if (o->integrator == EC_INTEGRATOR_LIGHT && request->adaptive == EC_ADAPTIVE_ON)
-        return ec_usage(err, "--integrator light and --adaptive: light paths fall where they will, not on the pixels that are due; leave one out");
+        return ec_usage(err, "--integrator light and --adaptive: light paths cannot be aimed at chosen pixels; leave one out");
     o->adaptive = request->adaptive == EC_ADAPTIVE_ON || (request->adaptive == EC_ADAPTIVE_AUTO && o->error_target > 0 && o->integrator != EC_INTEGRATOR_LIGHT);
     if (o->adaptive && ec_render_replicates(o) < 2)
         return ec_usage(err, "--adaptive and --replicates 1: a single replicate does not tell where noise is; give 2 or more");
@@ -152,7 +152,7 @@ static ec_result check_ground(const ec_render_request *request, ec_error *err)
     if (request->ground != EC_GROUND_SHADOW) return EC_OK;
     if (request->options.integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--ground=shadow belongs to --integrator path; leave it out or choose that");
     if (!request->options.hides_environment)
-        return ec_usage(err, "--ground=shadow: the environment would stand before it; give --background transparent, a colour or blur");
+        return ec_usage(err, "--ground=shadow: the environment would hide the shadow; give --background transparent, a colour or blur");
     return EC_OK;
 }
 
@@ -171,7 +171,7 @@ static ec_result settle_frames(ec_render_request *request, ec_error *err)
     if (request->orbit && !request->frames.given)
         request->frames = (ec_frame_range){.given = true, .last = request->orbit - 1, .step = 1, .fps = request->frames.fps};
     if (!request->frames.given && request->overwrite)
-        return ec_usage(err, "--overwrite belongs to --frames; other pictures are written over as ever");
+        return ec_usage(err, "--overwrite works with --frames only; other pictures are always replaced");
     if (!request->frames.given && request->frames.fps > 0)
         return ec_usage(err, "--fps belongs to --frames; leave it out or give that too");
     if (!request->frames.given && request->seed_is_frame) return ec_usage(err, "--seed frame belongs to --frames; give a number");
@@ -181,7 +181,7 @@ static ec_result settle_frames(ec_render_request *request, ec_error *err)
     const bool is_still = request->orbit && request->frames.fps == 0;
     if (request->choice.at_given && !is_still) return ec_usage(err, "--frames and --at: frame F is shown at F / --fps seconds; leave --at out");
     const char *other = request->resume ? "resume" : request->checkpoint ? "checkpoint" : request->has_slice ? "samples" : request->snapshot ? "snapshot" : NULL;
-    if (other) return ec_usage(err, "--frames and --%s: a sequence goes on with the frames that are not there yet; leave --%s out", other, other);
+    if (other) return ec_usage(err, "--frames and --%s: the same command, run again, continues a sequence that was interrupted; leave --%s out", other, other);
     if (request->frames.fps == 0 && !is_still) request->frames.fps = EC_DEFAULT_FPS;
     return EC_OK;
 }
@@ -220,7 +220,7 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     if (!any_light && !o->layers.kinds && !o->layers.mattes) return EC_OK;
     const char *keeps = request->checkpoint ? "checkpoint" : request->resume ? "resume" : request->has_slice ? "samples" : NULL;
     const char *other = request->snapshot ? "snapshot" : o->layers.mattes ? keeps : NULL;
-    if (other) return ec_usage(err, "--%s and --%s: what is kept of a render has no such layers; leave one out", o->layers.mattes ? "channels cryptomatte" : what, other);
+    if (other) return ec_usage(err, "--%s and --%s: checkpoints, slices and snapshots do not store these layers; leave one out", o->layers.mattes ? "channels cryptomatte" : what, other);
     if (o->clamp > 0) return ec_usage(err, "--%s and --clamp: a clamp takes light from the sum, and no layer says which; leave one out", what);
     if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths know no layers; leave one out", what);
     if (any_light && o->integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--%s belongs to --integrator path; leave it out or choose that", what);
@@ -250,7 +250,7 @@ static ec_result settle_files(const ec_render_request *request, ec_error *err)
         const char *path = request->outputs.file[i].path;
         if (format && is_clear && !format->has_alpha) return ec_usage(err, "--background transparent: '%s' has no alpha; write a .png or an .exr", path);
         if (format && request->frames.given && !format->keeps_text)
-            return ec_usage(err, "--frames: '%s' cannot say which job it is of; write a .png or an .exr", path);
+            return ec_usage(err, "--frames: '%s' cannot store the identity of the frame's job; write a .png or an .exr", path);
     }
     return EC_OK;
 }

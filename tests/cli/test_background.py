@@ -201,8 +201,8 @@ class Background(Case):
                               (["--background", "blur:90"], "--background"),
                               (["--png-depth", "12"], "--png-depth"),
                               (["--background", "white", "--samples", "0:8", "-o", "a.exr"], "merging knows no background"),
-                              (["--frames", "0:1", "-o", "a.%d.jpg"], "cannot say which job it is of"),
-                              (["-o", "a.gif"], "must be named NAME.exr (all data) or NAME.png, NAME.jpg (picture) or NAME.hdr (radiance)")]:
+                              (["--frames", "0:1", "-o", "a.%d.jpg"], "cannot store the identity of the frame's job"),
+                              (["-o", "a.gif"], "has no known extension; use .exr (all data), .png, .jpg, .avif or .jxl (picture), or .hdr (radiance)")]:
             self.assertIn(says, self.assert_one_error(eclat("render", self.scene, *OPTIONS, *options, cwd=self.folder), 2))
         run = eclat("render", self.scene, *OPTIONS, "--spp", "1", "-q", "-o", self.path("none", "a.jpg"))
         self.assertIn("create its folder", self.assert_one_error(run, 1))

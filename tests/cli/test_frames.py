@@ -446,7 +446,7 @@ class CommandLine(FramesCase):
         self.refuse(scene, "--frames and --checkpoint", *frames, "--checkpoint", "c.exr")
         self.refuse(scene, "--frames and --samples", *frames, "--samples", "0:2")
         self.refuse(scene, "--fps belongs to --frames", "--fps", "24")
-        self.refuse(scene, "--overwrite belongs to --frames", "--overwrite")
+        self.refuse(scene, "--overwrite works with --frames only", "--overwrite")
         self.refuse(scene, "--fps", *frames, "--fps", "0")
         with open(scene, encoding="utf-8") as file:
             textured = dict(json.load(file), images=[{"uri": "map1.png"}])

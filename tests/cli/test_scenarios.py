@@ -141,7 +141,7 @@ class Scenarios(Case):
         self.refuse("leave 'models/quad.gltf' out", "models/quad.gltf", *listed)
         self.refuse("leave -o out", *listed, "-o", "x.png")
         self.refuse("--scenarios and --frames", *listed, "--orbit", "4")
-        self.refuse("--checkpoint belongs to one picture", *listed, "--checkpoint", "c.exr")
+        self.refuse("--checkpoint works with a single picture", *listed, "--checkpoint", "c.exr")
         self.refuse("cannot open 'none.json'", "--scenarios", "none.json", "--out", "out", code=1)
         for name in ("", "../a", ".a", "index", None):
             self.write([{"name": name, "model": "quad.gltf"}])

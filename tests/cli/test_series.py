@@ -130,7 +130,7 @@ class Series(Case):
 
     def test_nothing_is_rendered_where_something_is_wrong_with_all(self):
         for option, value in (("checkpoint", "c.exr"), ("samples", "0:4"), ("snapshot", "s.exr"), ("plan", "4")):
-            self.refuse(f"--{option} belongs to one picture", "a.gltf", "b.gltf", "-o", "out/{name}.exr", "--" + option, value)
+            self.refuse(f"--{option} works with a single picture", "a.gltf", "b.gltf", "-o", "out/{name}.exr", "--" + option, value)
         self.refuse("cannot write", "a.gltf", "b.gltf", "-o", "nowhere/{name}.png", code=1)
         self.refuse("cannot write", "a.gltf", "b.gltf", "-o", "out/{name}.png", "--sheet", "nowhere/s.png", code=1)
         self.refuse("is not I/N", "a.gltf", "b.gltf", "--shard", "3")

@@ -293,7 +293,7 @@ class WrongOptions(Case):
     def test_outputs(self):
         for name in ["a.gif", "a", ".png", "a.exr.txt", "folder.png/"]:
             with self.subTest(name=name):
-                self.usage("render", "s.gltf", "-o", name, says=".exr (all data) or NAME.png")
+                self.usage("render", "s.gltf", "-o", name, says="use .exr (all data), .png")
         self.usage("render", "s.gltf", "-o", "a.png", "-o", "a.png", says="twice")
 
 
