@@ -18,7 +18,7 @@ typedef struct ec_difference {
     double noise_relative_rms, noise_relmse;
 } ec_difference;
 
-/* Both of one size, with a pixel that counts. */
+/* Both pictures must have the same size, and a pixel that counts. */
 ec_difference ec_measure_difference(const ec_measured *a, const ec_measured *b);
 
 #endif
