@@ -21,7 +21,7 @@ typedef struct ec_content {
     uint64_t called;                   /* EC_FEATURE_*: the effects */
 } ec_content;
 
-/* That of the kernels alone, which needs no render. */
+/* Writes the digest of the kernels alone, which needs no render. */
 void ec_content_kernels(char digest[33]);
 
 #endif
