@@ -1,4 +1,4 @@
-/* What a cargo holds, and how it is filled: params first, then buffers. */
+/* Lists what a cargo holds and fills it: params first, then buffers. */
 #include "device/cargo.h"
 
 #include <math.h>

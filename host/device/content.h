@@ -1,4 +1,4 @@
-/* What is rendered, as digests of what the device is given: two renders of the same content, options and batches take the same samples. */
+/* Digests of what the device is given, by which renders are compared: two renders of the same content, options and batches take the same samples. */
 #ifndef EC_DEVICE_CONTENT_H
 #define EC_DEVICE_CONTENT_H
 

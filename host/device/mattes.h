@@ -1,4 +1,4 @@
-/* Which nodes and materials the samples of a wave have met, read from their slots. */
+/* Reads from a wave's slots which nodes and materials its samples have met. */
 #ifndef EC_DEVICE_MATTES_H
 #define EC_DEVICE_MATTES_H
 
@@ -14,7 +14,7 @@ typedef struct ec_mattes {
 /* Reads a wave of `count` positions from `first` on, which are entries of a list or pixels of the rows that the pipeline renders. */
 ec_result ec_mattes_read(ec_mattes *mattes, const ec_pipeline *p, bool is_list, uint32_t first, uint32_t count, ec_error *err);
 
-/* Hands all over, once the batch is there. */
+/* Moves all that has been met to `log`; called once the batch is complete. */
 ec_result ec_mattes_tell(ec_mattes *mattes, ec_matte_log *log, ec_error *err);
 
 void ec_mattes_free(ec_mattes *mattes);

@@ -1,4 +1,4 @@
-/* How far a picture is from a reference, in the usual figures. docs/error.md has the definitions. */
+/* Measures how far a picture is from a reference, in the usual figures; docs/error.md defines them. */
 #ifndef EC_FILM_DIFFERENCE_H
 #define EC_FILM_DIFFERENCE_H
 

@@ -1,4 +1,4 @@
-/* How bright a picture is shown. */
+/* Chooses the exposure that a picture is shown with. */
 #ifndef EC_FILM_EXPOSURE_H
 #define EC_FILM_EXPOSURE_H
 

@@ -56,7 +56,7 @@ static const ec_pixel *at(const window *w, uint32_t x, uint32_t y) { return w->p
 /* Returns where row j - REACH is in `part`; AROUND is added so that it is not negative. */
 static uint64_t row_at(uint64_t j) { return (j + AROUND - EC_INTERVAL_REACH) % AROUND; }
 
-/* By how much the pixel's brightest sample exceeds its mean. The largest is a float: steady pixels have no excess. */
+/* Returns by how much the pixel's brightest sample exceeds its mean, which is raised by a float's rounding so that steady pixels have no excess. */
 static double excess_of(const ec_pixel *p) { return fmax(p->tail[0] - (1 + 1e-6) * ec_luminance(p->mean), 0); }
 
 static double log_noise(const ec_pixel *p, int channel)

@@ -1,4 +1,4 @@
-/* Do two renders differ by more than their noise? */
+/* Tests whether two renders differ by more than their noise. */
 #ifndef EC_FILM_NOISE_TEST_H
 #define EC_FILM_NOISE_TEST_H
 

@@ -1,4 +1,4 @@
-/* What a film knows of a pixel. */
+/* Statistics of a film's pixels: means, deviations and tails, from the film's sums. */
 #ifndef EC_FILM_PIXEL_H
 #define EC_FILM_PIXEL_H
 

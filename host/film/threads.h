@@ -1,4 +1,4 @@
-/* Which loops over pixels are worth threads. */
+/* Decides whether a loop over pixels is worth threads. */
 #ifndef EC_FILM_THREADS_H
 #define EC_FILM_THREADS_H
 

@@ -1,4 +1,4 @@
-/* Which paths of a picture hardly ever meet their light, how often they do and what they bring: foretold by a first look at its paths. */
+/* Foretells which paths of a picture hardly ever meet their light, how often they do and what they bring, by a first look at its paths. */
 #ifndef EC_RARE_PATHS_H
 #define EC_RARE_PATHS_H
 

@@ -1,4 +1,4 @@
-/* How a film lies in an EXR file.
+/* Layout of a film in an EXR file.
  *
  * Part "picture": what viewers show. Its attribute eclat.state is a JSON object: state.c. Part "sums N" for each part of the film: R, G and B of each
  * replicate, the tail of the samples and each set of features, if it has any (film/sums.h); or the values of a single batch. Pixels with counts of their

@@ -1,4 +1,4 @@
-/* Where in the picture a sample lies. */
+/* Places a sample in the picture. */
 #ifndef EC_LIB_CAMERA_H
 #define EC_LIB_CAMERA_H
 

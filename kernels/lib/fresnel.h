@@ -1,4 +1,4 @@
-/* How much an interface reflects. */
+/* Fresnel reflectance of an interface. */
 #ifndef EC_LIB_FRESNEL_H
 #define EC_LIB_FRESNEL_H
 
@@ -19,7 +19,7 @@ EC_FN lane_f refracted_cosine2(lane_f cosine, lane_f eta)
     return fma(cosine, cosine, less) + lost;
 }
 
-/* Unpolarised reflectance between two dielectrics (Fresnel 1823), for the cosine c of incidence and the index beyond over the
+/* Returns the unpolarised reflectance between two dielectrics (Fresnel 1823), for the cosine c of incidence and the index beyond over the
  * index here; exactly 1 beyond the critical angle, exactly 0 where the index stays the same. With g of Snell's law above, c - g
  * and eta^2 c - g cancel between media that are nearly alike, so eta^2 - 1 is taken out of both:
  * c - g = -(eta^2 - 1) / (c + g), and eta^2 c - g = (eta^2 - 1) c + (c - g). */

@@ -1,4 +1,4 @@
-/* From a hit to a shading point: position with its error bound, normals, material parameters. */
+/* Turns a hit into a shading point: position with its error bound, normals, material parameters. */
 #ifndef EC_LIB_SURFACE_H
 #define EC_LIB_SURFACE_H
 

@@ -1,4 +1,4 @@
-/* One ray through a uniform grid: the 3D-DDA of Amanatides and Woo 1987 for a ray as wide as its rounding, over blocks of 4 x 4 x 4
+/* Traces one ray through a uniform grid: the 3D-DDA of Amanatides and Woo 1987 for a ray as wide as its rounding, over blocks of 4 x 4 x 4
  * cells; within a block all 64 cells are compared at once, in the lanes of vectors, and most are empty.
  *
  * Along each axis the ray is in one block or, near a plane, in two: a block begins for it at its near plane with the widened offset
