@@ -18,8 +18,8 @@ uint32_t ec_accel_find(const char *name)
     return i;
 }
 
-/* A GPU gets the scalar kernel. On a CPU packets win for camera rays, but less than a hundredth of the time of a scene of 130 000 triangles
- * (docs/internals.md): not worth a second tree and its kernels. */
+/* A GPU gets the scalar kernel of bvh2. On a CPU packets win for camera rays, but gain less than a hundredth of the time of a scene of 130 000
+ * triangles (docs/internals.md): not worth a second tree and its kernels. */
 ec_result ec_accels_choose(const char *name, uint32_t triangle_count, bool is_cpu, uint32_t *chosen, ec_error *err)
 {
     if (!name || !strcmp(name, "auto")) {

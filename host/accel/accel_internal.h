@@ -16,16 +16,16 @@ typedef struct ec_ref {
     ec_box box;         /* no -0, no NaN */
     uint32_t triangle;
 } ec_ref;
-/* Malloc'ed, the caller's. bounds: of all of them; 0 where there are none. */
+/* Makes the references, malloc'ed and the caller's. bounds: of all of them; 0 if there are none. */
 ec_result ec_accel_refs(ec_accel_input *input, ec_ref **refs, uint32_t *count, ec_box *bounds, ec_error *err);
 
-/* The team a builder may use. */
+/* Returns how many threads a builder may use. */
 int ec_accel_threads(const ec_accel_input *input, uint32_t count);
 
-/* The binary tree, built now if it has not been. */
+/* Builds the binary tree if it has not been built yet. */
 ec_result ec_accel_bvh(ec_accel_input *input, ec_error *err);
 
-/* Writes references which[0 .. count), at most 8, into a block; their boxes too where `boxes` is not NULL. */
+/* Writes references which[0 .. count), at most 8, into a block, and their boxes if `boxes` is not NULL. */
 void ec_accel_block(const ec_accel_input *input, const ec_ref *refs, const uint32_t *which, uint32_t count, ec_tri8 *block,
                     ec_box8 *boxes);
 

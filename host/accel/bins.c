@@ -46,7 +46,7 @@ uint32_t ec_bins_left(const ec_bins *bins, const ec_split *split)
     return (uint32_t)left;
 }
 
-/* The number of blocks that hold count triangles, times the area. */
+/* Returns the cost of leaves: the number of blocks that hold count triangles, times the area. */
 static ec_v4 leaf_costs(ec_i4 count, ec_v4 area)
 {
     ec_i4 blocks = (count + 7) >> 3; /* EC_LEAF_MAX is 8 */
@@ -65,8 +65,7 @@ static void grow_three(ec_box4 box[3], const ec_box4 by[3])
     for (int axis = 0; axis < 3; axis++) ec_box4_grow(&box[axis], by[axis].lo, by[axis].hi);
 }
 
-/* Costs of every plane on the three axes at a time; a plane with nothing on one side has a cost that is NaN or
- * infinite and never wins. */
+/* Weighs every plane on the three axes at a time; a plane with nothing on one side has a cost that is NaN or infinite and never wins. */
 static void sweep(const ec_bins *bins, const ec_i4 ends[EC_BINS], ec_v4 scale, ec_v4 *best, ec_i4 *best_bin)
 {
     ec_v4 right_cost[EC_BINS];

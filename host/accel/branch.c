@@ -1,4 +1,4 @@
-/* Pieces of a tree that were built apart, joined in an order that does not depend on who built them. */
+/* Joins pieces of a tree that were built separately, in an order that does not depend on who built them. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* The two BVHs behind the common interface: layouts of one and the same tree. */
+/* The two BVHs behind the common interface: two layouts of the same tree. */
 #include "accel/accel_internal.h"
 
 ec_result ec_accel_bvh(ec_accel_input *in, ec_error *err)

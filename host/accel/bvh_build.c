@@ -1,5 +1,5 @@
-/* The binary tree: large ranges are split by all cores together, and triangles cut where that pays; small ranges become
- * subtrees that one core builds alone; the pieces are then joined in their order. */
+/* Builds the binary tree: large ranges are split by all cores together, and triangles cut where that pays; small ranges become subtrees that one core
+ * builds alone; the pieces are then joined in their order. */
 #include <omp.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -9,11 +9,11 @@
 #include "base/clock.h"
 
 #define SUBTREE 1024u /* references; not tied to the number of cores, since the numbering follows from it */
-#define PARTS_SHARE 0.3     /* at most so many parts more than triangles */
-#define PARTS_LEAST 20u     /* fewer than one triangle in so many cut: not worth the boxes that every reference then needs */
-#define REFS_MAX (1u << 27) /* what the binary layout can number; scenes that come near it are not cut */
+#define PARTS_SHARE 0.3     /* parts may exceed triangles by at most this share */
+#define PARTS_LEAST 20u     /* if fewer than one triangle in so many is cut, it is not worth the boxes that every reference then needs */
+#define REFS_MAX (1u << 27) /* limit of the binary layout's numbering; scenes that come near it are not cut */
 #define LOAD_CHUNK 16384u
-#define TEAM_MIN 4096u /* fewer triangles are built sooner than a second thread wakes */
+#define TEAM_MIN 4096u /* with fewer triangles the build is over before a second thread wakes */
 
 static void fail(ec_builder *builder)
 {
@@ -53,7 +53,7 @@ static void build_subtree(ec_builder *builder, ec_branch *tree, uint32_t index, 
     build_subtree(builder, tree, left + 1, &children[1]);
 }
 
-/* The tree over a range, down to what subtrees are made of, by tasks; whole when all of them have ended. */
+/* Builds the tree over a range by tasks, down to the ranges that become subtrees; it is complete when all tasks have ended. */
 static void build_branch(ec_builder *builder, const ec_range *range, ec_branch **result)
 {
     ec_range children[2];
@@ -104,7 +104,7 @@ static ec_range load(const ec_builder *builder, uint32_t count)
 {
     ec_range root = {.count = count};
     ec_range_clear(&root);
-    if (!count) return root; /* where clang 14 goes through the loop below 2^32 times */
+    if (!count) return root; /* clang 14 would go through the loop below 2^32 times */
 #pragma omp taskloop default(shared) grainsize(1)
     for (uint32_t first = 0; first < count; first += LOAD_CHUNK) {
         uint32_t left = count - first;
@@ -150,7 +150,7 @@ static void build_all(ec_builder *builder, uint32_t count, uint32_t capacity, ec
 static ec_branch *build_pieces(ec_builder *builder, uint32_t count, bool cut, int team, uint32_t *ref_count)
 {
     ec_branch *tree = NULL;
-    /* Memory for parts that nobody cuts is never touched. */
+    /* Memory for parts that are never cut is never touched. */
     uint32_t spare = cut && count < REFS_MAX ? REFS_MAX - count : 0, share = (uint32_t)(count * PARTS_SHARE);
     uint32_t capacity = count + (share < spare ? share : spare);
     for (int i = 0; i < 2; i++) builder->prims[i] = ec_allocate_lines(capacity, sizeof(ec_build_prim));

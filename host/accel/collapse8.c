@@ -1,5 +1,5 @@
-/* The cheapest way to make 8-wide nodes of a binary tree, by dynamic programming from the leaves up: Ylitie, Karras and
- * Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3. */
+/* Finds the cheapest way to make 8-wide nodes of a binary tree, by dynamic programming from the leaves up: Ylitie, Karras and Laine 2017, "Efficient
+ * incoherent ray traversal on GPUs through compressed wide BVHs", section 3. */
 #include <stdlib.h>
 
 #include "accel/layout_internal.h"
@@ -28,7 +28,7 @@ static float half_area(const ec_bvh_build_node *node, float scale)
     return x * y + (x + y) * z;
 }
 
-/* The cheapest way to share `slots` children among left and right. Even shares win ties: they keep trees flat. */
+/* Finds the cheapest way to divide `slots` children between left and right. Even shares win ties: they keep trees flat. */
 static float distribute(const slot_costs *left, const slot_costs *right, int slots, uint8_t *share)
 {
     int best = slots / 2;

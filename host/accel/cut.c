@@ -1,6 +1,5 @@
-/* Spatial splits: a plane through triangles, each of which goes to both sides with the box of its part there. Stich,
- * Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies". Pays where long triangles cross many small
- * ones, and most in the upper tree. */
+/* Spatial splits: a plane cuts triangles, each of which goes to both sides with the box of its part there. Stich, Friedrich and Dietrich 2009,
+ * "Spatial splits in bounding volume hierarchies". Pays where long triangles cross many small ones, and most in the upper tree. */
 #include <float.h>
 #include <stdlib.h>
 
@@ -14,7 +13,7 @@
 typedef struct chunk {
     ec_bins bins;
     ec_i4 ends[EC_BINS];
-    uint32_t left, right; /* counts, then where its parts go */
+    uint32_t left, right; /* counts, then the places where its parts go */
     ec_range sides[2];    /* their bounds alone */
 } chunk;
 
@@ -22,7 +21,7 @@ typedef struct plane {
     int axis;
     float at;
     ec_v4 scale;
-    ec_box4 box[2]; /* of the sides, as the bins have them */
+    ec_box4 box[2]; /* of the sides, from the bins */
     float area[2], count[2];
 } plane;
 
@@ -54,7 +53,7 @@ void ec_triangle_cut(const ec_v4 vertices[3], const ec_box4 *box, int axis, floa
     }
 }
 
-/* Puts a triangle's parts into the bins they lie in. */
+/* Puts a triangle's parts into the bins in which they lie. */
 static void fill_parts(chunk *c, const ec_binning *binning, const ec_v4 vertices[3], ec_box4 rest, int axis, int first,
                        int last)
 {
@@ -121,8 +120,8 @@ static plane plane_of(const ec_range *range, const ec_binning *binning, const ec
     return p;
 }
 
-/* Which sides a triangle goes to: 1 the left one, 2 the right one, 3 both, in parts. It stays whole where that costs
- * less (Stich et al., section 4.4). */
+/* Returns to which sides a triangle goes: 1 the left one, 2 the right one, 3 both, in parts. It stays whole where that costs less (Stich et al.,
+ * section 4.4). */
 static int sides_of(const ec_builder *builder, const plane *p, const ec_build_prim *prim, ec_box4 part[2])
 {
     ec_box4 box = box_of(prim);
@@ -210,7 +209,7 @@ static int is_worth_a_try(const ec_builder *builder, const ec_range *range, cons
     if (!has_long || is_empty(&shared)) return 0;
     ec_box4 boxes[3] = {shared, builder->scene, builder->scene};
     ec_v4 areas = ec_half_areas(boxes, ec_box4_scale(&builder->scene));
-    return areas[0] > OVERLAP * areas[1]; /* never where areas are not numbers */
+    return areas[0] > OVERLAP * areas[1]; /* never if areas are not numbers */
 }
 
 int ec_range_cut(ec_builder *builder, const ec_range *range, const ec_split *objects, ec_range children[2])

@@ -32,7 +32,7 @@ static void free_input(struct ec_followed_input *i)
     free(i);
 }
 
-/* Flat ones, and those of the shapes behind them. */
+/* Returns the number of all triangles: flat ones, and those of the shapes behind them. */
 static uint32_t all_triangles(const ec_accel_input *in)
 {
     const ec_shape *last = in->shape_count ? &in->shapes[in->shape_count - 1] : NULL;
@@ -65,7 +65,7 @@ static ec_result remember(ec_followed *f, const ec_accel_input *in, ec_error *er
     return copied ? EC_OK : ec_fail(err, "out of memory for what %u triangles were", in->triangle_count);
 }
 
-/* Are the triangles made of the vertices that they were made of, wherever these are now? */
+/* Returns whether the triangles are made of the same vertices as before, wherever these are now. */
 static bool same_triangles(const struct ec_followed_input *i, const ec_accel_input *in)
 {
     return i && i->vertex_count == in->vertex_count && i->triangle_count == in->triangle_count &&
@@ -76,7 +76,7 @@ static bool same_triangles(const struct ec_followed_input *i, const ec_accel_inp
            same(i->shapes, in->shapes, in->shape_count, sizeof *in->shapes);
 }
 
-/* Without the padding behind them. */
+/* Compares places without the padding behind them. */
 static bool same_placed(const ec_placed *a, const ec_placed *b, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -125,7 +125,7 @@ static bool can_refit(uint32_t wanted, const ec_accel_input *in)
     return in->whole || in->swept_count; /* parts of cut triangles would have to be cut again */
 }
 
-/* In place; the worst of them counts. */
+/* Refits the structures in place; the report has the worst of them. */
 static void refit(ec_followed *f, const ec_accel_input *in)
 {
     double start = ec_now(), expense = 0;
@@ -138,7 +138,7 @@ static void refit(ec_followed *f, const ec_accel_input *in)
     f->report.refit_seconds = f->refit_seconds = ec_now() - start;
 }
 
-/* trace_seconds are those of the moment before, whose trees cost `before` times what they cost when they were built. */
+/* Returns whether a new build pays. trace_seconds is that of the moment before, whose trees cost `before` times what they cost when they were built. */
 static bool is_worth_building(const ec_followed *f, double before)
 {
     double fresh = f->trace_seconds / before;
@@ -148,7 +148,7 @@ static bool is_worth_building(const ec_followed *f, double before)
 static ec_result follow_moved(ec_followed *f, ec_accel_input *in, uint32_t wanted, ec_error *err)
 {
     double before = f->report.expense;
-    if (f->refit_seconds > f->report.build_seconds) return build(f, in, wanted, err); /* as it may be on many cores */
+    if (f->refit_seconds > f->report.build_seconds) return build(f, in, wanted, err); /* this may happen on many cores */
     refit(f, in);
     f->report.what = EC_FOLLOW_REFITTED;
     return is_worth_building(f, before) ? build(f, in, wanted, err) : EC_OK;

@@ -1,5 +1,5 @@
-/* The uniform grid: cells about as many as `density` times the references, near cubes; which references each cell holds, in two
- * parallel passes, one that counts and one that fills. */
+/* Builds the uniform grid: about `density` times as many cells as references, near cubes. Which references each cell holds is found in two parallel
+ * passes, one that counts and one that fills. */
 #include <math.h>
 
 #include "accel/accel_internal.h"
@@ -21,7 +21,8 @@ typedef struct grid {
     ec_box bounds;
 } grid;
 
-/* As many cubes as wanted, if no axis were shorter than a cube; axes that are get the fewest cells and the others share. */
+/* Chooses the numbers of cells: as many cubes as wanted, if no axis were shorter than a cube; axes that are get the fewest cells and the others the
+ * rest. */
 static void choose_cells(grid *g, double wanted)
 {
     int taken[3] = {0};
@@ -60,7 +61,7 @@ static void place_planes(grid *g, float *planes)
     }
 }
 
-/* The cells that [lo, hi] needs: the last that begins no later than lo, the first that ends no earlier than hi. */
+/* Finds the cells that [lo, hi] needs: from the last one that begins no later than lo to the first one that ends no earlier than hi. */
 static void range_of(const grid *g, int axis, float lo, float hi, uint32_t range[2])
 {
     const float *planes = g->planes[axis];
@@ -97,14 +98,14 @@ static uint64_t entry_count(const grid *g)
     return sum;
 }
 
-/* Cells are numbered block by block. */
+/* Returns a cell's number; cells are numbered block by block. */
 static size_t cell_index(const grid *g, uint32_t x, uint32_t y, uint32_t z)
 {
     size_t block = x / 4 + (size_t)(g->cells[0] / 4) * (y / 4 + (size_t)(g->cells[1] / 4) * (z / 4));
     return 64 * block + (x % 4 + 4 * (y % 4) + 16 * (z % 4));
 }
 
-/* counts[c] is the place behind cell c's entries; filling moves it to their first. NULL entries: only count. */
+/* Counts the cells' entries or, if `entries` is not NULL, fills them in: counts[c] is then the place behind cell c's entries, and moves to their first. */
 static void deal(const grid *g, uint32_t *counts, uint32_t *entries)
 {
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 1024)
@@ -126,7 +127,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Threads fill in any order; sorted, the grid is the same for any number of them. starts: of the cells that hold something. */
+/* Sorts each cell's entries: threads fill in any order; sorted, the grid is the same for any number of them. starts: of the cells that hold something. */
 static void sort_cells(const grid *g, const uint32_t *starts, uint32_t cells, uint32_t *entries)
 {
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4096)
@@ -160,7 +161,7 @@ static uint32_t count_cells(const grid *g, uint32_t *counts, ec_grid_block *bloc
     return used;
 }
 
-/* starts: one more than there are occupied cells; the entries behind them. */
+/* Fills starts, one more than there are occupied cells, and the entries behind them. */
 static void fill_cells(const grid *g, uint32_t *counts, const ec_grid_block *blocks, uint32_t *starts, uint32_t used,
                        uint32_t entry_count)
 {
@@ -182,7 +183,7 @@ static void fill_triangles(const grid *g, const ec_accel_input *in, ec_tri *tria
     }
 }
 
-/* Cells and planes, coarser until the entries are no more than the memory that they are worth. */
+/* Makes cells and planes, coarser until the entries take no more memory than they are worth. */
 static ec_grid *make_header(grid *g, double density, uint64_t *entries, uint64_t *bytes)
 {
     ec_grid *header = NULL;

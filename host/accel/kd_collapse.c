@@ -1,4 +1,4 @@
-/* Three levels of the binary kd-tree in one node of the kernels'. */
+/* Puts three levels of the binary kd-tree into one node of the kernels. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ static uint32_t add_node(collapse *c)
     return ++c->count; /* one more than its index: 0 is a failure */
 }
 
-/* A child for `count` blocks from `first` on: a leaf, or where they are too many, a node that divides nothing. */
+/* Makes a child for `count` blocks from `first` on: a leaf or, if they are too many, a node that divides nothing. */
 static int set_leaf(collapse *c, uint32_t at, uint32_t slot, uint32_t first, uint32_t count)
 {
     if (count <= EC_KD_LEAF_MOST) {

@@ -1,4 +1,4 @@
-/* Where to split a cell of the kd-tree. */
+/* Chooses where to split a cell of the kd-tree. */
 #include <math.h>
 
 #include "accel/kd_internal.h"
@@ -10,7 +10,7 @@ float ec_kd_leaf_cost(uint32_t count)
     return EC_KD_COST_BLOCK * (float)((count + 7) / 8);
 }
 
-/* In units of the cell's longest edge, so that nothing overflows. */
+/* Edges are in units of the cell's longest edge, so that nothing overflows. */
 static float half_area(const float edge[3]) { return edge[0] * edge[1] + (edge[0] + edge[1]) * edge[2]; }
 
 typedef struct chooser {
@@ -30,7 +30,7 @@ static void weigh_one(chooser *c, int axis, float plane, uint32_t left, uint32_t
     if (cost < c->best.cost) c->best = (ec_kd_split){cost, plane, axis, flat_left, left, right};
 }
 
-/* below: items that begin before the plane; flat: that lie in it; above: that end behind it. */
+/* Weighs a plane. below: items that begin before it; flat: those that lie in it; above: those that end behind it. */
 static void weigh(chooser *c, int axis, float plane, uint32_t below, uint32_t flat, uint32_t above)
 {
     weigh_one(c, axis, plane, below + flat, above, 1);
@@ -73,7 +73,8 @@ static void weigh_all(chooser *c, int axis, const ec_kd_item *items, uint32_t co
     }
 }
 
-/* Bins by where items begin and end; the sides of all of them are planes too, so that empty space is cut off exactly. */
+/* Weighs planes at equal steps by bins of where items begin and end. The outer sides of all items are planes too, so that empty space is cut off
+ * exactly. */
 static void weigh_steps(chooser *c, int axis, const ec_kd_item *items, uint32_t count, const ec_box *cell)
 {
     uint32_t begins[STEPS] = {0}, ends[STEPS] = {0};
@@ -118,7 +119,7 @@ ec_kd_split ec_kd_choose(const ec_kd_item *items, uint32_t count, const ec_box *
     c.scale = (float)fmin(1.0 / longest, 3e38);
     for (int axis = 0; axis < 3; axis++) c.edge[axis] = (float)(edge[axis] * (double)c.scale);
     c.area = half_area(c.edge);
-    if (!(c.area > 0.0f) || !count) return c.best; /* a line or a point: no ray is spared by splitting it */
+    if (!(c.area > 0.0f) || !count) return c.best; /* a line or a point: splitting it saves no ray */
     for (int axis = 0; axis < 3; axis++) {
         if (count <= EC_KD_EXACT) weigh_all(&c, axis, items, count, cell);
         else weigh_steps(&c, axis, items, count, cell);

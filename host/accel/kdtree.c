@@ -28,7 +28,7 @@
 typedef struct range {
     ec_kd_item *items; /* owned */
     uint32_t count, depth, refusals;
-    double budget;     /* references in all leaves below */
+    double budget;     /* references that all leaves below may have */
     ec_box cell;
     double area;       /* its surface as a share of the root's */
 } range;
@@ -55,7 +55,7 @@ static void fail(builder *b)
     b->failed = 1;
 }
 
-/* The items of each side, cut to it. False: out of memory. */
+/* Makes the items of each side, cut to it. Returns false if it is out of memory. */
 static int divide(const range *r, const ec_kd_split *s, range children[2])
 {
     const double whole = ec_box_half_area(r->cell.lo, r->cell.hi);
@@ -81,7 +81,7 @@ static int divide(const range *r, const ec_kd_split *s, range children[2])
     return 1;
 }
 
-/* Whether to split, and into what; the range's items are spent then. */
+/* Decides whether to split a range, and splits it; its items are freed then. */
 static int split(builder *b, range *r, ec_kd_split *s, range children[2])
 {
     if (r->depth >= b->depth_most || r->count == 0) return 0;
@@ -115,7 +115,7 @@ static void make_leaf(builder *b, piece *p, uint32_t index, range *r)
     p->cost += r->area * ec_kd_leaf_cost(r->count);
 }
 
-/* Fills p->nodes[index] and all below it. Spends the range. */
+/* Fills p->nodes[index] and all below it. Frees the range. */
 static void build_subtree(builder *b, piece *p, uint32_t index, range *r)
 {
     ec_kd_split s;
@@ -139,7 +139,7 @@ static void build_subtree(builder *b, piece *p, uint32_t index, range *r)
     }
 }
 
-/* The tree over a range, by tasks; whole when all of them have ended. Spends the range. */
+/* Builds the tree over a range by tasks; it is complete when all tasks have ended. Frees the range. */
 static void build_piece(builder *b, range r, piece **result)
 {
     ec_kd_split s;
@@ -193,7 +193,7 @@ static void count_piece(const piece *p, joined *j)
     for (int side = 0; side < 2 && !p->nodes; side++) count_piece(p->child[side], j);
 }
 
-/* The root of a piece goes to `slot`, the rest behind what is there already. */
+/* Copies a piece: its root to `slot`, the rest behind what is there already. */
 static void join_piece(const piece *p, uint32_t slot, joined *j)
 {
     uint32_t rest = j->node_count;
@@ -231,7 +231,7 @@ static ec_result join(const piece *p, joined *j, ec_error *err)
     return EC_OK;
 }
 
-/* Reference numbers in, triangles out: every block in its own place. */
+/* Turns reference numbers into triangles, each block in its own place. */
 static void fill_blocks(const ec_accel_input *in, const ec_ref *refs, const joined *j, ec_tri8 *blocks, ec_box8 *boxes,
                         int threads)
 {

@@ -1,5 +1,5 @@
-/* The binary layout. The upper tree is the builder's; subtrees of at most EC_SWEEP_MAX triangles are built anew by exact
- * SAH, because the builder charges for blocks of eight and these kernels pay for every triangle. */
+/* Makes the binary layout. The upper tree is the builder's; subtrees of at most EC_SWEEP_MAX triangles are built anew by exact SAH, because the
+ * builder charges for blocks of eight and these kernels pay for every triangle. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ typedef struct plan {
     subtree *subtrees;
     group *groups;
     uint32_t *ids; /* triangles in the order of the new leaves */
-    ec_box *boxes; /* the same; NULL where the tree has none */
+    ec_box *boxes; /* likewise; NULL if the tree has none */
     uint32_t upper_count, subtree_count, group_count;
     int failed;
 } plan;
@@ -99,7 +99,7 @@ static void join_group(plan *p, uint32_t index, ec_bvh2_node *nodes)
 static int allocate_plan(plan *p)
 {
     p->below = ec_bvh_subtrees(p->bvh);
-    p->upper = malloc(p->bvh->node_count * sizeof *p->upper); /* far too much, and never touched */
+    p->upper = malloc(p->bvh->node_count * sizeof *p->upper); /* far more than needed, and never touched */
     p->subtrees = malloc(p->bvh->node_count * sizeof *p->subtrees);
     if (!p->below || !p->upper || !p->subtrees) return 0;
     plan_upper(p, 0, 0);
@@ -130,7 +130,7 @@ static void free_plan(plan *p)
     free(p->boxes);
 }
 
-/* The nodes of a tree of more than EC_SWEEP_MAX triangles; NULL when out of memory. */
+/* Builds the nodes of a tree of more than EC_SWEEP_MAX triangles; returns NULL when out of memory. */
 static ec_bvh2_node *build_large(plan *p, uint32_t *node_count)
 {
     if (!allocate_plan(p)) return NULL;
@@ -178,7 +178,7 @@ static void fill_triangles(const plan *p, ec_tri *triangles)
     for (uint32_t i = 0; i < p->bvh->ref_count; i++) triangles[i] = ec_tri_of(p->positions, p->indices, p->ids[i]);
 }
 
-/* Does `second` continue `first` to a quad: (p, q, r) and (p, r, s)? Those that move may part. */
+/* Returns whether `second` completes `first` to a quad: (p, q, r) and (p, r, s). Moving triangles do not, since they may part. */
 static int is_quad(const ec_tri *first, const ec_tri *second, uint32_t moving)
 {
     return first->id >= moving && second->id >= moving && !memcmp(first->v0, second->v0, sizeof first->v0) &&

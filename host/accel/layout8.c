@@ -1,4 +1,4 @@
-/* The 8-wide layout: first which binary nodes become children of which wide node, then the arrays, on all cores. */
+/* Makes the 8-wide layout: first decides which binary nodes become children of which wide node, then fills the arrays, on all cores. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -21,13 +21,13 @@ typedef struct plan {
     const ec_bvh *bvh;
     ec_subtree *subtrees;
     ec_collapse collapse;
-    float *promise; /* by binary node, of occlusion.c */
+    float *promise; /* by binary node, from occlusion.c */
     wide *nodes;
     uint32_t *leaves; /* the binary node of each block */
     uint32_t node_count, leaf_count;
 } plan;
 
-/* The children that `index` becomes when given `slots` of them. */
+/* Lists the children that `index` becomes when given `slots` of them. */
 static void gather(const plan *p, uint32_t index, int slots, uint32_t *children, int *count)
 {
     const uint8_t *choice = p->collapse.slots[index];
@@ -43,7 +43,7 @@ static void gather(const plan *p, uint32_t index, int slots, uint32_t *children,
 
 static int is_leaf(const plan *p, uint32_t index) { return !p->collapse.slots[index][1]; }
 
-/* The best eight children where the stack allows; else the two of the binary tree, of which no path has more than 63. */
+/* Lists the best eight children if the stack allows; else the two of the binary tree, of which no path has more than 63. */
 static int gather_within(const plan *p, uint32_t index, uint32_t stack, uint32_t *children)
 {
     int count = 0;
@@ -57,7 +57,7 @@ static int gather_within(const plan *p, uint32_t index, uint32_t stack, uint32_t
     return count;
 }
 
-/* The best for shadow rays last: they go through a node's children from the last to the first. */
+/* Sorts children so that the best for shadow rays come last: these go through a node's children from the last to the first. */
 static void sort_by_promise(const plan *p, uint32_t *children, int count)
 {
     for (int i = 1; i < count; i++) {
@@ -88,17 +88,17 @@ static void plan_node(plan *p, uint32_t at, uint32_t index, uint32_t stack)
         plan_node(p, node->first_node + k, node->child[k], stack - (uint32_t)(count - 1));
 }
 
-/* The child that is a leaf: a block, or of a tree of instances one of them. */
+/* Returns the child that is a leaf: a block, or in a tree of instances one of them. */
 static uint32_t leaf_of(const plan *p, const wide *from, uint32_t k)
 {
     const uint32_t instance = p->bvh->order[p->bvh->nodes[from->child[k]].first] + 1;
     return EC_LEAF_BIT | (p->bvh->leaf_most == 1 ? EC_INSTANCE_BIT | instance : from->first_leaf + k - from->node_count);
 }
 
-/* By how far the children's centres lie along each octant's diagonal. */
+/* Orders children for each octant by how far their centres lie along its diagonal. */
 static void order_children(ec_bvh8_node *node)
 {
-    for (uint32_t octant = 0; octant < 4; octant++) { /* the others go the opposite ways */
+    for (uint32_t octant = 0; octant < 4; octant++) { /* the other octants have the opposite order */
         float along[8];
         uint32_t slots[8];
         for (uint32_t k = 0; k < 8; k++) {

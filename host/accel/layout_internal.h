@@ -12,18 +12,17 @@ typedef struct ec_subtree {
     uint32_t height; /* edges down to the deepest leaf */
 } ec_subtree;
 
-/* One entry a node; malloc'ed and the caller's, NULL when out of memory. */
+/* Returns one entry for each node; malloc'ed and the caller's, NULL when out of memory. */
 ec_subtree *ec_bvh_subtrees(const ec_bvh *bvh);
 
-/* collapse8.c: how to spend eight children. slots[n][j]: of the j children that node n may become, how many its left
- * child becomes; 0: as with j - 1. slots[n][1]: 0 = a leaf block, 1 = a node of its own, spent as slots[n][8] says. */
+/* collapse8.c: how to use eight children. slots[n][j]: of the j children that node n may become, how many its left child becomes; 0: as with j - 1.
+ * slots[n][1]: 0 = a leaf block, 1 = a node of its own, whose children slots[n][8] says. */
 typedef struct ec_collapse {
     uint8_t (*slots)[9];
 } ec_collapse;
 int ec_collapse8(const ec_bvh *bvh, const ec_subtree *subtrees, ec_collapse *collapse);
 
-/* occlusion.c: how promising each node is to a shadow ray inside it; one a node, malloc'ed and the caller's, NULL when
- * out of memory. */
+/* occlusion.c: returns how promising each node is to a shadow ray inside it; one for each node, malloc'ed and the caller's, NULL when out of memory. */
 float *ec_bvh_promises(const ec_bvh *bvh);
 
 /* sweep.c: exact SAH over at most EC_SWEEP_MAX triangles, for leaves of at most EC_SWEEP_LEAF that are tested triangle

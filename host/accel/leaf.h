@@ -19,14 +19,14 @@ static inline void ec_box_grow(ec_box *box, const float lo[3], const float hi[3]
     }
 }
 
-/* Half the surface of a box; 0 where there is nothing in it. */
+/* Returns half the surface of a box; 0 if it is empty. */
 static inline double ec_box_half_area(const float lo[3], const float hi[3])
 {
     const double x = (double)hi[0] - lo[0], y = (double)hi[1] - lo[1], z = (double)hi[2] - lo[2];
     return x >= 0 ? x * y + (x + y) * z : 0;
 }
 
-/* A triangle's corner. positions: 3 floats a vertex; indices: 3 a triangle. */
+/* Returns a triangle's corner. positions: 3 floats a vertex; indices: 3 a triangle. */
 static inline const float *ec_corner(const float *positions, const uint32_t *indices, uint32_t triangle, size_t corner)
 {
     return positions + 3 * (size_t)indices[3 * (size_t)triangle + corner];

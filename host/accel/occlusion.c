@@ -1,6 +1,6 @@
-/* Which child a shadow ray should enter first: the one with the best chance of a hit for what it costs. What is below is
- * unknown but for boxes, and these suffice: with true chances in the leaves the order hardly differs. In the spirit of Nah
- * and Manocha 2014, "SATO: surface area traversal order for shadow ray tracing". */
+/* Decides which child a shadow ray should enter first: the one with the best chance of a hit for what it costs. Nothing is known of what is below but
+ * boxes, and these suffice: with true chances in the leaves the order hardly differs. In the spirit of Nah and Manocha 2014, "SATO: surface area
+ * traversal order for shadow ray tracing". */
 #include "accel/layout_internal.h"
 #include "base/freed.h"
 
@@ -8,7 +8,7 @@
 #define NODE_COST 0.4f /* in leaves */
 
 typedef struct outlook {
-    float chance, cost; /* of a hit below a node that the ray enters; of what it visits until then */
+    float chance, cost; /* chance of a hit below a node that the ray enters, and the cost of what it visits until then */
 } outlook;
 
 static float half_area(const ec_bvh_build_node *n)

@@ -1,4 +1,4 @@
-/* Triangles as boxes: loading them, bounding a run of them, dealing them to the two sides of a split. */
+/* Triangles as boxes: loads them, bounds runs of them, deals them to the two sides of a split. */
 #include <string.h>
 
 #include "accel/build_internal.h"

@@ -1,5 +1,5 @@
-/* Boxes from the leaves up: the leaves on all cores, since they are most of the work, then the nodes above them. In both layouts children lie
- * behind their parents, so that one sweep from the end does. */
+/* Refits boxes from the leaves up: the leaves on all cores, since they are most of the work, then the nodes above them. In both layouts children lie
+ * behind their parents, so that one sweep from the end is enough. */
 #include "accel/refit.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@
 
 /* A BVH of either layout: nodes of eight children over blocks, or of two over runs of triangles. */
 typedef struct tree {
-    ec_bvh8_node *wide;      /* NULL: it is the other one */
+    ec_bvh8_node *wide;      /* NULL: the layout is the binary one */
     ec_bvh2_node *binary;
     void *leaves, *boxes;    /* boxes: NULL where no triangle moves */
     uint64_t count;
@@ -61,7 +61,7 @@ static ec_box node_box(const tree *t, uint64_t node)
     return all;
 }
 
-/* As the builder bounds it: what it sweeps, where it moves while the shutter is open. No -0. */
+/* Returns a triangle's box, as the builder bounds it: the swept box, if it moves while the shutter is open. No -0. */
 static ec_box box_of(const ec_accel_input *in, uint32_t id)
 {
     ec_box b;
@@ -82,7 +82,7 @@ static ec_box refit_block(const ec_accel_input *in, ec_tri8 *block, ec_box8 *box
     return all;
 }
 
-/* Two are tested together only as long as they share an edge, to the bit. */
+/* Returns whether two triangles still form a quad: they are tested together only as long as they share an edge, to the bit. */
 static bool is_still_pair(const ec_accel_input *in, const ec_tri *first)
 {
     const bool moves = first[0].id < in->swept_count || first[1].id < in->swept_count;
@@ -124,7 +124,8 @@ void ec_accel_refit(uint32_t which, const ec_accel_input *in, ec_accel *accel)
             if (!(child_of(&t, i, k) & EC_LEAF_BIT)) set_child_box(&t, i, k, node_box(&t, child_of(&t, i, k)));
 }
 
-/* A wide node and a block cost the same (collapse8.c); in box tests, a node of two costs two and each triangle four (sweep.c). */
+/* Returns the cost of visiting a child. A wide node and a block cost the same (collapse8.c); in box tests, a node of two costs two and each triangle
+ * four (sweep.c). */
 static double cost_of(const tree *t, uint32_t child)
 {
     if (child == EC_NO_CHILD) return 0;

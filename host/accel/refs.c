@@ -1,4 +1,4 @@
-/* The references that grids and kd-trees sort into cells. */
+/* Makes the references that grids and kd-trees sort into cells. */
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
@@ -7,14 +7,14 @@
 #include "accel/accel_internal.h"
 #include "accel/leaf.h"
 
-#define TEAM_MIN 4096u /* fewer are done sooner than a second thread wakes */
+#define TEAM_MIN 4096u /* with fewer triangles the work is done before a second thread wakes */
 
 int ec_accel_threads(const ec_accel_input *in, uint32_t count)
 {
     return count < TEAM_MIN ? 1 : in->threads ? (int)in->threads : omp_get_max_threads();
 }
 
-/* Not a number counts as 0; infinity as the largest number. */
+/* Turns NaN into 0, and infinity into the largest number. */
 static float tame(float x)
 {
     return !(x == x) ? 0.0f : fminf(fmaxf(x, -3e38f), 3e38f) + 0.0f;
@@ -33,7 +33,7 @@ static ec_ref ref_of(const ec_accel_input *in, uint32_t triangle)
     return ref;
 }
 
-/* The parts that the BVH has cut triangles into: all structures must hold the same ones to give the same hits. */
+/* Returns one of the parts that the BVH has cut triangles into: all structures must hold the same ones to give the same hits. */
 static ec_ref part_of(const ec_bvh *bvh, uint32_t i) { return (ec_ref){bvh->boxes[i], bvh->order[i]}; }
 
 ec_result ec_accel_refs(ec_accel_input *in, ec_ref **refs, uint32_t *count, ec_box *bounds, ec_error *err)

@@ -1,11 +1,11 @@
-/* One range of triangles into two: bin, choose, deal. */
+/* Splits a range of triangles in two: bins, chooses, deals. */
 #include <stdlib.h>
 
 #include "accel/build_internal.h"
 
 typedef struct chunk {
     ec_bins bins;
-    uint32_t left, right; /* where its triangles go */
+    uint32_t left, right; /* places where its triangles go */
     ec_range sides[2];
 } chunk;
 

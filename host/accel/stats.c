@@ -1,4 +1,4 @@
-/* Numbers that tell a good tree from a bad one. */
+/* Figures that tell a good tree from a bad one. */
 #include "accel/build_internal.h"
 #include "accel/leaf.h"
 

@@ -1,4 +1,4 @@
-/* Exact SAH for a handful of triangles: every plane between two neighbours on every axis is weighed. */
+/* Exact SAH for a handful of triangles: weighs every plane between two neighbours on every axis. */
 #include <string.h>
 
 #include "accel/layout_internal.h"
@@ -11,7 +11,7 @@
 typedef struct sweep {
     ec_box4 box[EC_SWEEP_MAX];        /* by place in the ids given */
     uint8_t order[3][EC_SWEEP_MAX];   /* places sorted by centroid along each axis; a range of each holds the same set */
-    uint8_t leaf_order[EC_SWEEP_MAX]; /* as the leaves come */
+    uint8_t leaf_order[EC_SWEEP_MAX]; /* places in the order of the leaves */
     uint32_t placed, first;
     ec_bvh2_node *nodes;
     uint32_t *node_count;
@@ -40,7 +40,7 @@ static ec_box4 box4_of(const ec_box *box)
     return (ec_box4){{box->lo[0], box->lo[1], box->lo[2], 0.0f}, {box->hi[0], box->hi[1], box->hi[2], 0.0f}};
 }
 
-/* Insertion, since most ranges come nearly sorted from the builder. Equal centroids keep their order. */
+/* Insertion sort, since most ranges come nearly sorted from the builder. Equal centroids keep their order. */
 static void sort_axis(sweep *s, int axis, uint32_t count)
 {
     float key[EC_SWEEP_MAX];
@@ -57,7 +57,7 @@ static void sort_axis(sweep *s, int axis, uint32_t count)
     }
 }
 
-/* The boxes of the first i + 1 of count places on all axes, or of the last ones from i on. */
+/* Grows the boxes on all axes by the triangle at a place of each order. */
 static void grow_by(const sweep *s, uint32_t place, ec_box4 box[3])
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -76,7 +76,7 @@ static ec_box4 bound(const sweep *s, int axis, uint32_t begin, uint32_t end)
     return box;
 }
 
-/* Where costs are not numbers, and where a tree would grow too deep, the middle is taken. */
+/* Chooses a plane. Where costs are not numbers, or a tree would grow too deep, it takes the middle. */
 static plane choose(const sweep *s, uint32_t begin, uint32_t end, uint32_t depth, ec_v4 scale)
 {
     ec_v4 right_cost[EC_SWEEP_MAX];
@@ -101,7 +101,7 @@ static plane choose(const sweep *s, uint32_t begin, uint32_t end, uint32_t depth
     return best;
 }
 
-/* Keeps the order within each side on the axes that were not split. */
+/* Divides a range; on the axes that were not split, each side keeps its order. */
 static void divide(sweep *s, const plane *p, uint32_t begin, uint32_t end)
 {
     uint8_t on_right[EC_SWEEP_MAX], right[EC_SWEEP_MAX];

@@ -1,5 +1,5 @@
-/* A tree of instances over one tree for each mesh, beside that of what stands in the world by itself: nodes and blocks of all of
- * them in one buffer each. Memory goes by the meshes, not by how often they stand somewhere. */
+/* A tree of instances over one tree for each mesh, beside the tree of the triangles that belong to no instance: nodes and blocks of all of them are
+ * in one buffer each. Memory depends on the meshes, not on how many instances they have. */
 #include <float.h>
 #include <math.h>
 
@@ -17,7 +17,7 @@ typedef struct shape_facts {
     uint32_t root;
     double half[3];    /* largest |coordinate| */
     double edge[3];    /* longest edges of a triangle's box */
-    ec_box parts[8];   /* the boxes below the root: together they hold it, and hug it closer than its own */
+    ec_box parts[8];   /* the boxes below the root: together they hold the mesh, more closely than its own box */
     uint32_t part_count;
 } shape_facts;
 
@@ -28,7 +28,7 @@ typedef struct twolevel {
     shape_facts *shapes;
 } twolevel;
 
-/* Appends a tree; its references to itself move with it. */
+/* Appends a tree; its child references are shifted accordingly. */
 static ec_result append(twolevel *t, const ec_bvh8 *tree, ec_error *err)
 {
     ec_bvh8 *all = &t->all;
@@ -43,7 +43,7 @@ static ec_result append(twolevel *t, const ec_bvh8 *tree, ec_error *err)
         for (int k = 0; k < 8; k++) {
             uint32_t *child = &all->nodes[i].child[k];
             if (!(*child & EC_LEAF_BIT)) *child += all->node_count;
-            else if (!(*child & EC_INSTANCE_BIT)) *child += all->block_count; /* an instance, and none, stay what they are */
+            else if (!(*child & EC_INSTANCE_BIT)) *child += all->block_count; /* references to instances, and EC_NO_CHILD, stay as they are */
         }
     all->node_count = (uint32_t)nodes;
     all->block_count = (uint32_t)blocks;
@@ -71,7 +71,7 @@ static ec_result build_shape(const ec_accel_input *in, const ec_shape *shape, ec
     return result;
 }
 
-/* The mesh by itself, wherever its vertices lie among all. */
+/* Returns the key of a mesh by itself, wherever its vertices lie among all. */
 static ec_fingerprint key_of(const ec_accel_input *in, const ec_shape *shape)
 {
     ec_fingerprint key = {{shape->count}};
@@ -115,7 +115,7 @@ static ec_result append_shape(const ec_accel_input *in, uint32_t index, twolevel
     return result;
 }
 
-/* The largest sum that rounding a corner of it goes through, along an axis. */
+/* Returns the largest sum that rounding a corner of an instance goes through, along an axis. */
 static double reach_of(const ec_placed *p, const shape_facts *f, int row)
 {
     double sum = fabs(p->place[row][3]);
@@ -203,7 +203,7 @@ ec_result ec_twolevel_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
     EC_TRY(ec_accel_bvh(in, err));
     EC_TRY(ec_bvh8_layout(&in->bvh, in->positions, in->indices, &t.all, err));
     ec_result result = EC_OK;
-    const uint64_t box_bytes = t.all.boxes ? t.all.block_count * (uint64_t)sizeof *t.all.boxes : 0; /* where triangles were cut: there are no instances then */
+    const uint64_t box_bytes = t.all.boxes ? t.all.block_count * (uint64_t)sizeof *t.all.boxes : 0; /* if triangles were cut: there are no instances then */
     uint64_t references = in->bvh.ref_count;
     t.node_room = t.all.node_count;
     t.block_room = t.all.block_count;

@@ -69,7 +69,7 @@ static inline ec_v4 ec_half_areas(const ec_box4 box[3], ec_v4 scale)
     return x * y + (x + y) * z;
 }
 
-/* One over the longest edge: what to scale the boxes inside by. */
+/* Returns one over the longest edge, by which boxes inside are scaled. */
 static inline ec_v4 ec_box4_scale(const ec_box4 *box)
 {
     ec_v4 extent = box->hi - box->lo;

@@ -37,7 +37,7 @@ bool ec_ahead_take(ec_cl *cl, const char *source, const char *options, cl_progra
     return false;
 }
 
-/* All that says whether a job was compiled before: compile_done.c. */
+/* Returns whether two jobs are the same in all that says whether one was compiled before: compile_done.c. */
 static bool is_same(const ec_compile_job *a, const ec_compile_job *b)
 {
     bool same = a->program_count == b->program_count && a->kernel_count == b->kernel_count;

@@ -1,5 +1,5 @@
-/* Programs that are built by a thread before they are asked for, while the host prepares the data for their kernels. Only those that the driver
- * finds in its cache: compiling would hold up whoever needs another program sooner. Inside host/cl, and for who knows what will be asked for. */
+/* Builds programs in a thread before they are asked for, while the host prepares the data for their kernels. Takes only those that the driver finds
+ * in its cache: compiling would hold up whoever needs another program sooner. Inside host/cl, and for code that knows what will be asked for. */
 #ifndef EC_CL_AHEAD_H
 #define EC_CL_AHEAD_H
 
@@ -16,17 +16,17 @@ struct ec_ahead {
     ec_error errors[EC_COMPILE_PROGRAMS]; /* of programs that are NULL though all were tried */
 };
 
-/* ahead_begin.c: begins with the job's programs, whose sources are taken over. Programs stay that were built for the job before. Nothing happens where
- * there is no thread to be had, or where programs are kept (ec_cl.keeps_programs). */
+/* ahead_begin.c: begins with the job's programs, and takes over their sources. Programs that were built for the job before stay. Nothing happens if
+ * no thread can be started, or where programs are kept (ec_cl.keeps_programs). */
 void ec_ahead_begin(ec_cl *cl, ec_compile_job *job);
 
-/* Waits for the thread, and forgets what nobody has asked for. ec_cl_close does so too. */
+/* Waits for the thread, and releases what nobody has asked for. ec_cl_close does so too. */
 void ec_ahead_end(ec_cl *cl);
 
-/* Was it tried to build this program? Then *program is the caller's from here on, or NULL, and *err says why. Waits for the thread. */
+/* Returns whether a build of this program was tried. Then *program is the caller's from here on; or it is NULL, and *err says why. Waits for the thread. */
 bool ec_ahead_take(ec_cl *cl, const char *source, const char *options, cl_program *program, ec_error *err);
 
-/* Is this the job, and is it sure that it was compiled before? Waits for the thread. */
+/* Returns whether this is the job, and was certainly compiled before. Waits for the thread. */
 bool ec_ahead_is_done(const ec_cl *cl, const ec_compile_job *job);
 
 #endif

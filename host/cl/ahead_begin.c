@@ -3,7 +3,7 @@
 #include "cl/ahead.h"
 #include "cl/build_log.h"
 
-/* Touches nothing of the device that another thread may change. */
+/* The thread; it touches nothing of the device that another thread may change. */
 static void *build_all(void *user)
 {
     struct ec_ahead *a = user;
@@ -15,7 +15,7 @@ static void *build_all(void *user)
     return NULL;
 }
 
-/* Takes what was built for the job before and is the same now, as for a picture of another size. Waits for it. */
+/* Takes what was built for the job before and is the same now, as for a picture of another size. Waits for the thread. */
 static void take_built(ec_cl *cl, struct ec_ahead *a)
 {
     for (uint32_t i = 0; i < a->job.program_count; i++)

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "cl/kept.h"
 
-#define EC_ADOPTED (1 << 20) /* bytes: fewer are copied as soon */
+#define EC_ADOPTED (1 << 20) /* bytes: smaller buffers are copied as quickly */
 #define EC_SMALLEST_BUFFER 16 /* OpenCL has no empty buffers; an empty table still needs an argument */
 
 static double mib(uint64_t bytes) { return (double)bytes / 1048576.0; }
@@ -93,7 +93,7 @@ void ec_buffer_release(ec_cl *cl, cl_mem *buffer)
     if (!*buffer) return;
     cl->releases++;
     size_t size = 0;
-    if (is_kept(cl, *buffer)) { /* its memory is counted until that reference goes */
+    if (is_kept(cl, *buffer)) { /* its memory counts until the other reference goes */
         clReleaseMemObject(*buffer);
         *buffer = NULL;
         return;

@@ -1,4 +1,4 @@
-/* The compiler's words: the few lines that help go into the message, all of them into a folder if asked. */
+/* The compiler's output: puts the few lines that help into the message, and all of it into a folder if asked. */
 #include "cl/build_log.h"
 
 #include <errno.h>
@@ -29,7 +29,7 @@ static bool is_error(const char *line, size_t length)
     return false;
 }
 
-/* Where line n of the source is, by the #line before it. */
+/* Finds where line n of the source comes from, by the #line before it. */
 static void place_of(const char *source, unsigned n, char *place, size_t size)
 {
     unsigned line = n, named;
@@ -42,7 +42,8 @@ static void place_of(const char *source, unsigned n, char *place, size_t size)
     snprintf(place, size, "%s:%u", file, line);
 }
 
-/* NVIDIA's compiler counts lines from the start of the source, whatever #line says. Returns how much of the line the place stands for. */
+/* Corrects the place of a line: NVIDIA's compiler counts lines from the start of the source, whatever #line says. Returns how many characters of the
+ * line the place replaces. */
 static size_t put_right(const char *line, const char *source, char *place, size_t size)
 {
     char number[10]; /* %u would look for one on the next line too */
@@ -53,7 +54,7 @@ static size_t put_right(const char *line, const char *source, char *place, size_
     return (size_t)read;
 }
 
-/* Appends up to *lines lines of the log that are errors, or that are not. */
+/* Appends up to *lines lines of the log, those with errors or the others. */
 static void append_lines(char *text, size_t size, const char *log, const char *source, bool errors, int *lines)
 {
     size_t used = strlen(text);
@@ -74,7 +75,7 @@ static void append_lines(char *text, size_t size, const char *log, const char *s
     }
 }
 
-/* PoCL says no more than that it failed where it cannot write what it compiles. */
+/* Returns what to do about a failed build. PoCL says only that it failed if it cannot write what it compiles. */
 static const char *remedy(const ec_cl *cl, const char *log)
 {
     if (is_error(log ? log : "", log ? strlen(log) : 0) || strcmp(cl->info.platform_name, "Portable Computing Language") != 0)

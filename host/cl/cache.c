@@ -30,7 +30,7 @@ static void sha256(const unsigned char *data, size_t bytes, uint8_t digest[32])
     ec_sha256_end(&hash, digest);
 }
 
-/* The length goes in front: otherwise moving a character from one text to the next would leave the key as it is. */
+/* Adds a text with its length in front: otherwise moving a character from one text to the next would leave the key as it is. */
 static void add_text(ec_sha256 *hash, const char *text)
 {
     uint64_t length = strlen(text);
@@ -107,7 +107,7 @@ bool ec_cache_load(const char *folder, const ec_cache_key *key, unsigned char **
 {
     char path[4096];
     if (snprintf(path, sizeof path, "%s/%s.bin", folder, key->hex) >= (int)sizeof path) return false;
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* not to hang on a FIFO of that name */
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* O_NONBLOCK: does not hang on a FIFO of that name */
     if (file < 0) return false;
     bool good = read_entry(file, key, binary, bytes);
     close(file);

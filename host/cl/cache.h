@@ -9,20 +9,20 @@ typedef struct ec_cache_key {
     char hex[65];
 } ec_cache_key;
 
-/* SHA-256 over everything that a binary depends on. */
+/* Returns the key: SHA-256 over everything that a binary depends on. */
 ec_cache_key ec_cache_key_of(const ec_device_info *device, const char *source, const char *options);
 
-/* mkdir -p, private as XDG asks. False if it is not there then. */
+/* Makes a folder like mkdir -p, private as XDG asks. Returns false if it is not there then. */
 bool ec_cache_make_folder(const char *folder);
 
-/* The folder: `chosen`, else ${XDG_CACHE_HOME:-$HOME/.cache}/eclat/kernels. False if there is none (no HOME). */
+/* Writes the folder's path: `chosen`, else ${XDG_CACHE_HOME:-$HOME/.cache}/eclat/kernels. Returns false if there is none (no HOME). */
 bool ec_cache_folder(const char *chosen, char *path, size_t size);
 
-/* False is a miss: no entry, or one that is truncated, altered or another key's. *binary is malloc'ed. */
+/* Returns false on a miss: no entry, or one that is truncated, altered or another key's. *binary is malloc'ed. */
 bool ec_cache_load(const char *folder, const ec_cache_key *key, unsigned char **binary, size_t *bytes);
 
-/* Makes the folder, writes a temporary file in it and renames it, so that readers see all or nothing. False if it could
- * not; nothing is left behind then. */
+/* Makes the folder, writes a temporary file in it and renames it, so that readers see all or nothing. Returns false if it could not; nothing is left
+ * behind then. */
 bool ec_cache_store(const char *folder, const ec_cache_key *key, const unsigned char *binary, size_t bytes);
 
 #endif

@@ -17,7 +17,7 @@ static bool contains(const char *text, const char *part)
 
 static bool usable(const ec_device_info *device) { return device->available && device->compiler_available; }
 
-/* "0: pthread-AMD EPYC, 1: NVIDIA H200": what there is, for a message. */
+/* Lists the devices for a message: "0: pthread-AMD EPYC, 1: NVIDIA H200". */
 static void list_names(const ec_device_info *devices, uint32_t count, char *text, size_t size)
 {
     size_t used = 0;
@@ -26,8 +26,7 @@ static void list_names(const ec_device_info *devices, uint32_t count, char *text
         used += (size_t)snprintf(text + used, size - used, "%s%u: %s", i ? ", " : "", i, devices[i].name);
 }
 
-/* Does this number stand in the name, as 3090 does? One of a digit or two is an index or nothing: "Ryzen 7",
- * "8-Core". */
+/* Returns whether the name has this number in it, as 3090. A number of one or two digits is an index or nothing: "Ryzen 7", "8-Core". */
 static bool has_number(const char *name, const char *number)
 {
     const size_t length = strlen(number);
@@ -44,8 +43,8 @@ static bool has_letter(const char *text)
     return *text;
 }
 
-/* By an index, else by a part of the name. The platform's name counts too, but after the devices' own: "pocl" and
- * "intel" mean something to users; the numbers that are in its version do not. */
+/* Finds a device by an index, else by a part of the name. The platform's name counts too, but after the devices' own: "pocl" and "intel" mean
+ * something to users; the numbers that are in its version do not. */
 static bool find(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index)
 {
     const bool is_number = *id && !id[strspn(id, "0123456789")];
@@ -69,7 +68,7 @@ static bool first_of(const ec_device_info *devices, uint32_t count, cl_device_ty
     return false;
 }
 
-/* What was asked for, and where; NULL: nothing. */
+/* Returns what was asked for, and by what (*from); NULL: nothing. */
 static const char *asked_for(const char *id, const char **from)
 {
     *from = id && *id ? "--device" : "ECLAT_DEVICE";
@@ -79,7 +78,7 @@ static const char *asked_for(const char *id, const char **from)
 
 static bool is_all(const char *id) { return !strcasecmp(id, "all"); }
 
-/* A name may have a comma in it. */
+/* Returns whether id is a list; a name may have a comma in it, too. */
 static bool is_list(const ec_device_info *devices, uint32_t count, const char *id)
 {
     uint32_t index;
@@ -88,7 +87,7 @@ static bool is_list(const ec_device_info *devices, uint32_t count, const char *i
 
 enum { ID_SIZE = 256 };
 
-/* Blanks around it do not count. */
+/* Copies an id without the blanks around it. */
 static void trim(const char *id, size_t size, char one[ID_SIZE])
 {
     while (size && isspace((unsigned char)*id)) id++, size--;

@@ -33,12 +33,12 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
 ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *index,
                            const char **why, ec_error *err);
 
-/* Likewise for `all` (those that are available and have a compiler) and lists such as `0,2` or `pocl,intel`: several indices, `most` at
- * most, in the order given. With a `most` of 1 such a list is refused. */
+/* Likewise for `all` (all devices that are available and have a compiler) and lists such as `0,2` or `pocl,intel`: up to `most` indices, in the order
+ * given. With a `most` of 1 such a list is refused. */
 ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *indices, uint32_t most,
                                    uint32_t *chosen, const char **why, ec_error *err);
 
-/* Both at once: the device that id means, and its place in the list. index and why may be NULL. */
+/* Lists and chooses: gives the device that id means, and its place in the list. index and why may be NULL. */
 ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err);
 ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most,
                                  uint32_t *chosen, const char **why, ec_error *err);
@@ -47,19 +47,19 @@ ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32
  * cl/workarounds.c. */
 typedef enum ec_cache_use { EC_CACHE_AUTO = 0, EC_CACHE_ON, EC_CACHE_OFF } ec_cache_use;
 
-/* How many work-items of a kernel one launch may have: cl/pace.h. */
+/* How many work-items one launch of a kernel may have: cl/pace.h. */
 #define EC_PACES 32
 typedef struct ec_pace {
     char label[40];
     uint64_t most;            /* of one launch */
-    uint64_t busy;            /* that had something to do, since the last look … */
-    double seconds, longest;  /* … what they took, and the longest launch */
+    uint64_t busy;            /* work-items with something to do, since the last look … */
+    double seconds, longest;  /* … the seconds they took, and the longest launch */
 } ec_pace;
 typedef struct ec_paces {
     double limit;             /* seconds that a launch may take; 0: no limit */
     ec_pace table[EC_PACES];
     uint32_t count;
-    uint64_t launches, pieces;/* asked for, and into how many these were cut */
+    uint64_t launches, pieces;/* launches, and the pieces into which they were cut */
     double longest;           /* seconds of a piece */
 } ec_paces;
 
@@ -68,7 +68,7 @@ typedef struct ec_paces {
 typedef struct ec_cl_launch {
     cl_event event;
     const char *label;
-    ec_pace *pace;            /* NULL: nobody looks how long it took */
+    ec_pace *pace;            /* NULL: its time is not measured */
 } ec_cl_launch;
 
 /* A context and an in-order queue on one device. One thread at a time, but for ec_program_build: one thread may build
@@ -78,23 +78,23 @@ typedef struct ec_cl {
     cl_context context;
     cl_command_queue queue;
     uint64_t allocated_bytes, peak_allocated_bytes; /* by ec_buffer_* */
-    uint64_t releases;        /* of buffers, counted from 1: after one, the same handle may name another buffer */
+    uint64_t releases;        /* number of buffer releases, counted from 1: after one, the same handle may name another buffer */
     double build_seconds;     /* spent in clBuildProgram and cache look-ups */
     uint32_t cache_hits, cache_misses;
     const char *cache_dir;    /* NULL: the default (see ec_program_build) */
-    const ec_log *log;        /* who hears that compiling takes long; NULL: nobody */
+    const ec_log *log;        /* is told if compiling takes long; NULL: nobody is */
     bool keeps_programs;      /* set after ec_cl_open: programs stay built until ec_cl_close, and are found again */
-    bool keeps_buffers;       /* likewise what of a scene is put on the device, as long as the next one wants it too */
+    bool keeps_buffers;       /* likewise scene data stays on the device, as long as the next scene needs it too */
     struct ec_ahead *ahead;   /* cl/ahead.h; NULL: none */
-    struct ec_recall *recall; /* device/ahead.h; NULL: none. The caller's */
+    struct ec_recall *recall; /* device/ahead.h; NULL: none. Not owned */
     struct ec_kept_program *kept;
     uint32_t kept_count;
-    uint32_t programs_found;  /* among those kept */
+    uint32_t programs_found;  /* found among those kept */
     struct ec_kept_buffer *kept_buffers; /* see ec_buffer_put */
     uint32_t kept_buffer_count;
     uint64_t uploaded_bytes, found_bytes; /* by ec_buffer_put */
     ec_cache_use cache;       /* EC_CACHE_AUTO unless set after ec_cl_open */
-    ec_cl_launch launches[EC_LAUNCHES]; /* whose end has not been looked at */
+    ec_cl_launch launches[EC_LAUNCHES]; /* those whose end has not been looked at */
     uint32_t launch_count;
     ec_paces paces;
     void *sent;               /* see ec_buffer_send */
@@ -107,12 +107,11 @@ void ec_cl_close(ec_cl *cl);
 const char *ec_kernel_source(const char *name);
 const char *const *ec_kernel_source_names(void); /* NULL-terminated, for tests and --dump-kernels */
 
-/* Several of them in one text (malloc'ed): their headers' guards make each count once. names is NULL-terminated. One
- * program for all kernels that share their options halves PoCL's front end: six stages 0.7 s instead of 1.25 s. */
+/* Joins several sources in one text (malloc'ed): their headers' guards make each count once. names is NULL-terminated. One program for all kernels
+ * that share their options halves PoCL's front end: six stages 0.7 s instead of 1.25 s. */
 ec_result ec_kernel_sources_join(const char *const *names, char **joined, ec_error *err);
 
-/* Among the options it makes divisions inexact too. Only to measure what exact arithmetic costs: it lets the compiler delete the
- * tests for NaN. */
+/* An option that makes divisions inexact too. Only to measure what exact arithmetic costs: it lets the compiler delete the tests for NaN. */
 #define EC_FAST_MATH "-cl-fast-relaxed-math"
 
 /* Builds a source with options (the arithmetic flags that every eclat kernel needs are added here: -cl-std=CL1.2 and,
@@ -124,58 +123,58 @@ ec_result ec_kernel_sources_join(const char *const *names, char **joined, ec_err
  * read, since a binary has no log). */
 ec_result ec_program_build(ec_cl *cl, const char *label, const char *source, const char *options, cl_program *program,
                            ec_error *err);
-/* The same past all caches, and without changing anything of cl. */
+/* Likewise past all caches, and without changing anything of cl. */
 ec_result ec_program_build_source(const ec_cl *cl, const char *label, const char *source, const char *options, cl_program *program, ec_error *err);
 
-/* Buffers with byte accounting; over the device's limits they fail with the figures. host may be NULL, and is not
- * needed after the call. 0 bytes give a smallest buffer, so that an empty table is still an argument. */
+/* Creates a buffer and accounts for its bytes; over the device's limits it fails with the figures. host may be NULL, and is not needed after the
+ * call. 0 bytes give a smallest buffer, so that an empty table is still an argument. */
 ec_result ec_buffer_create(ec_cl *cl, const char *label, uint64_t bytes, const void *host, cl_mem *buffer, ec_error *err);
 void ec_buffer_release(ec_cl *cl, cl_mem *buffer); /* sets it to NULL; NULL is fine */
-/* Where the device is a processor, makes a buffer of the caller's memory, which comes from ec_shared_alloc and is large enough to be worth it: no
- * copy. leave(buffer, user) is called once the buffer has gone. False: no buffer was made, and the memory stays the caller's. */
+/* If the device is a processor, makes a buffer of the caller's memory, which comes from ec_shared_alloc and is large enough to be worth it: no copy.
+ * leave(buffer, user) is called once the buffer is gone. Returns false if no buffer was made; the memory stays the caller's then. */
 bool ec_buffer_adopt(ec_cl *cl, const char *label, uint64_t bytes, void *memory, void(CL_CALLBACK *leave)(cl_mem buffer, void *user), void *user, cl_mem *buffer);
-/* A buffer that no kernel writes: `bytes` of data, and room for `slack` more. With a key, which is that of label and data, it stays on the
- * device after its release, and is found there by whoever puts the same again; keep_only lets go of all others that stay. */
+/* ec_buffer_put makes a buffer that no kernel writes: `bytes` of data, and room for `slack` more. With a key, which is that of label and data, it
+ * stays on the device after its release, and is found there when the same is put again; keep_only releases all others that stay. */
 ec_fingerprint ec_buffer_key(const char *label, uint64_t bytes, uint64_t slack, const void *data);
 ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t slack, const void *data,
                         const ec_fingerprint *key, cl_mem *buffer, ec_error *err);
 void ec_buffers_keep_only(ec_cl *cl, const ec_fingerprint *keys, uint32_t count);
 ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err); /* blocks */
 ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err);
-/* Enqueued, of a copy of which there is one: the next call that waits comes before the next send. */
+/* Enqueues the write of a copy, of which there is only one: a call that waits must come before the next send. */
 ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err);
-/* The first bytes of rows that begin `pitch` bytes apart, from or to rows without gaps: one command for all, since each wakes the device. */
+/* Read or write the first bytes of rows that begin `pitch` bytes apart, to or from rows without gaps: one command for all, since each wakes the device. */
 ec_result ec_buffer_read_rows(ec_cl *cl, cl_mem buffer, uint64_t pitch, uint64_t bytes, uint32_t rows, void *to, ec_error *err);
 ec_result ec_buffer_write_rows(ec_cl *cl, cl_mem buffer, uint64_t pitch, uint64_t bytes, uint32_t rows, const void *from, ec_error *err);
-/* With the same four bytes, or zeros, over and over: multiples of 4 bytes; enqueued. */
+/* Fills a range with the same four bytes, or with zeros (ec_buffer_zero): multiples of 4 bytes; enqueued. */
 ec_result ec_buffer_fill(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *word, ec_error *err);
-/* The first `bytes` of a buffer in the host's memory until it is unmapped, for which no kernel may run that has it: a processor's own, no copy.
- * Waits. writes: what is changed there is the buffer's afterwards. Unmapping sets *at to NULL; NULL is fine. */
+/* Maps the first `bytes` of a buffer into the host's memory until it is unmapped; until then no kernel may run that uses it. On a processor it is the
+ * buffer's own memory, no copy. Waits. writes: changes go to the buffer. Unmapping sets *at to NULL; NULL is fine. */
 ec_result ec_buffer_map(ec_cl *cl, cl_mem buffer, uint64_t bytes, bool writes, float **at, ec_error *err);
 ec_result ec_buffer_unmap(ec_cl *cl, cl_mem buffer, float **at, ec_error *err);
 ec_result ec_buffer_zero(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, ec_error *err);
 
 ec_result ec_kernel_create(cl_program program, const char *name, cl_kernel *kernel, ec_error *err);
-/* All arguments at once; the count must be the kernel's. ec_kernel_arguments(k, (ec_argument[]){EC_ARGUMENT(a),
- * EC_ARGUMENT(b)}, 2, err), where a and b are variables (cl_mem, cl_uint, structs…). */
+/* Sets all arguments at once; the count must be the kernel's. ec_kernel_arguments(k, (ec_argument[]){EC_ARGUMENT(a), EC_ARGUMENT(b)}, 2, err), where
+ * a and b are variables (cl_mem, cl_uint, structs…). */
 typedef struct ec_argument {
     size_t bytes;
     const void *value;
 } ec_argument;
 #define EC_ARGUMENT(variable) {sizeof(variable), &(variable)}
 ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, uint32_t count, ec_error *err);
-/* One-dimensional; global is rounded up to a multiple of local. Enqueued, not waited for: should it fail as it runs, the next
- * ec_buffer_read or ec_cl_finish says so, with the label (a text that lives as long). PoCL compiles a kernel once for
- * each local size and once more for launches of 65536 items and over: keep a kernel to one of each. */
+/* Launches in one dimension; global is rounded up to a multiple of local. Enqueued, not waited for: should it fail as it runs, the next
+ * ec_buffer_read or ec_cl_finish says so, with the label (a text that lives as long). PoCL compiles a kernel once for each local size and once more
+ * for launches of 65536 items and over: keep a kernel to one of each. */
 ec_result ec_kernel_run(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t local, ec_error *err);
-/* Two-dimensional where there is more than one row: each has `global` work-items. */
+/* Likewise, in two dimensions if there is more than one row: each has `global` work-items. */
 ec_result ec_kernel_run_rows(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t rows, uint32_t local, ec_error *err);
-/* pace.c: on cards launches are cut into pieces that take no longer than half a second, to the same results. They stay small unless somebody
- * says how many of the work-items with this label had something to do, before they run or after. */
+/* pace.c: on cards launches are cut into pieces that take no longer than half a second, to the same results. They stay small unless ec_cl_busy says
+ * how many of the work-items with this label had something to do, before they run or after. */
 void ec_cl_busy(ec_cl *cl, const char *label, uint64_t items);
 ec_result ec_cl_finish(ec_cl *cl, ec_error *err);
 
-/* An argument of ec_kernel_call: an array that is copied to the device and, OUT, back; NULL makes it a NULL buffer. Or a scalar. */
+/* An argument of ec_kernel_call: an array that is copied to the device and, if OUT, back (NULL makes it a NULL buffer), or a scalar. */
 typedef struct ec_array {
     void *data;
     size_t bytes;
@@ -192,14 +191,14 @@ enum {
 ec_result ec_kernel_call(ec_cl *cl, cl_program program, const char *name, uint64_t items, uint32_t local, const ec_array *arrays,
                          uint32_t count, ec_error *err);
 
-/* launches.c: takes over a command's event; waits for all of them and looks how they ended; does neither. */
+/* launches.c: takes over a command's event; waits for all of them and checks how they ended; drops them without either. */
 ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_pace *pace, ec_error *err);
 ec_result ec_cl_landed(ec_cl *cl, ec_error *err);
 void ec_cl_forget_launches(ec_cl *cl);
 
 const char *ec_cl_error_name(cl_int code);
 ec_error_kind ec_cl_error_kind(cl_int code);
-/* "clEnqueueNDRangeKernel (intersect) failed: CL_OUT_OF_RESOURCES" */
+/* Fails with "clEnqueueNDRangeKernel (intersect) failed: CL_OUT_OF_RESOURCES". */
 ec_result ec_cl_check(cl_int code, const char *call, const char *label, ec_error *err);
 
 #endif

@@ -12,10 +12,10 @@
 #include "cl/prepared.h"
 
 #define PATH_SIZE 4096
-#define LIST_FORMAT "2" /* lists of another are not found: their files would seem damaged */
-#define PROGRAM "program.bc" /* of PoCL, two folders above the kernels */
+#define LIST_FORMAT "2" /* lists of another format are not found: their files would seem damaged */
+#define PROGRAM "program.bc" /* PoCL's file of a program, two folders above the kernels */
 
-/* Where PoCL keeps its cache, as it chooses itself. */
+/* Writes the folder in which PoCL keeps its cache, by PoCL's own rule. */
 static bool driver_folder(char path[PATH_SIZE])
 {
     const char *own = getenv("POCL_CACHE_DIR"), *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -26,7 +26,7 @@ static bool driver_folder(char path[PATH_SIZE])
     return size > 0 && size < PATH_SIZE;
 }
 
-/* The key of a job: what it was compiled from and for, and in which cache (`where`). */
+/* Returns the key of a job: what it was compiled from and for, and in which cache (`where`). */
 static ec_cache_key key_in(const ec_cl *cl, const ec_compile_job *job, const char *where)
 {
     ec_cache_key key = ec_cache_key_of(&cl->info, where, "");
@@ -49,7 +49,7 @@ static ec_cache_key prepared_key(const ec_cl *cl, const ec_compile_job *job)
     return key_in(cl, job, LIST_FORMAT " prepared");
 }
 
-/* The key of the list, and where that is kept. False where there is no cache to speak of. */
+/* Sets the key of the list, and the folder of lists. Returns false if there is no cache to speak of. */
 static bool key_of(const ec_cl *cl, const ec_compile_job *job, char folder[PATH_SIZE], ec_cache_key *key)
 {
     char path[PATH_SIZE], where[PATH_SIZE + 64];
@@ -67,13 +67,13 @@ static void set_aside(const ec_cl *cl, const char *path, const char *driver)
 {
     char program[PATH_SIZE], aside[PATH_SIZE + 32];
     size_t length = strlen(driver) + 1;
-    for (int levels = 0; levels < 2; levels++) length += strcspn(path + length, "/") + 1; /* XX/the rest of its hash */
+    for (int levels = 0; levels < 2; levels++) length += strcspn(path + length, "/") + 1; /* XX, and the rest of the hash */
     snprintf(program, sizeof program, "%.*s", (int)length - 1, path);
     snprintf(aside, sizeof aside, "%s.damaged-%ld", program, (long)getpid());
     if (rename(program, aside) == 0) ec_warn(cl->log, "a damaged file in the driver's cache, '%s', is set aside: its kernels are compiled again", aside);
 }
 
-/* Is each file of the list as it was? One that is gone is compiled again by the driver; one that is other than it was would end the process. */
+/* Returns whether each file of the list is as it was. One that is gone is compiled again by the driver; one that has changed would end the process. */
 static bool is_intact(const ec_cl *cl, char *list, bool mends)
 {
     char driver[PATH_SIZE], mark[EC_FILE_MARK], *rest = NULL;
@@ -88,7 +88,7 @@ static bool is_intact(const ec_cl *cl, char *list, bool mends)
     return is_whole;
 }
 
-/* Those that came with the program, copied into the driver's cache. */
+/* Copies files that came with the program into the driver's cache. */
 static bool take_prepared(const ec_cl *cl, const ec_compile_job *job, const char *folder, const ec_cache_key *key)
 {
     char driver[PATH_SIZE], *text = NULL;
@@ -127,7 +127,7 @@ static void add_file(FILE *list, const char *path)
     if (ec_file_mark(path, mark)) fprintf(list, "%s %s\n", mark, path);
 }
 
-/* A kernel's own file, and its program's: .../program.bc for .../kernel/size/kernel.so. */
+/* Adds a kernel's own file, and its program's: .../program.bc for .../kernel/size/kernel.so. */
 static void add_kernel(FILE *list, const char *path)
 {
     char program[PATH_SIZE + 16];
@@ -139,7 +139,7 @@ static void add_kernel(FILE *list, const char *path)
     add_file(list, program);
 }
 
-/* What the driver has loaded into this process from its cache. */
+/* Lists what the driver has loaded into this process from its cache. */
 static void list_files(FILE *list, const char *driver)
 {
     char line[PATH_SIZE + 128], last[PATH_SIZE + 128] = "";
@@ -148,7 +148,7 @@ static void list_files(FILE *list, const char *driver)
         char *path = strchr(line, '/');
         if (!path || strncmp(path, driver, strlen(driver))) continue;
         path[strcspn(path, "\n")] = 0;
-        if (strcmp(path, last)) add_kernel(list, path); /* a file is mapped in several pieces, one after the other */
+        if (strcmp(path, last)) add_kernel(list, path); /* a file is mapped in several consecutive pieces */
         snprintf(last, sizeof last, "%s", path);
     }
     if (maps) fclose(maps);

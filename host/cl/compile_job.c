@@ -18,7 +18,7 @@ void ec_compile_job_free(ec_compile_job *job)
     job->program_count = 0;
 }
 
-/* The struct as it is in memory, since both processes are of one build; then the sources. */
+/* Writes the struct as it is in memory, since both processes are of one build; then the sources. */
 bool ec_compile_job_write(const ec_compile_job *job, FILE *to)
 {
     bool good = fwrite(job, sizeof *job, 1, to) == 1;

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* Buffers of zeros, and of the constants. */
+/* Sets a kernel's arguments: zeros, buffers of zeros, and the constants. */
 static ec_result set_arguments(const ec_compile_kernel *k, cl_kernel kernel, const cl_mem buffers[2], ec_error *err)
 {
     const cl_uint zero = 0;
@@ -96,7 +96,7 @@ ec_result ec_compile_run_open(ec_compile_run *run, uint32_t count, void (*compil
     return EC_OK;
 }
 
-/* What others have taken and not finished is compiled in the end all the same. */
+/* In the end it also compiles what others have taken and not finished. */
 ec_result ec_compile_run_all(ec_compile_run *run, void (*compiled)(uint32_t kernel), ec_error *err)
 {
     EC_TRY(ec_compile_run_open(run, run->job->kernel_count, compiled, err));

@@ -14,7 +14,7 @@
 
 extern char **environ;
 
-/* A file in memory that holds states and jobs, at its start. */
+/* Returns a file in memory that holds states and jobs, positioned at its start. */
 static int job_file(const ec_compile_job *const *jobs, uint32_t count)
 {
     const int fd = memfd_create("eclat-compile", MFD_CLOEXEC), copy = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : -1;
@@ -29,7 +29,7 @@ static int job_file(const ec_compile_job *const *jobs, uint32_t count)
     return -1;
 }
 
-/* The child leaves a grandchild behind and ends at once (host/compile/main.c), so that nobody has to wait for it later. */
+/* Starts the program. The child leaves a grandchild behind and ends at once (host/compile/main.c), so that nobody has to wait for it later. */
 static int spawn(const char *path, int job, int report)
 {
     char *argv[] = {(char *)path, NULL};

@@ -1,4 +1,4 @@
-/* Which devices there are, what they can do, and which one to take. */
+/* Lists devices and what they can do, and chooses one. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "cl/drivers.h"
 #include "cl/workarounds.h"
 
-#define EC_PLATFORM_NOT_FOUND_KHR (-1001) /* what the ICD loader says when no driver is installed */
+#define EC_PLATFORM_NOT_FOUND_KHR (-1001) /* the ICD loader's code if no driver is installed */
 #define EC_INSTALL_HINT "install a driver, for instance for the CPU: apt-get install pocl-opencl-icd, or with Python and without root: pip install eclat[cpu]"
 
 /* Drivers pad names with spaces (Intel in front, NVIDIA behind). */
@@ -45,7 +45,7 @@ static void platform_text(cl_platform_id platform, cl_platform_info what, char t
         (to) = number;                                                                             \
     } while (0)
 
-/* The type that ECLAT_DEVICE_TYPE gives to all devices, so that what is done on cards can be tried on processors; 0: each has its own. */
+/* Sets the type that ECLAT_DEVICE_TYPE gives to all devices, so that what is done on cards can be tried on processors; 0: each has its own. */
 static ec_result forced_type(cl_device_type *type, ec_error *err)
 {
     static const struct { const char *name; cl_device_type type; } types[] = {

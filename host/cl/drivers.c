@@ -1,4 +1,4 @@
-/* An ICD loader keeps silent of drivers that it cannot load, and of those that it is not told of. */
+/* Finds drivers that are missing: an ICD loader says nothing about drivers that it cannot load, nor about those that no file names to it. */
 #include "cl/drivers.h"
 
 #include <dirent.h>
@@ -20,7 +20,7 @@ static bool ends_with(const char *name, const char *ending)
     return size >= tail && !strcmp(name + size - tail, ending);
 }
 
-/* A driver's library, as a line of the file `icd` names it, or its own name where icd is NULL. */
+/* Explains why a driver's library cannot be used. It is a line of the file `icd`, or icd is NULL. */
 static bool explain_library(const char *icd, const char *library, ec_error *err)
 {
     void *driver = dlopen(library, RTLD_NOW | RTLD_LOCAL);
@@ -43,7 +43,7 @@ static bool explain_file(const char *icd, ec_error *err)
     return library[0] && explain_library(icd, library, err);
 }
 
-/* The first that there is. */
+/* Explains the first driver that a folder names. */
 static bool explain_folder(const char *path, ec_error *err)
 {
     DIR *folder = opendir(path);
@@ -67,12 +67,12 @@ bool ec_drivers_explain(ec_error *err)
     return explain_file(wanted, err) || (snprintf(icd, sizeof icd, VENDORS "/%s", wanted) < (int)sizeof icd && explain_file(icd, err));
 }
 
-/* A container gets the driver's libraries from outside, but the files that name them to the loader are its image's. */
+/* Drivers that containers get from outside, while the files that name them to the loader are the image's. */
 static const struct {
     const char *platform, *library, *icd;
 } brought_in[] = {{"NVIDIA", "libnvidia-opencl.so.1", "nvidia.icd"}};
 
-/* Who sets OCL_ICD_VENDORS, and has a platform, has chosen. */
+/* Returns whether the loader offers a platform. Whoever sets OCL_ICD_VENDORS, and has a platform, has chosen. */
 static bool is_offered(const char *platform)
 {
     cl_platform_id platforms[64];
@@ -87,7 +87,7 @@ static bool is_offered(const char *platform)
     return count > 0 && wanted && *wanted;
 }
 
-/* Does the machine have the library, and the loader no file that names it? Where it has one and finds no platform, there is no such device. */
+/* Returns whether the machine has the library, but the loader no file that names it. If it has the file and finds no platform, there is no such device. */
 static bool is_untold(const char *library, const char *icd)
 {
     char path[PATH_MAX];

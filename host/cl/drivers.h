@@ -1,4 +1,4 @@
-/* The drivers that are installed, as the ICD loader finds them. */
+/* Looks at the drivers that are installed, as the ICD loader finds them. */
 #ifndef EC_CL_DRIVERS_H
 #define EC_CL_DRIVERS_H
 
@@ -7,10 +7,10 @@
 
 #include "base/error.h"
 
-/* Where no platform was found: is there a driver that cannot be loaded? Then err says which one and why. */
+/* Where no platform was found: returns whether there is a driver that cannot be loaded; err says which one and why. */
 bool ec_drivers_explain(ec_error *err);
 
-/* Is there a driver that no file of the loader's names, so that its devices are missing? Then `text` says which one and how to mend it. */
+/* Returns whether there is a driver that no file names to the loader, so that its devices are missing; `text` says which one and how to mend it. */
 bool ec_drivers_unnamed(char *text, size_t size);
 
 #endif

@@ -1,4 +1,4 @@
-/* Names of OpenCL's error codes, and the one way a failed call becomes a message. */
+/* Names of OpenCL's error codes, and messages of failed calls. */
 #include "cl/cl.h"
 
 #define EC_CL_ERRORS(X)                                                                            \
@@ -46,7 +46,7 @@ ec_error_kind ec_cl_error_kind(cl_int code)
 static const char *remedy(cl_int code)
 {
     switch (code) {
-        case CL_OUT_OF_RESOURCES: /* NVIDIA's word for a crashed kernel too */
+        case CL_OUT_OF_RESOURCES: /* NVIDIA reports a crashed kernel so, too */
             return "the device ran out of memory or was reset; try a smaller --size, or another --device";
         case CL_MEM_OBJECT_ALLOCATION_FAILURE: return "the device has no memory left; try a smaller --size, or another --device";
         case CL_OUT_OF_HOST_MEMORY: return "the driver found no memory left; end other programs, or try a smaller --size";

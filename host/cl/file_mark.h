@@ -1,4 +1,4 @@
-/* Marks of files in the driver's cache, in hexadecimal: damage is no attack. Inside host/cl only. */
+/* Marks of files in the driver's cache, in hexadecimal: they find damage, not attacks. Inside host/cl only. */
 #ifndef EC_CL_FILE_MARK_H
 #define EC_CL_FILE_MARK_H
 
@@ -9,7 +9,7 @@
 
 void ec_bytes_mark(const void *bytes, size_t size, char mark[EC_FILE_MARK]);
 
-/* False: it cannot be read. */
+/* Writes a file's mark; returns false if it cannot be read. */
 bool ec_file_mark(const char *path, char mark[EC_FILE_MARK]);
 
 #endif

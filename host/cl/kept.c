@@ -1,4 +1,4 @@
-/* What stays on a device as long as it is open, for renders that follow one another: programs, and buffers that no kernel writes. */
+/* Keeps things on a device as long as it is open, for renders that follow one another: programs, and buffers that no kernel writes. */
 #include "cl/kept.h"
 
 #include <stdlib.h>

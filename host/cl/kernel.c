@@ -1,4 +1,4 @@
-/* Kernels: made, given their arguments, run. */
+/* Makes kernels, sets their arguments, runs them. */
 #include <stdio.h>
 
 #include "cl/pace.h"
@@ -32,7 +32,7 @@ ec_result ec_kernel_arguments(cl_kernel kernel, const ec_argument *arguments, ui
     return EC_OK;
 }
 
-/* Work-items of the first dimension from `first` on, and of the second, which a launch of one row has none of. */
+/* Part of a launch: work-items of the first dimension from `first` on, and rows, the second dimension, which a launch of one row does not have. */
 typedef struct piece {
     size_t first, items, rows;
 } piece;
@@ -43,7 +43,7 @@ static cl_int enqueue(ec_cl *cl, cl_kernel kernel, const piece *p, size_t group,
     return clEnqueueNDRangeKernel(cl->queue, kernel, p->rows > 1 ? 2 : 1, p->first ? offset : NULL, global, local, 0, NULL, event);
 }
 
-/* The largest power of two that the driver allows for this kernel: a card's registers may not hold more of its work-items at once. */
+/* Returns the largest power of two that the driver allows as this kernel's group size: a card's registers may not hold more of its work-items at once. */
 static size_t group_most(const ec_cl *cl, cl_kernel kernel)
 {
     size_t most = 0, group = 1;
@@ -52,7 +52,7 @@ static size_t group_most(const ec_cl *cl, cl_kernel kernel)
     return group;
 }
 
-/* local is a power of two. No kernel asks how large its group is. */
+/* Runs a piece; local is a power of two. Kernels do not depend on the size of their group. */
 static ec_result run_piece(ec_cl *cl, const char *label, ec_pace *pace, cl_kernel kernel, const piece *p, size_t local, ec_error *err)
 {
     cl_event event;
@@ -65,7 +65,7 @@ static ec_result run_piece(ec_cl *cl, const char *label, ec_pace *pace, cl_kerne
     return ec_cl_launched(cl, event, label, pace, err);
 }
 
-/* No kernel asks for the offset of a launch or for its size. */
+/* Cutting a launch is safe: no kernel asks for a launch's offset or size. */
 ec_result ec_kernel_run_rows(ec_cl *cl, const char *label, cl_kernel kernel, uint64_t global, uint32_t rows, uint32_t local, ec_error *err)
 {
     if (global == 0) return EC_OK;

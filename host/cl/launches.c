@@ -1,5 +1,5 @@
-/* Commands that fail as they run. An in-order queue goes on after one, and not every driver lets the next call that blocks fail:
- * without a look at the events the picture would be made of what a buffer held before. */
+/* Watches for commands that fail as they run. An in-order queue goes on after one, and not every driver lets the next call that blocks fail: without
+ * a look at the events the picture would be made of what a buffer held before. */
 #include "cl/pace.h"
 
 ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_pace *pace, ec_error *err)
@@ -10,7 +10,7 @@ ec_result ec_cl_launched(ec_cl *cl, cl_event event, const char *label, ec_pace *
     return result;
 }
 
-/* By the device's own clock. */
+/* Returns the time a command took, by the device's own clock. */
 static double seconds_of(cl_event event)
 {
     cl_ulong start = 0, end = 0;
@@ -21,7 +21,7 @@ static double seconds_of(cl_event event)
 
 ec_result ec_cl_landed(ec_cl *cl, ec_error *err)
 {
-    const char *culprit = NULL; /* the first: what follows may fail for its sake */
+    const char *culprit = NULL; /* the first that failed: later ones may fail because of it */
     cl_int why = CL_SUCCESS, waited = CL_SUCCESS;
     if (cl->launch_count) waited = clWaitForEvents(1, &cl->launches[cl->launch_count - 1].event);
     for (uint32_t i = 0; i < cl->launch_count; i++) {

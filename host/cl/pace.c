@@ -24,7 +24,7 @@ ec_result ec_pace_begin(ec_cl *cl, ec_error *err)
     return EC_OK;
 }
 
-/* The first of as many labels as there is room for; further ones share the last place, which is then paced by the slowest. */
+/* Returns the pace of a label. There is room for so many labels; further ones share the last place, which is then paced by the slowest. */
 ec_pace *ec_pace_of(ec_cl *cl, const char *label)
 {
     ec_paces *all = &cl->paces;
@@ -53,8 +53,8 @@ void ec_pace_took(ec_cl *cl, ec_pace *pace, double seconds)
     if (seconds > cl->paces.longest) cl->paces.longest = seconds;
 }
 
-/* Work-items that find nothing to do end at once: only as many busy ones as a piece may have tell how long such a piece takes. That a piece
- * was too long needs no such proof. */
+/* Fits the size of pieces. Work-items that find nothing to do end at once: only if as many were busy as a piece may have do their times tell how long
+ * such a piece takes. That a piece was too long needs no such proof. */
 static void learn(const ec_paces *all, ec_pace *pace)
 {
     const double aim = all->limit * AIM;

@@ -11,7 +11,7 @@
 #include "cl/compile_job.h"
 #include "cl/file_mark.h"
 
-/* $ECLAT_KERNELS, where it is set; empty: none. */
+/* Finds the folder of prepared kernels: $ECLAT_KERNELS, if that is set; empty: none. */
 static bool find_folder(char folder[PATH_MAX])
 {
     const char *chosen = getenv("ECLAT_KERNELS");
@@ -37,7 +37,7 @@ static bool make_parent(const char *path)
     return slash && snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path) < PATH_MAX && ec_cache_make_folder(folder);
 }
 
-/* A file that is there stays. False where the bytes do not have the mark. */
+/* Copies a file, unless it is there already. Returns false if the bytes do not have the mark. */
 static bool copy(const char *from, const char *to, const char *mark)
 {
     char found[EC_FILE_MARK];
@@ -51,8 +51,8 @@ static bool copy(const char *from, const char *to, const char *mark)
     return is_good;
 }
 
-/* Copies the files of a list, each a line "mark path", from a folder to another. Paths are below the first one after `skip` characters; `out` gets the
- * lines with `root` in place of these. */
+/* Copies the files of a list, each a line "mark path", from a folder to another. Paths below the first folder begin after `skip` characters; `out`
+ * gets the lines with `root` in place of these. */
 static bool copy_all(const char *list, size_t bytes, size_t skip, const char *from, const char *to, const char *root, FILE *out)
 {
     char source[2 * PATH_MAX], target[2 * PATH_MAX], *rest = NULL, *lines = strndup(list, bytes);

@@ -1,4 +1,4 @@
-/* Source to program, through the binary cache but for drivers that need the source (cl/workarounds.c). */
+/* Builds programs from source, through the binary cache unless the driver needs the source (cl/workarounds.c). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static char *all_options(const ec_device_info *info, const char *options)
     return all;
 }
 
-/* False is a miss: nothing in the cache, or a driver that does not take it (any more). */
+/* Returns false on a miss: nothing in the cache, or a driver that does not take it (any more). */
 static bool build_from_cache(build *b, cl_program *program)
 {
     unsigned char *binary;
@@ -79,7 +79,7 @@ ec_result ec_program_build_source(const ec_cl *cl, const char *label, const char
     return result;
 }
 
-/* A cache that cannot be written costs time at the next start, nothing else. */
+/* Stores the binary. A cache that cannot be written costs time at the next start, nothing else. */
 static void store(const build *b, cl_program program)
 {
     size_t bytes = 0;

@@ -1,4 +1,4 @@
-/* Several embedded sources as one. */
+/* Joins several embedded sources into one. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #define HEADERS_MOST 512
 #define ONCE "/* once */" /* of tools/embed_kernels.py: a header that its guard leaves out where it is already there */
 
-/* What a #line directive names, quotes included; begins: it has line 1. */
+/* What a #line directive names, quotes included; begins: it gives line 1. */
 typedef struct place {
     const char *name;
     size_t length;

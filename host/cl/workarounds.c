@@ -29,7 +29,7 @@ static const ec_workaround workarounds[] = {
 
 enum { ROWS = sizeof workarounds / sizeof *workarounds };
 
-/* The row that ECLAT_WORKAROUND names, so that drivers that are not at hand can be tried; NULL: each driver has its own. */
+/* Returns the row that ECLAT_WORKAROUND names, so that drivers that are not at hand can be tried; NULL: each driver has its own. */
 static const char *forced(void)
 {
     const char *name = getenv("ECLAT_WORKAROUND");

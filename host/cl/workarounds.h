@@ -1,4 +1,4 @@
-/* What eclat does differently for one driver or another: the only place that asks which it is. */
+/* What eclat does differently for some drivers: the only place that depends on which driver it is. */
 #ifndef EC_CL_WORKAROUNDS_H
 #define EC_CL_WORKAROUNDS_H
 
@@ -11,26 +11,27 @@ typedef struct ec_workaround {
     bool source_only;       /* its programs do not go through eclat's binary cache */
     uint32_t most_lanes;    /* 0: any */
     bool compiles_late;     /* at a kernel's first launch, under one lock, into a cache that processes share */
-    bool rounds;            /* division and square root correctly, though it does not say so */
-    bool slow_header;       /* of built-in functions, with Clang's guard: kernels declare what they call (kernels/shared/builtins.h) */
+    bool rounds;            /* divides and takes square roots correctly rounded, though it does not say so */
+    bool slow_header;       /* its header of built-in functions, which has Clang's guard, is slow: kernels declare what they call
+                             * (kernels/shared/builtins.h) */
     bool no_touch;          /* buffers are not written to only to see whether there is memory for them */
 } ec_workaround;
 
-/* The one for a device, or NULL. ECLAT_WORKAROUND=DRIVER takes that row for all devices, none takes none. */
+/* Returns the row for a device, or NULL. ECLAT_WORKAROUND=DRIVER takes that row for all devices, none takes none. */
 const ec_workaround *ec_workaround_for(const ec_device_info *device);
 
-/* Does ECLAT_WORKAROUND name what there is? */
+/* Fails if ECLAT_WORKAROUND names a row that does not exist. */
 ec_result ec_workaround_check(ec_error *err);
 
 bool ec_compiles_late(const ec_device_info *device);
 
-/* For kernels of the pipeline: " -D…" or "". */
+/* Returns build options for kernels of the pipeline: " -D…" or "". */
 const char *ec_builtin_options(const ec_device_info *device);
 
-/* Does arithmetic give the same bits as on other devices of which this is true? */
+/* Returns whether arithmetic gives the same bits as on other devices for which this is true. */
 bool ec_device_rounds(const ec_device_info *device);
 
-/* What that may depend on: "pthread-… (3.1) + NVIDIA H100 (535.54)", each driver once. */
+/* Writes the devices' drivers, on which that may depend: "pthread-… (3.1) + NVIDIA H100 (535.54)", each driver once. */
 void ec_device_drivers(const ec_device_info *devices, uint32_t count, char *text, size_t size);
 
 #endif

@@ -37,7 +37,7 @@ static void take_down(work *w)
     ec_cl_close(&w->cl);
 }
 
-/* From one buffer to the other and back, further apart each time; the last one has the picture. */
+/* Runs the passes from one buffer to the other and back, with taps further apart each time; the last one holds the picture. */
 static ec_result run_passes(work *w, ec_error *err)
 {
     for (cl_int pass = 0; pass < PASSES; pass++) {

@@ -42,7 +42,7 @@
 #define WHOLE 0.09          /* variance of whole pictures' weights about 0 or 1 */
 #define ALIKE 7             /* variance of a pixel's q - 2 s over s^2, were both pictures alike */
 #define PIXEL_MOST 1.5      /* q - 2 s of a pixel counts for at most so many times the noise of a noisy pixel */
-#define WORSE 0.5           /* the denoised picture is taken for the worse one where the sum of q - 2 s is so many standard errors over 0 */
+#define WORSE 0.5           /* the denoised picture is taken to be worse where the sum of q - 2 s is so many standard errors over 0 */
 #define FOLLOWED 0.5        /* share of the variance of q in what draws the weight: q itself is known, and only what is expected of it is not */
 
 ec_result ec_blend_create(ec_blend *blend, uint32_t width, uint32_t height, const ec_film_error *noisy, ec_error *err)
@@ -63,7 +63,7 @@ void ec_blend_free(ec_blend *blend)
     *blend = (ec_blend){0};
 }
 
-/* Cell of a pixel in one direction; share: of the corner behind. Beyond the outer middles all is the outer tile's. */
+/* Returns a pixel's cell in one direction; share: of the corner behind. Beyond the outer tiles' middles everything belongs to the outer tile. */
 static uint32_t cell_of(uint32_t pixel, uint32_t tiles, double *share)
 {
     const uint32_t cell = (pixel + EC_BLEND_TILE / 2) / EC_BLEND_TILE;
@@ -71,7 +71,7 @@ static uint32_t cell_of(uint32_t pixel, uint32_t tiles, double *share)
     return cell;
 }
 
-/* Which tile is at the cell's near or far end; beyond the outer ones, these. */
+/* Returns the tile at the cell's near or far end; beyond the outer tiles, these. */
 static uint32_t tile_at(uint32_t cell, uint32_t is_far, uint32_t tiles)
 {
     const uint32_t tile = cell + is_far;
@@ -85,7 +85,7 @@ void ec_blend_rows(uint32_t cells, uint32_t height, uint32_t *first, uint32_t *e
     *end = most < height ? most : height;
 }
 
-/* The variance of a sum over pixels of which few may hold most: what is known without bias, and one standard error of it, which vanishes among many. */
+/* Returns the variance of a sum over pixels of which few may hold most: an unbiased estimate, plus one standard error of it, which vanishes among many. */
 static double with_doubt(double variance, double plains) { return fmax(variance, 0) + sqrt(plains); }
 
 static void add_to_tile(ec_tile_sums *t, const ec_judged *j, double pixel_noise)
@@ -138,7 +138,7 @@ void ec_blend_add_row(ec_blend *b, uint32_t row, const ec_judged *pixels, uint32
 
 static double within(double w) { return fmin(fmax(w, 0), 1); }
 
-/* Weight for all. */
+/* Chooses a single weight for the whole picture. */
 static double choose_one(const ec_blend *b)
 {
     double apart = 0, excess = 0, squares = 0, linear = 0, together = 0, variance = 0, plains = 0, apart_variance = 0;
@@ -153,14 +153,14 @@ static double choose_one(const ec_blend *b)
         apart_variance += t.apart_variance;
         plains += t.plains;
     }
-    if (!(apart > 0)) return 1; /* both are alike */
+    if (!(apart > 0)) return 1; /* the two pictures are alike */
     const double to = squares > 0 ? within(1 - excess / (WORSE * sqrt(ALIKE * squares))) : 0;
     const double draw = (with_doubt(variance, plains) + FOLLOWED * to * to * fmax(apart_variance, 0)) / (apart * WHOLE);
     linear -= fmax(together, 0) / apart;
     return within((linear + draw * to) / (apart + draw));
 }
 
-/* What a tile's cells say of its weight, with the others as they are: least at linear / square. */
+/* What a tile's cells say of its weight, the others being fixed: least at linear / square. */
 typedef struct vertex {
     double square, linear, together, variance, apart_variance, plains;
 } vertex;
@@ -183,7 +183,7 @@ static void look_at_cell(const ec_blend *b, uint32_t tile_row, uint32_t tile_col
     }
 }
 
-/* The variance of linear - square * weight, with the weight of all. */
+/* Returns the variance of linear - square * weight, with the weight of the whole picture. */
 static double noise_of(const vertex *v, double of_all)
 {
     return with_doubt(v->variance, v->plains) + of_all * of_all * fmax(v->apart_variance, 0);
@@ -197,7 +197,8 @@ static vertex look_at_tile(const ec_blend *b, uint32_t row, uint32_t column)
     return v;
 }
 
-/* Variance of tiles' weights about the whole picture's, beyond what noise makes of it: the mean, each by what it tells (DerSimonian and Laird 1986). */
+/* Returns the variance of tiles' weights about the whole picture's, beyond what noise makes of it: the mean over tiles, each weighted by what it
+ * tells (DerSimonian and Laird 1986). */
 static double find_spread(const ec_blend *b, double of_all)
 {
     double sum = 0, shares = 0;
@@ -213,7 +214,7 @@ static double find_spread(const ec_blend *b, double of_all)
     return shares > 0 ? fmin(fmax(sum / shares, SPREAD_LEAST), SPREAD_MOST) : SPREAD_MOST;
 }
 
-/* How far the weight moves. */
+/* Makes a step of coordinate descent in one tile; returns how far the weight moves. */
 static double step(ec_blend *b, uint32_t row, uint32_t column, double of_all, double spread)
 {
     ec_blend_tile *t = &b->tiles[(size_t)row * b->columns + column];

@@ -6,16 +6,16 @@
 #include "denoise/blend.h"
 #include "film/pixel.h"
 
-#define OFF 0.05 /* weights under it make of the noise 2.5 % at most: the denoiser is called off there */
+#define OFF 0.05 /* weights below it take away at most 2.5 % of the noise: the denoiser counts as off there */
 
 typedef struct work {
     const ec_film *film;
     const float *const *half;
     ec_blend blend;
-    ec_film_clean clean;   /* room for it */
+    ec_film_clean clean;   /* room for the result */
 } work;
 
-/* Sums of rows in their order, so that they are the same for any number of threads. */
+/* Sums of a row; rows are added in order, so that sums are the same for any number of threads. */
 typedef struct row_sums {
     ec_judged_sum clean, best;
     double noise;
@@ -31,7 +31,7 @@ static void write_pixel(work *w, uint64_t i, const ec_blend_at *at, const double
     w->clean.error[i] = (float)sqrt(fmax(at->square, 0));
 }
 
-/* A row of all three planes, and what its pixels come to. */
+/* Writes a row of all three planes, and sums its pixels. */
 static void finish_row(work *w, uint32_t y, ec_judged *judged, ec_pixel *pixels, row_sums *sums)
 {
     const uint32_t width = w->film->width;
@@ -53,7 +53,7 @@ static void finish_row(work *w, uint32_t y, ec_judged *judged, ec_pixel *pixels,
     }
 }
 
-/* The middle of a tile in one direction. */
+/* Returns the middle of a tile in one direction. */
 static uint32_t middle(uint32_t tile, uint32_t pixels)
 {
     const uint32_t first = tile * EC_BLEND_TILE, end = first + EC_BLEND_TILE;
@@ -76,7 +76,7 @@ static void count_tiles(const work *w, ec_denoised *out)
     }
 }
 
-/* First what the tiles say, then the picture that follows from it. A thread has one row of cells at a time. */
+/* First sums up the tiles and chooses weights, then makes the picture that follows from them. A thread has one row of cells at a time. */
 static ec_result judge(work *w, row_sums *all, ec_error *err)
 {
     const uint32_t height = w->film->height, width = w->film->width, bands = w->blend.rows + 1;

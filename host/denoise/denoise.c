@@ -14,10 +14,10 @@
 #include "film/threads.h"
 
 enum { SCALE_MOST = 120 }; /* as a power of two, in floats */
-enum { CLEAN_GUIDES = 64 }; /* samples a pixel of the features from which on they are better than smoothed ones */
+enum { CLEAN_GUIDES = 64 }; /* samples a pixel from which on features are better than smoothed ones */
 
-/* The larger a picture, the quicker its filter; whichever it is, the picture is judged. Smoothing the guides takes longer than FAST, for 1 % of the
- * error at most. */
+/* How much effort filters take: the larger a picture, the quicker its filter; whichever it is, the picture is judged. Smoothing the guides takes
+ * longer than FAST, for 1 % of the error at most. */
 static const struct effort {
     uint64_t pixels; /* at most */
     ec_oidn_quality quality;
@@ -27,13 +27,13 @@ static const struct effort {
 typedef struct work {
     const ec_film *film;
     float *half[2], *albedo, *normal; /* 3 a pixel; owned */
-    float scale;                      /* what the filter is given has a mean near 1 */
+    float scale;                      /* gives what is filtered a mean near 1 */
     ec_film_clean clean;              /* owned until it is the film's */
 } work;
 
 static uint64_t pixels_of(const work *w) { return (uint64_t)w->film->width * w->film->height; }
 
-/* The library, or NULL where the filter of eclat's own takes its place. */
+/* Opens the library; *oidn stays NULL if eclat's own filter takes its place. */
 static ec_result open_oidn(ec_denoiser asked, ec_oidn **oidn, ec_error *err)
 {
     const bool is_named = asked == EC_DENOISER_OIDN || ec_oidn_is_named();
@@ -114,7 +114,8 @@ static ec_result make_filters(work *w, ec_oidn *oidn, filters *f, ec_error *err)
     return ec_oidn_filter_create(oidn, &color, &f->color, err);
 }
 
-/* Leaves the result in half[0]. A half has guides of its own: they have to be as independent of the other half, by which it is judged, as its colours. */
+/* Filters a half, and leaves the result in half[0]. A half has guides of its own: they have to be as independent of the other half, by which it is
+ * judged, as its colours. */
 static ec_result filter_half(work *w, ec_oidn *oidn, const filters *f, uint32_t half, bool wants_guides, ec_error *err)
 {
     if (wants_guides) {
@@ -153,7 +154,7 @@ static ec_result filter(work *w, ec_denoiser denoiser, const ec_device_info *dev
     return result;
 }
 
-/* The scale is a power of two: it changes no bits. */
+/* Takes the scale off. It is a power of two, so that no bits change. */
 static void unscale(work *w)
 {
 #pragma omp parallel for if (ec_film_is_many(pixels_of(w)))

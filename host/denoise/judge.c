@@ -44,10 +44,10 @@
 #include "film/statistics.h"
 #include "film/threads.h"
 
-#define PLAIN_LEAST 0.2 /* of the plain variance there is at least */
-#define SKEW_MOST 0.5   /* part of its width by which an interval of squares is shifted upwards at most */
+#define PLAIN_LEAST 0.2 /* the variance is at least this share of the plain one */
+#define SKEW_MOST 0.5   /* an interval of squares is shifted upwards by at most this part of its width */
 
-/* Numbers of the replicates that have samples; how many. */
+/* Lists the replicates that have samples; returns how many there are. */
 static uint32_t list_replicates(const ec_film *film, uint32_t list[EC_REPLICATES_MOST])
 {
     uint32_t count = 0;
@@ -56,7 +56,8 @@ static uint32_t list_replicates(const ec_film *film, uint32_t list[EC_REPLICATES
     return count;
 }
 
-/* Each replicate by its samples: those of a picture whose last batch was cut short differ. fields: floats a pixel, 3 or 4. */
+/* Averages the replicates of a half, each weighted by its samples, which differ in a picture whose last batch was cut short. fields: floats a pixel,
+ * 3 or 4. */
 static void half_of_piece(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, double scale, uint32_t fields, float *out)
 {
     uint32_t list[EC_REPLICATES_MOST], used = 0;
@@ -89,7 +90,7 @@ void ec_half(const ec_film *film, uint32_t half, float scale, uint32_t fields, f
         half_of_piece(film, half, first, pixels - first < EC_PIXELS ? pixels - first : EC_PIXELS, (double)scale, fields, out + fields * first);
 }
 
-/* U, v and the plain variance of a half's replicates about a value, and the variance of their mean; spread: the variance of a replicate. */
+/* A value judged by a half's replicates: U, v and the plain variance, and the variance of the replicates' mean; spread: the variance of a replicate. */
 typedef struct against {
     double square, variance, plain, mean, mean_variance;
 } against;
@@ -108,7 +109,7 @@ static against judge_by(double value, const double *replicates, uint32_t n, doub
     return (against){square, square * square - fourth, plain, value - p1 / n, (p2 - p1 * p1 / n) / pairs};
 }
 
-/* The square of a replicate's variance, without bias whatever the distribution: the mean of products of the squared differences of two pairs that have
+/* Returns the square of a replicate's variance, unbiased for any distribution: the mean of products of the squared differences of two pairs that have
  * none in common. */
 static double square_of_variance(const double *y, uint32_t n, double mean)
 {
@@ -120,7 +121,7 @@ static double square_of_variance(const double *y, uint32_t n, double mean)
     return (p2 * p2 - p4 + 2 * (p2 * p2 - 2 * p4) / (n - 2.0) + 3 * (p2 * p2 - 2 * p4) / ((n - 2.0) * (n - 3.0))) / (n * (n - 1.0));
 }
 
-/* Luminances of one pixel's replicates, one half after the other. */
+/* Judges one pixel. y: luminances of its replicates, one half after the other. */
 static ec_judged judge(const double *y, uint32_t n, const float *a, const float *b)
 {
     const uint32_t even = (n + 1) / 2, odd = n / 2;
@@ -142,7 +143,7 @@ static ec_judged judge(const double *y, uint32_t n, const float *a, const float 
     j.gain_variance = j.noisy * j.noisy - fourth + of_shared;
     j.gain_apart = 2 * ((j.apart - j.noisy) * j.noisy + fourth * (n + 1) / (n - 1));
     j.apart_variance = 2 * j.gain_apart - 2 * fourth;
-    j.noisy_variance = 2 * j.noisy * j.noisy * n / (n + 1); /* of pixels that are normal; E[s^4] exceeds v^2 by that much */
+    j.noisy_variance = 2 * j.noisy * j.noisy * n / (n + 1); /* for normal pixels; E[s^4] exceeds v^2 by that much */
     return j;
 }
 
@@ -164,9 +165,9 @@ void ec_judge_row(const ec_film *film, uint32_t row, const float *const denoised
         judge_piece(film, (uint64_t)row * film->width + x, film->width - x < EC_PIXELS ? film->width - x : EC_PIXELS, denoised, out + x);
 }
 
-/* What the noisy picture makes of it reaches up as far as that picture's own bound, which knows of few pixels and bright samples.
- * The mean luminance that all is divided by has an error of its own, as in film/image_error.c. An estimate that heavy noise has made
- * smaller than the noise that is known, or negative, is not believed: bias adds to that, and takes nothing off it. */
+/* States an error with its interval. The noisy picture's part of it reaches up as far as that picture's own bound, which takes account of few
+ * pixels and bright samples. The mean luminance that all is divided by has an error of its own, as in film/image_error.c. An estimate that heavy
+ * noise has made smaller than the noise that is known, or negative, is not believed: bias adds to that, and takes nothing off it. */
 ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const ec_film_error *noisy)
 {
     const double mean = noisy->mean_luminance, unit = 1 / (mean * mean * pixels), square = fmax(sum->square, sum->least) * unit;

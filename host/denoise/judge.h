@@ -1,4 +1,4 @@
-/* How far a denoised picture is from the truth, without a reference. See judge.c. */
+/* Estimates how far a denoised picture is from the truth, without a reference. See judge.c. */
 #ifndef EC_DENOISE_JUDGE_H
 #define EC_DENOISE_JUDGE_H
 
@@ -6,27 +6,27 @@
 
 #include "film/film.h"
 
-enum { EC_JUDGE_REPLICATES = 4 }; /* that it takes: two in each half */
+enum { EC_JUDGE_REPLICATES = 4 }; /* replicates that this takes: two in each half */
 
-/* Replicates with an even or an odd number among those that have samples: halves of the film that know nothing of one another. half 0 or 1; out:
- * 3 floats a pixel, the colour, each times `scale`; or with fields 4 the variance of its luminance too, by the half's own replicates. */
+/* Averages the replicates with an even (half 0) or an odd (1) number among those that have samples: halves of the film that are independent of one
+ * another. out: 3 floats a pixel, the colour, each times `scale`; or with fields 4 the variance of its luminance too, by the half's own replicates. */
 void ec_half(const ec_film *film, uint32_t half, float scale, uint32_t fields, float *out);
 
-/* Of a pixel's luminance. Estimates are without bias, so that those of single pixels may be negative. */
+/* Estimates for a pixel's luminance. They are unbiased, so those of single pixels may be negative. */
 typedef struct ec_judged {
     double luminance;              /* of the noisy picture */
     double clean, noisy;           /* squared errors of the denoised picture, the mean of both denoised halves, and of the noisy one */
     double apart;                  /* squared difference of the two, which is known */
     double noise;                  /* squared standard error of the denoised one: what is left of `clean` is bias */
     double gain;                   /* `noisy` less the covariance of both errors: half of how fast a blend's error falls as it leaves the noisy one */
-    double clean_variance, noisy_variance; /* of the two estimates: without bias … */
-    double gain_variance;          /* of that, as an estimate of what is expected … */
+    double clean_variance, noisy_variance; /* unbiased variances of the two estimates … */
+    double gain_variance;          /* … that of `gain`, as an estimate of its expectation … */
     double clean_plain, gain_plain; /* … and by the replicates' variance as it is: too large where samples are rare and bright, never too small by one that came once */
     double gain_apart;             /* the covariance of `apart` with what `gain` misses of this very picture's */
     double apart_variance;         /* of `apart`, as far as the noisy picture makes it */
 } ec_judged;
 
-/* Row `row`; denoised: both halves as a denoiser made them, 3 floats a pixel. */
+/* Judges row `row`; denoised: both denoised halves, 3 floats a pixel. */
 void ec_judge_row(const ec_film *film, uint32_t row, const float *const denoised[2], ec_judged *out);
 
 /* An error with its 95 % interval, all relative to the picture's mean luminance. */
@@ -34,8 +34,8 @@ typedef struct ec_stated_error {
     double error, low95, high95;   /* high95 infinite: light may be missing that no sample has met (film/rare.h) */
 } ec_stated_error;
 
-/* Sums over pixels: square errors; their variance, without bias and plain; noisy: the part of the square errors that the noisy picture makes; least: what is known of the denoised
- * one's noise, which the error is not under. Begin with zeros. */
+/* Sums over pixels: square errors; their variance, unbiased and plain; noisy: the part of the square errors that the noisy picture makes; least: the
+ * known noise of the denoised picture, below which the error is not stated. Begin with zeros. */
 typedef struct ec_judged_sum {
     double square, variance, plain, noisy, least;
 } ec_judged_sum;

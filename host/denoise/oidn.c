@@ -51,7 +51,7 @@ static ec_result check(const ec_oidn *oidn, const char *what, ec_error *err)
     return ec_fail(err, "--denoise: Open Image Denoise %s: %s; leave --denoise out", what, text ? text : "it does not say why");
 }
 
-/* Threads are left where the system puts them: others render beside. */
+/* Opens the processor as a device. Threads are not pinned, since others render beside. */
 static ec_result open_device(ec_oidn *oidn, ec_error *err)
 {
     oidn->device = oidn->NewDevice(CPU);

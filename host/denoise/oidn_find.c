@@ -10,10 +10,10 @@
 #define FILE_NAME "libOpenImageDenoise.so.2"
 #define IN_PACKAGE "pyoidn/oidn/lib/" FILE_NAME
 
-/* RTLD_LOCAL: it brings libraries of its own, which nobody else is to find. */
+/* RTLD_LOCAL: it brings libraries of its own, which nothing else should find. */
 static void *open_file(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
 
-/* A file, or a folder that has it as it is, or as PyPI's package has it. */
+/* Loads from a file, or from a folder that has it directly, or as PyPI's package has it. */
 static ec_result load_named(const char *named, void **library, ec_error *err)
 {
     static const char *const inside[] = {FILE_NAME, "oidn/lib/" FILE_NAME, IN_PACKAGE};
@@ -40,7 +40,7 @@ static void *open_matching(const char *prefix, const char *pattern)
     return library;
 }
 
-/* Where pip puts it: into the environment that is active, the user's own packages, the system's. */
+/* Loads from where pip installs it: the active environment, the user's own packages, the system's. */
 static void *open_of_python(void)
 {
     void *library = open_matching(getenv("VIRTUAL_ENV"), "/lib/python3*/site-packages/" IN_PACKAGE);

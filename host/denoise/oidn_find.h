@@ -1,4 +1,4 @@
-/* Where the library of Open Image Denoise is. */
+/* Finds the library of Open Image Denoise. */
 #ifndef EC_DENOISE_OIDN_FIND_H
 #define EC_DENOISE_OIDN_FIND_H
 
@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 
-/* Has the user named a place for it ($ECLAT_OIDN)? */
+/* Returns whether the user has named a place for it ($ECLAT_OIDN). */
 bool ec_oidn_is_named(void);
 
-/* Loads it, for as long as the process lives; a handle for dlsym. */
+/* Loads it, for as long as the process lives; *library: a handle for dlsym. */
 ec_result ec_oidn_load(void **library, ec_error *err);
 
 #endif

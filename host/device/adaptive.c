@@ -10,12 +10,12 @@
 #include "film/threads.h"
 #include "device/batch_source.h"
 
-#define RADIUS 3        /* 48 pixels around: with the pilot's replicates they know a variance to a tenth or so */
-#define LEAST 0.15      /* weight that every pixel has: what the pilot did not see is still looked for */
-#define MOST 24.0       /* of the mean */
+#define RADIUS 3        /* 48 pixels around: with the pilot's replicates they give a variance to a tenth or so */
+#define LEAST 0.15      /* least weight of a pixel: what the pilot did not see is still looked for */
+#define MOST 24.0       /* greatest weight, in means */
 #define WORTH_IT 0.95
 
-/* Numbers go tile by tile, as pixel_to_xy of kernels/lib/film.h has it: rows of tiles first, the last of them lower, its last tile narrower. */
+/* Numbers go tile by tile, as in pixel_to_xy of kernels/lib/film.h: rows of tiles first, the last of them lower, its last tile narrower. */
 uint32_t ec_pixel_place(const ec_params *params, uint32_t number)
 {
     const uint32_t tile = EC_TILE_ROWS, width = params->width, height = params->height;
@@ -25,7 +25,7 @@ uint32_t ec_pixel_place(const ec_params *params, uint32_t number)
     return (y0 + in_tile / columns) * width + x0 + in_tile % columns;
 }
 
-/* In row order, of all pixels: the variance of luminance, of a sample. */
+/* Sets the variance of luminance, of a sample, for all pixels in row order. */
 static void look_at_variances(const ec_film *film, float *variance)
 {
     const uint64_t pixels = (uint64_t)film->width * film->height;
@@ -53,7 +53,7 @@ static double variance_around(const ec_film *film, const float *variance, uint32
     return count > 0 ? sum / count : 0;
 }
 
-/* Mean 1, none under LEAST and none over MOST. */
+/* Scales weights to a mean of 1, after lifting them to LEAST and cutting them to MOST. */
 static void normalise(ec_allotment *a, double mean)
 {
     double sum = 0;
@@ -65,7 +65,7 @@ static void normalise(ec_allotment *a, double mean)
     for (uint32_t i = 0; i < a->pixels; i++) a->weight[i] = (float)(a->weight[i] * a->pixels / sum);
 }
 
-/* A pixel's own variance is independent of its weight, so that this is no flattery. */
+/* Returns error^2 by these weights over that of uniform sampling. A pixel's own variance is independent of its weight, so that this is no flattery. */
 static double foretold_gain(const ec_allotment *a)
 {
     double uniform = 0, weighted = 0;
@@ -125,19 +125,19 @@ ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *a
     return EC_OK;
 }
 
-/* So that pixels of one weight do not all fall due in the same pass: golden ratio. */
+/* Returns a pixel's phase in [0, 1), by the golden ratio, so that pixels of one weight do not all fall due in the same pass. */
 static double phase(uint32_t number)
 {
     return (double)(uint32_t)(number * 2654435769u) * 0x1p-32;
 }
 
-/* Samples that each replicate of pixel number i has. */
+/* Returns how many samples each replicate of pixel number i has. */
 static uint32_t samples_of(const ec_allotment *a, const ec_film *film, uint32_t i)
 {
     return film->counts ? film->counts[a->place[i]] : (uint32_t)film->samples[0];
 }
 
-/* The length of pixel number i's next stride, with `has` samples, if it is due that: 0 if not. */
+/* Returns the length of the next stride of pixel number i, with `has` samples, if it is due that; else 0. */
 static uint32_t due(const ec_allotment *a, uint32_t i, double has)
 {
     const uint32_t step = ec_schedule_step((uint64_t)has);
@@ -151,14 +151,14 @@ bool ec_allotment_is_even(const ec_allotment *a, const ec_film *film)
     return true;
 }
 
-/* Pixels that one thread looks at: the shortest stride that any of them is due, and how many of that length. */
+/* Pixels that one thread looks at: the shortest stride that any of them is due, and how many strides of that length they are due. */
 typedef struct share {
     uint32_t first, end, step, strides;
 } share;
 enum { SHARES = 64 };
 
-/* How many of pixel number i's next strides, all as long as the first, it is due. In which strides a pixel goes on depends on nothing but its samples,
- * and so do its bits. */
+/* Returns how many strides pixel number i is due that are as long as its next one, *step. In which strides a pixel goes on depends on nothing but its
+ * samples, and so do its bits. */
 static uint32_t strides_due(const ec_allotment *a, const ec_film *film, uint32_t i, uint32_t *step)
 {
     uint32_t has = samples_of(a, film, i), count = 0;
@@ -179,7 +179,7 @@ static void look(const ec_allotment *a, const ec_film *film, share *s)
     }
 }
 
-/* The shortest stride that any pixel is due. */
+/* Returns the shortest stride that any pixel is due. */
 static uint32_t look_at_all(const ec_allotment *a, const ec_film *film, share shares[SHARES])
 {
     uint32_t least = UINT32_MAX;
@@ -193,7 +193,7 @@ static uint32_t look_at_all(const ec_allotment *a, const ec_film *film, share sh
     return least;
 }
 
-/* Strides of the pass, from the list's stride `at` on, as far as `most` of them. */
+/* Enters strides of the pass in the list, from its stride `at` on, up to `most`. */
 static void enter(ec_allotment *a, const ec_film *film, const share *s, uint32_t samples, uint64_t at, uint64_t most)
 {
     for (uint32_t i = s->first; i < s->end && at < most; i++) {
@@ -209,7 +209,8 @@ static void enter(ec_allotment *a, const ec_film *film, const share *s, uint32_t
     }
 }
 
-/* When all have what they are due at a power of 2, beyond the pilot, whose weights these are, variances are known better. */
+/* Raises the level. Once all pixels have what they are due at a power of 2, beyond the pilot, whose weights these are, variances are known better,
+ * and weights are made anew. */
 static void rise(ec_allotment *a, const ec_film *film)
 {
     const uint64_t level = (uint64_t)a->level;

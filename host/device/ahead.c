@@ -9,7 +9,7 @@
 #include "cl/workarounds.h"
 #include "device/pipeline.h"
 
-enum { BVH8_BYTES = 52 }; /* a triangle, about: the BVH is not built yet. A wrong guess costs the time of kernels that are built for nothing. */
+enum { BVH8_BYTES = 52 }; /* about, for a triangle: the BVH is not built yet. A wrong guess costs the time of kernels that are built for nothing. */
 
 static bool begin(ec_cl *cl, const ec_build_plan *plan)
 {
@@ -57,7 +57,7 @@ void ec_build_ahead(ec_cl *cl, const ec_cargo *cargo, const ec_render_effects *e
     plan.lanes = head->lanes, plan.wave = head->wave;
     plan.width = width, plan.height = height, plan.batch = batch;
     plan.triangles = head->triangle_count, plan.accels = head->accels[ec_device_kind_of(&cl->info)];
-    cl->recall = NULL; /* the first picture's */
+    cl->recall = NULL; /* for the first picture only */
     if (recall && recall->is_begun && !memcmp(&recall->plan, &plan, sizeof plan)) return;
     if (begin(cl, &plan) && recall) ec_notes_write(cl, recall->name, &plan, sizeof plan);
 }

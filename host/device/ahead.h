@@ -1,4 +1,4 @@
-/* Kernels are built while the host still packs the scene, or even loads it. */
+/* Builds kernels while the host still packs the scene, or even loads it. */
 #ifndef EC_DEVICE_AHEAD_H
 #define EC_DEVICE_AHEAD_H
 
@@ -12,17 +12,17 @@ typedef struct ec_build_plan {
 
 /* The plan by which a scene's last render was built, and whether the programs of this one were begun by it. */
 typedef struct ec_recall {
-    char name[4200]; /* under which it is noted */
+    char name[4200]; /* name under which it is noted */
     ec_build_plan plan;
     bool is_begun;
 } ec_recall;
 
-/* Begins, while a scene is loaded, with the programs of its last render on this device: most renders need the same. The first ec_build_ahead notes its own
- * plan for the next render where it is another; recall has to stay where it is until then. scene: its path. */
+/* Begins to build, while a scene is loaded, the programs of its last render on this device: most renders need the same. The first ec_build_ahead
+ * notes its own plan for the next render if it differs; recall has to stay where it is until then. scene: its path. */
 void ec_recall_begin(ec_recall *recall, ec_cl *cl, const char *scene, uint32_t integrator);
 
-/* Before the cargo is whole: its accelerators are there, and it is known what effects it will call for. Builds the programs that the driver has in its
- * cache, by a thread of their own (cl/ahead.h); batch: samples of a pixel, as for ec_cargo_make. */
+/* Begins to build kernels before the cargo is whole, when its accelerators and the effects that it calls for are known. Takes only programs that the
+ * driver has in its cache, in a thread of their own (cl/ahead.h); batch: samples of a pixel, as for ec_cargo_make. */
 void ec_build_ahead(ec_cl *cl, const ec_cargo *cargo, const ec_render_effects *effects, uint32_t width, uint32_t height, uint32_t batch);
 
 #endif

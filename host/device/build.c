@@ -1,4 +1,4 @@
-/* The kernels a scene calls for, each built with the features that can change its code and no others. */
+/* Builds the kernels that a scene calls for, each with the features that can change its code and no others. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,10 +7,10 @@
 #include "cl/workarounds.h"
 #include "device/pipeline.h"
 
-/* One of a stage, or of an accelerator's two; at least as many as there can be. */
+/* A kernel of a stage, or one of an accelerator's two; ENTRIES is at least as many as there can be. */
 typedef struct entry {
     ec_stage_id stage;
-    uint32_t accel, lanes; /* accel: EC_ACCEL_COUNT where the stage has nothing to do with them */
+    uint32_t accel, lanes; /* accel: EC_ACCEL_COUNT if the stage does not use one */
     uint32_t takes;        /* as in ec_bound_kernel */
     const char *options;   /* of its traversal; "" for none */
     char source[32], name[64];
@@ -37,7 +37,7 @@ static entry trace_entry(const ec_pipeline *p, ec_kernel_set *set, int connect, 
     return e;
 }
 
-/* All of a set, those of needed accelerators (ec_accels_needed) before the others; returns how many. */
+/* Lists all kernels of a set, those of needed accelerators (ec_accels_needed) before the others; returns how many. */
 static uint32_t list_entries(const ec_pipeline *p, ec_kernel_set *set, entry entries[ENTRIES])
 {
     uint32_t count = 0;
@@ -57,7 +57,8 @@ ec_kernel_set ec_kernel_set_fast(const ec_pipeline *p)
     return set;
 }
 
-/* One program for all kernels of a lane width: each parse of the shared headers costs as much as compiling a stage. The source is the caller's to free. */
+/* Describes the program with all kernels of a lane width: each parse of the shared headers costs as much as compiling a stage. The caller frees the
+ * source. */
 static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, const entry *entries, uint32_t count, uint32_t lanes, ec_compile_program *program, ec_error *err)
 {
     const char *names[ENTRIES + 1] = {NULL}, *traversal = "";
@@ -129,7 +130,7 @@ ec_result ec_kernel_set_job(ec_pipeline *p, const ec_kernel_set *set, ec_compile
 {
     entry entries[ENTRIES];
     uint32_t programs[EC_LANES_MOST + 1];
-    ec_kernel_set none = *set; /* whose kernels are looked at no further */
+    ec_kernel_set none = *set; /* a copy, whose kernels are not used */
     const uint32_t count = list_entries(p, &none, entries);
     ec_compile_job_for(p->cl, job);
     memset(programs, 0xff, sizeof programs);

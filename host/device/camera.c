@@ -6,9 +6,9 @@
 #include "device/camera.h"
 #include "device/pipeline.h"
 
-/* glTF says nothing of lenses. This one stands before a sensor 24 mm high, that of small-picture film, so that its focal length
- * follows from the field of view; it is that of focus at infinity whatever is in focus, and the field of view stays: a lens that is
- * focused nearer would show a little less. */
+/* glTF says nothing of lenses. This one is in front of a sensor 24 mm high, that of small-picture film, so that its focal length follows from the
+ * field of view. The focal length is that of focus at infinity whatever is in focus, and the field of view stays: a lens that is focused nearer would
+ * show a little less. */
 #define EC_SENSOR_HEIGHT 0.024
 
 static ec_result set_lens(const ec_camera *c, const ec_render_options *o, ec_params *params, ec_error *err)

@@ -1,4 +1,4 @@
-/* What a cargo holds, and how it is filled: params first, then buffers. */
+/* Lists what a cargo holds and fills it: params first, then buffers. */
 #include "device/cargo.h"
 
 #include <math.h>
@@ -47,7 +47,7 @@ static ec_result choose_accels(ec_cargo_head *head, const ec_scene *scene, const
     return EC_OK;
 }
 
-/* They stay where they are, for the next render to follow. */
+/* The structures stay in `followed`, for the next render to follow. */
 static ec_result follow_accels(ec_cargo *cargo, ec_followed *followed, ec_accel_input *input, uint32_t wanted, ec_error *err)
 {
     EC_TRY(ec_accels_follow(followed, input, wanted, err));
@@ -79,7 +79,7 @@ static ec_result add_filter(ec_cargo *cargo, const ec_render_options *o, ec_erro
     return EC_OK;
 }
 
-/* A table of group numbers: the environment's, then each light's, then each material's. */
+/* Adds a table of group numbers: the environment's, then each light's, then each material's. */
 static ec_result add_light_groups(ec_cargo *cargo, const ec_render_options *o, ec_error *err)
 {
     const ec_light_groups *groups = o->groups;
@@ -101,7 +101,7 @@ static ec_result add_light_groups(ec_cargo *cargo, const ec_render_options *o, e
     return EC_OK;
 }
 
-/* As lib/features.h looks in it. */
+/* Adds the table of nodes' triangles, laid out as lib/features.h reads it. */
 static ec_result add_parts(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
 {
     const bool begins = scene->part_count && !scene->parts[0].first;
@@ -120,13 +120,13 @@ static ec_result add_parts(ec_cargo *cargo, const ec_scene *scene, const ec_rend
     return EC_OK;
 }
 
-/* Do paths look for lamps that stand still? Bounds and sides of others would hold for one moment only. */
+/* Returns whether paths sample lamps that stand still. Bounds and sides of moving lamps would hold for one moment only. */
 static bool joins_still_lamps(const ec_render_options *o, const ec_pack *pack)
 {
     return o->integrator == EC_INTEGRATOR_PATH && ec_pipeline_joins(o, pack) && !pack->lamps_move;
 }
 
-/* How lamps are chosen: by a tree, or by power and in pairs. */
+/* Prepares how lamps are chosen: by a tree, or by power and in pairs. */
 static ec_result prepare_lamps(const ec_render_options *o, ec_pack *pack, ec_error *err)
 {
     if (!joins_still_lamps(o, pack)) return EC_OK;
@@ -139,8 +139,8 @@ static ec_result prepare_lamps(const ec_render_options *o, ec_pack *pack, ec_err
     return pack->by_tree ? ec_pack_bulbs(pack, root, err) : ec_pack_lamp_pairs(pack, err);
 }
 
-/* called_for: the scene itself, or that of which it is what is written out: rounding may not change effects. Which faces lie in one plane is found out
- * in the world, for both. */
+/* Packs a scene. called_for: the scene itself or, if that was written out, the one with instances: rounding may not change effects. Which faces lie
+ * in one plane is found in the world, for both. */
 static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_pack *pack,
                            ec_error *err)
 {
@@ -160,14 +160,14 @@ static ec_result fill_pack(const ec_scene *scene, const ec_scene *called_for, co
     return EC_OK;
 }
 
-/* What takes time and says nothing of effects. */
+/* Does the part of packing that takes time and does not matter to effects. */
 static ec_result finish_pack(ec_pack *pack, ec_error *err)
 {
     EC_TRY(ec_pack_texels(pack, err));
     return pack->by_tree ? ec_pack_light_tree(pack, err) : EC_OK;
 }
 
-/* The tree of lights is still to come, but not whether there is one: kernels can be built while it is. */
+/* Begins to build kernels. The tree of lights is still to be built, but it is known whether there is one. */
 static void build_ahead(ec_cl *alone, const ec_cargo *cargo, const ec_render_options *o, uint32_t batch)
 {
     ec_render_effects effects = {.buffer_count = 0};
@@ -187,9 +187,9 @@ ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *
     return EC_OK;
 }
 
-/* A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput
- * starts late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random
- * numbers, so that what is divided by is what is sampled, and nothing under 1 becomes 1, which would never end. */
+/* Sets roulette. A constant probability is used from the first surface on, as a first path tracer does it; the one that goes by throughput starts
+ * late, since it tells least from bright short paths. Rounded down to a multiple of 2^-24, the step of the random numbers, so that what is divided
+ * by is what is sampled, and nothing under 1 becomes 1, which would never end. */
 static void set_roulette(double survival, ec_params *params)
 {
     params->first_roulette = survival == 0.0 ? EC_ROULETTE_FIRST : survival < 1.0 ? 1 : UINT32_MAX;
@@ -210,7 +210,8 @@ static void set_environment(const ec_pack *pack, ec_params *params)
     memcpy(params->environment_mean, pack->environment_mean, sizeof pack->environment_mean);
 }
 
-/* Steps so small that what they round off is 2^-30 of the mean radiance of the scene, about, and sums of 2^33 times that fit. */
+/* Sets light paths' parameters. Steps of the splats are so small that what they round off is 2^-30 of the mean radiance of the scene, about, and sums
+ * of 2^33 times that fit. */
 static void set_light_paths(const ec_render_options *o, const ec_pack *pack, uint64_t called, ec_params *params)
 {
     int exponent;
@@ -258,7 +259,7 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
     params->scene_max = pack->scene_max;
 }
 
-/* Where a scene is written out, takes the one with its meshes kept once, so that the job is the same with any accelerator. */
+/* Fills in the content. Where a scene is written out, takes the one with its meshes kept once, so that the job is the same with any accelerator. */
 static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
                               const ec_render_options *o, uint32_t batch, ec_content *content, ec_error *err)
 {

@@ -1,5 +1,5 @@
-/* A scene and its options made ready for devices: everything that goes to one, and nothing of the scene beside it. Made once and then
- * only read, so that any number of devices can be loaded from it, by several threads at once. */
+/* A scene and its options made ready for devices: everything that goes to one, with nothing left to be read from the scene. Made once and then only
+ * read, so that any number of devices can be loaded from it, by several threads at once. */
 #ifndef EC_DEVICE_CARGO_H
 #define EC_DEVICE_CARGO_H
 
@@ -11,7 +11,7 @@
 #include "device/stages.h"
 #include "shared/params.h"
 
-/* Devices of one kind go through the same acceleration structures. */
+/* Devices of one kind use the same acceleration structures. */
 typedef enum ec_device_kind { EC_KIND_OTHER, EC_KIND_CPU, EC_KIND_COUNT } ec_device_kind;
 static inline ec_device_kind ec_device_kind_of(const ec_device_info *info)
 {
@@ -25,23 +25,23 @@ typedef struct ec_cargo_head {
     ec_integrator integrator;
     uint32_t replicates;             /* film/schedule.h */
     bool fast_math;
-    uint32_t lanes, wave;            /* as in the options: 0 = what suits the device */
+    uint32_t lanes, wave;            /* as in the options: 0 = whatever suits the device */
     ec_compile compile;
     uint32_t waves_until_fast;
-    uint32_t accels[EC_KIND_COUNT];  /* 1 << which: those that devices of a kind go through */
+    uint32_t accels[EC_KIND_COUNT];  /* 1 << which: those that devices of a kind use */
     uint32_t triangle_count;
-    uint32_t bodies_too_many;        /* materials of bodies, more than can be told apart; else 0 */
+    uint32_t bodies_too_many;        /* number of materials of bodies, if these are too many to be told apart; else 0 */
     uint32_t buffer_count;
 } ec_cargo_head;
 
 typedef struct ec_cargo_buffer {
     uint32_t arg;                    /* ec_arg; EC_ARG_ACCEL + k for the k-th of an accelerator's */
-    uint32_t accel;                  /* which one's; EC_ACCEL_COUNT: it is no accelerator's */
+    uint32_t accel;                  /* of which accelerator; EC_ACCEL_COUNT: of none */
     char label[64];                  /* for messages */
     uint64_t bytes;                  /* of data … */
     uint64_t slack;                  /* … and so many more on the device, of any value */
     const void *data;
-    void *owned;                     /* data, if it is to be freed, and has room for the slack; NULL: it lies in what the cargo was made of … */
+    void *owned;                     /* data, if it is to be freed, and has room for the slack; NULL: data belongs to what the cargo was made of … */
     struct ec_texels *texels;        /* … or in these, of which the cargo is a user */
 } ec_cargo_buffer;
 
@@ -51,38 +51,38 @@ enum { EC_CARGO_BUFFERS = EC_SCENE_BUFFERS + 4 + EC_ACCEL_COUNT * EC_ACCEL_BUFFE
 typedef struct ec_cargo {
     ec_cargo_head head;
     ec_cargo_buffer buffers[EC_CARGO_BUFFERS];
-    ec_insides insides;              /* what a camera can be inside of: no device asks */
+    ec_insides insides;              /* the media that a camera can be inside of; no device uses them */
     ec_pack pack;                    /* these three hold what buffers do not own; all zero in a cargo that came from elsewhere */
     ec_scene written;
     ec_scene_view view;
 } ec_cargo;
 
-/* For devices of these kinds (1 << ec_device_kind). The scene must stay as long as the cargo does. alone: the device that gets it, if there is one
- * only, which begins to build kernels meanwhile; else NULL. stats gets what is known then: times, counts, content. The cargo is to be freed on
- * failure too. */
+/* Makes a cargo for devices of these kinds (1 << ec_device_kind). The scene must stay as long as the cargo does. alone: the device that gets it, if
+ * there is only one, which begins to build kernels meanwhile; else NULL. stats gets what is known then: times, counts, content. The cargo is to be
+ * freed on failure too. */
 ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *options, uint32_t batch, uint32_t kinds, ec_cl *alone, ec_cargo *cargo,
                         ec_render_stats *stats, ec_error *err);
 void ec_cargo_free(ec_cargo *cargo); /* zero-initialised or freed is fine */
-void ec_cargo_buffer_free(ec_cargo_buffer *buffer); /* what it owns; a second time is fine */
+void ec_cargo_buffer_free(ec_cargo_buffer *buffer); /* frees what it owns; may be called twice */
 
-/* The two steps of it that tell effects. First what of the scene is rendered, and, for called_for, what says which effects
- * that takes: they are the cargo's or the scene itself. Then its pack, and the head's effects; alone, and the samples of a batch, as above. */
+/* The two steps of ec_cargo_make that determine effects. The first chooses what of the scene is rendered and, in called_for, what says which effects
+ * that takes: they are the cargo's or the scene itself. The second packs it, and sets the head's effects; alone and batch: as above. */
 ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
                           const ec_render_options *options, ec_error *err);
 ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
                         const ec_render_options *options, ec_cl *alone, uint32_t batch, ec_error *err);
 
-/* The next buffer; NULL data adds none. owned as in ec_cargo_buffer, the cargo's from here on. */
+/* Adds a buffer; NULL data adds none. owned: as in ec_cargo_buffer; the cargo owns it from here on. */
 void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned);
 
 /* Builds an accelerator and adds its buffers; stats may be NULL. */
 ec_result ec_cargo_add_accel(ec_cargo *cargo, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
 
-/* camera.c: the same at every moment; nothing for a camera that stands still */
+/* camera.c: adds the keys of a moving camera; nothing for a camera that stands still */
 ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *options, ec_error *err);
-/* upload_plan.c: the scene's own, those that are called for */
+/* upload_plan.c: adds the scene's buffers that are called for */
 ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, ec_pack *pack, ec_error *err);
-/* content.c: what is rendered; params must be complete */
+/* content.c: fills in what is rendered; params must be complete */
 void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content);
 
 #endif

@@ -1,5 +1,5 @@
-/* Digests of the buffers as they are planned, so that a new one is in without a line here. Not of acceleration structures, lanes and
- * waves: they make no difference to a sample. */
+/* Digests of the buffers as they are planned, so that a new one is included without a line here. Acceleration structures, lanes and waves are left
+ * out: they make no difference to a sample. */
 #include "device/content.h"
 
 #include <string.h>
@@ -47,7 +47,7 @@ static void add_buffers(ec_sha256 *digests, const ec_scene *scene, const ec_pack
     }
 }
 
-/* Not with the scene's buffers: only that of the chosen camera goes to the device. */
+/* The scene's buffers do not have these: only that of the chosen camera goes to the device. */
 static void add_moving_cameras(ec_sha256 *digests, const ec_motion *motion)
 {
     for (uint32_t i = 0; i < motion->camera_count * (motion->segments + 1); i++) {
@@ -61,11 +61,11 @@ static void add_moving_cameras(ec_sha256 *digests, const ec_motion *motion)
 
 #define TAKE(id, field) (add(digests, id, &p.field, sizeof p.field), memset(&p.field, 0, sizeof p.field))
 
-/* Field by field what is the camera's and the environment's; what is left is settings. */
+/* Digests params: the camera's and the environment's fields one by one; all that is left is settings. */
 static void add_params(ec_sha256 *digests, ec_params p)
 {
     p.batch = p.first_sample = p.wave = p.part = p.film_rows = p.light_apart = 0;
-    p.limit = 0; /* limit and share of lights follow from what else there is */
+    p.limit = 0; /* these follow from the other fields */
     if (p.far_numbers) ec_light_share_set(&p, 0.5);
     TAKE(EC_CONTENT_CAMERA, camera_origin);
     TAKE(EC_CONTENT_CAMERA, camera_right);
@@ -114,7 +114,8 @@ void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec
     for (int i = 0; i < EC_CONTENT_COUNT; i++) ec_sha256_begin(&digests[i]);
     add_buffers(digests, scene, pack, head->effects);
     add_params(digests, head->params);
-    const uint64_t called = content->called = head->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* kept once or written out */
+    const uint64_t called = content->called = head->effects.called.bits & ~(uint64_t)EC_FEATURE_INSTANCES; /* the same whether meshes are kept once or
+                                                                                                            * written out */
     add(digests, EC_CONTENT_SETTINGS, &called, sizeof called);
     if (called & EC_FEATURE_MOTION) add_moving_cameras(digests, &scene->motion);
     add_kernels(digests);

@@ -1,4 +1,4 @@
-/* What is rendered, as digests of what the device is given: two renders of the same content, options and batches take the same samples. */
+/* Digests of what the device is given, by which renders are compared: two renders of the same content, options and batches take the same samples. */
 #ifndef EC_DEVICE_CONTENT_H
 #define EC_DEVICE_CONTENT_H
 
@@ -21,7 +21,7 @@ typedef struct ec_content {
     uint64_t called;                   /* EC_FEATURE_*: the effects */
 } ec_content;
 
-/* That of the kernels alone, which needs no render. */
+/* Writes the digest of the kernels alone, which needs no render. */
 void ec_content_kernels(char digest[33]);
 
 #endif

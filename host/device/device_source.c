@@ -1,4 +1,4 @@
-/* Batches of one device: its waves, of light paths first. */
+/* Takes batches on one device, wave by wave, light paths first. */
 #include "device/device_source.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ static uint64_t pixels_of(const ec_device_source *s) { return (uint64_t)s->pipel
 
 static uint64_t positions_of(const ec_device_source *s) { return ec_order_positions(pixels_of(s), s->replicates); }
 
-/* Nobody looks at the films any more, and kernels may write them. */
+/* Unmaps the films: nobody reads them any more, and kernels may write them. */
 static ec_result take_back(ec_device_source *s, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
@@ -57,10 +57,10 @@ static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, e
 {
     ec_pipeline *p = &s->pipeline;
     cl_mem *list = &p->buffers[EC_ARG_PIXEL_LIST];
-    const uint64_t slack = 64; /* lanes past the last sample look too */
+    const uint64_t slack = 64; /* lanes past the last sample read too */
     if (order->light == EC_LIGHT_ALONE) return EC_OK; /* the next pass has a list again */
     if (!order->list) {
-        ec_buffer_release(p->cl, list); /* of a pilot */
+        ec_buffer_release(p->cl, list); /* that of a pilot */
         return EC_OK;
     }
     const uint64_t entry = 4 * EC_LIST_WORDS;
@@ -68,7 +68,7 @@ static ec_result upload_list(ec_device_source *s, const ec_batch_order *order, e
     return ec_buffer_write(p->cl, *list, entry * order->done, entry * (order->count - order->done), order->list + EC_LIST_WORDS * order->done, err);
 }
 
-/* What of the batch is there already. */
+/* Writes to the device what of the batch is there already. */
 static ec_result prepare(ec_device_source *s, const ec_batch_order *order, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
@@ -78,7 +78,7 @@ static ec_result prepare(ec_device_source *s, const ec_batch_order *order, ec_er
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, FEATURE_BYTES * order->done, order->features_before, err);
 }
 
-/* Where the order has no room for it the batch stays where it is: a processor's films are the host's memory. */
+/* Shows the batch to the host. If the order has no room for it, it stays where it is: a processor's films are the host's memory. */
 static ec_result show(ec_device_source *s, const ec_batch_order *order, bool writes, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
@@ -113,7 +113,7 @@ static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_e
     return tell((ec_device_source *)source, order, false, err);
 }
 
-/* A first batch was given up before it reached a pixel number: marks what is not there of the rows of tiles that are begun, which nobody goes on from. */
+/* Marks the pixels of a first batch, given up before pixel `number`, that are missing in the rows of tiles that are begun, from which nobody goes on. */
 static void mark_unreached(ec_device_source *s, const ec_batch_order *order, uint32_t number)
 {
     const ec_params *params = &s->pipeline.params;
@@ -124,7 +124,7 @@ static void mark_unreached(ec_device_source *s, const ec_batch_order *order, uin
         s->base.mean[(uint64_t)EC_BATCH_FIELDS * (ec_pixel_place(params, before + number) - before)] = EC_NOT_REACHED;
 }
 
-/* Which samples the kernels take; and the numbers that pixels of the replicate have beyond those of the picture (kernels/lib/film.h). */
+/* Sets which samples the kernels take; *numbers: by how much pixel numbers of the replicate exceed those of the picture (kernels/lib/film.h). */
 static ec_result choose_samples(ec_device_source *s, const ec_batch_order *order, uint32_t *numbers, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
@@ -148,7 +148,7 @@ static bool goes_on(void *user)
     return order->go_on(order->user, order->done);
 }
 
-/* Compiles in place of rendering for as long as that pays. False: the order is given up. */
+/* Compiles in place of rendering for as long as that pays. Returns false if the order is given up. */
 static bool help(ec_device_source *s, const ec_batch_order *order, uint32_t reached)
 {
     const double samples = order->left - (double)(reached - order->done) * s->pipeline.params.batch;
@@ -157,7 +157,7 @@ static bool help(ec_device_source *s, const ec_batch_order *order, uint32_t reac
     return true;
 }
 
-/* The first one is timed, and has ended when this function does. */
+/* Runs a wave. The first one is timed, and has ended when this function returns. */
 static ec_result run_wave(ec_device_source *s, const ec_batch_order *order, uint32_t first, uint32_t count, uint32_t seed, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;

@@ -11,14 +11,14 @@ typedef struct ec_device_source {
     ec_pipeline pipeline;
     uint64_t seed;
     uint32_t replicates;
-    uint32_t rows;                    /* that it renders: from params.film_row on */
-    uint32_t unfit;                   /* values of batches in blocks that were not finite */
+    uint32_t rows;                    /* rows that it renders, from params.film_row on */
+    uint32_t unfit;                   /* values that were not finite, in batches of blocks */
     ec_mattes mattes;
-    bool has_begun, has_shown;        /* a wave was rendered; a wave of the picture was, and not of a look beforehand, whose orders have no samples left */
+    bool has_begun, has_shown;        /* a wave was rendered; a wave of the picture was, not only of a look beforehand, whose orders have no samples left */
     double first_rate;                /* samples a second of the first wave */
 } ec_device_source;
 
-/* spent: as for ec_pipeline_create. To be turned to its rows before the first order, and closed on failure too. */
+/* Opens a source. spent: as for ec_pipeline_create. It must be turned to its rows before the first order, and closed even on failure. */
 ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *source,
                                 ec_render_stats *stats, ec_error *err);
 

@@ -5,7 +5,7 @@
 
 #include "device/pipeline.h"
 
-/* Paths through panes count on shadow rays to pass them too. Light paths do not scatter inside bodies, so then camera paths do not, either. */
+/* If paths pass panes, shadow rays must too. Light paths do not scatter inside bodies, so with --integrator light camera paths do not, either. */
 static uint64_t never_built(const ec_render_options *o, uint64_t without)
 {
     return (without & EC_FEATURE_PANES ? EC_FEATURE_PANES | EC_FEATURE_MATCHED : 0) |
@@ -14,8 +14,8 @@ static uint64_t never_built(const ec_render_options *o, uint64_t without)
 
 static void call_light_paths(const ec_render_options *o, const ec_pack *pack, ec_effects *called)
 {
-    if (o->integrator == EC_INTEGRATOR_LIGHT) ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--integrator light"); /* camera paths ask, too */
-    else if (pack->caster_count && o->light_paths > 0 && !(called->bits & EC_FEATURE_SCATTERING)) /* which they do not follow */
+    if (o->integrator == EC_INTEGRATOR_LIGHT) ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--integrator light"); /* camera paths need it, too */
+    else if (pack->caster_count && o->light_paths > 0 && !(called->bits & EC_FEATURE_SCATTERING)) /* which light paths do not follow */
         ec_effects_call(called, EC_FEATURE_LIGHT_PATHS, "--light-paths %g, aimed at %u bodies that bend or mirror light", o->light_paths,
                         pack->caster_count);
 }
@@ -55,19 +55,20 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
 
 uint64_t ec_universal_features(const ec_render_effects *effects)
 {
-    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS)); /* other ways, not more effects */
+    const uint64_t all = effects->called.bits | (EC_FEATURE_ALL & ~(EC_FEATURE_SOBOL | EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS)); /* these are other
+                                                                                                                                       * ways, not more
+                                                                                                                                       * effects */
     return all & ~effects->never;
 }
 
-/* Lights without extent are met no other way, whatever --sample is. */
+/* Lights without extent are met in no other way, whatever --sample is. */
 bool ec_pipeline_joins(const ec_render_options *options, const ec_pack *pack)
 {
     bool asked = options->sample == EC_SAMPLE_MIS || options->sample == EC_SAMPLE_LIGHT;
     return pack->light_count && (asked || (pack->effects.bits & EC_FEATURE_PUNCTUAL_LIGHTS));
 }
 
-/* Alpha decides by base colour, panes by all of the surface; without them the traversal does not look at it. Who shades looks at the
- * alpha of lamps alone. */
+/* Alpha goes by base colour, panes by all of the surface; without them traversals do not read it. Stages that shade read the alpha of lamps alone. */
 uint64_t ec_stage_features(const ec_stage_entry *stage, uint64_t features)
 {
     uint64_t f = features & stage->features;

@@ -1,4 +1,4 @@
-/* What a render makes of each effect: is it called for, why, which kernels it is built into, which buffers it takes. */
+/* What a render makes of each effect: whether it is called for, why, which kernels it is built into, which buffers it takes. */
 #ifndef EC_DEVICE_EFFECTS_H
 #define EC_DEVICE_EFFECTS_H
 
@@ -9,7 +9,7 @@
 /* A buffer of the scene's data on the device. */
 typedef struct ec_scene_buffer {
     char label[24];
-    uint64_t effects; /* any of these makes it; 0: there in any case */
+    uint64_t effects; /* any of these needs it; 0: always there */
     uint64_t bytes;   /* 0: not allocated */
 } ec_scene_buffer;
 
@@ -17,7 +17,7 @@ enum { EC_SCENE_BUFFERS = 22 };
 
 typedef struct ec_render_effects {
     ec_effects called;   /* by the scene and the options */
-    uint64_t built;      /* EC_FEATURE_* in the kernels: more than that with all_effects */
+    uint64_t built;      /* EC_FEATURE_* in the kernels: more than are called for with all_effects */
     uint64_t without;    /* switched off on purpose */
     uint64_t never;      /* in no kernel, not even with all_effects */
     uint32_t launched;   /* stages: 1 << ec_stage_id */
@@ -25,7 +25,7 @@ typedef struct ec_render_effects {
     uint32_t buffer_count;
 } ec_render_effects;
 
-/* One effect in words, as every report has it; empty texts where there is nothing. */
+/* One effect in words, as every report prints it; texts may be empty. */
 typedef struct ec_effect_row {
     const char *name;
     bool called, built, left_out; /* left_out: by --without, whether it was called for or not */
@@ -33,10 +33,10 @@ typedef struct ec_effect_row {
     char kernels[128], buffers[192]; /* ", " between them */
     uint64_t bytes;                  /* of these buffers; others may share them */
 } ec_effect_row;
-/* i under ec_feature_count */
+/* Describes effect i, which is below ec_feature_count. */
 ec_effect_row ec_effect_describe(const ec_render_effects *effects, uint32_t i);
 
-/* "generate, intersect, shade, connect": those that are launched. */
+/* Writes the kernels that are launched: "generate, intersect, shade, connect". */
 void ec_effects_kernels(const ec_render_effects *effects, char *text, size_t size);
 
 #endif

@@ -1,4 +1,4 @@
-/* What a scene will take on a device, before it is there. */
+/* Estimates what a scene takes on a device, before there is one. */
 #include "device/estimate.h"
 
 #include "device/pipeline.h"

@@ -6,8 +6,8 @@
 #include "device/options.h"
 #include "scene/scene.h"
 
-/* Bytes of device memory the scene itself will take (geometry, BVH of ref_count references, textures, lights), and what a render
- * makes of its effects. For `eclat info`. */
+/* Estimates how many bytes of device memory the scene itself takes (geometry, BVH of ref_count references, textures, lights), and what a render makes
+ * of its effects. For `eclat info`. */
 ec_result ec_scene_estimate(const ec_scene *scene, const ec_render_options *options, uint32_t ref_count, uint64_t *device_bytes,
                             ec_render_effects *effects, ec_error *err);
 

@@ -16,7 +16,7 @@ static void deliver(ec_batch_source *source, const ec_batch_order *order, ec_fil
     }
 }
 
-/* What came of a part. */
+/* Adds what a part came to. */
 static ec_result add(ec_batch_source *source, const ec_batch_order *part, ec_film *film, ec_error *err)
 {
     ec_film_part sums = {.first = part->index, .count = part->batches, .sums = source->sums};
@@ -29,7 +29,7 @@ static ec_result add(ec_batch_source *source, const ec_batch_order *part, ec_fil
     return EC_OK;
 }
 
-/* One after the other. */
+/* Takes the parts one after the other, and adds them. */
 static ec_result add_up(ec_batch_source *source, const ec_batch_order *order, const ec_fold_parts *parts, float *into, float *features,
                         ec_film *film, bool *complete, ec_error *err)
 {

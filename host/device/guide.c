@@ -1,6 +1,6 @@
-/* Boxes are halved until few photons are in each; in each box squares of the directions are quartered until each has little of its flux. Then
- * flux is counted anew, spread around where each photon lies (as Mueller 2019 does it, with a long tail), so that no direction that light may
- * come from is left out for want of a photon. */
+/* Builds the table of path guiding. Boxes are halved until few photons are in each; in each box squares of the directions are quartered until each
+ * has little of its flux. Then flux is counted anew, spread around where each photon lies (as Mueller 2019 does it, with a long tail), so that no
+ * direction that light may come from is left out for want of a photon. */
 #include "device/guide.h"
 
 #include <math.h>
@@ -13,14 +13,14 @@
 #include "shared/guide.h"
 
 #define PI 3.14159265358979323846
-#define BOX_PHOTONS 500    /* more are halved */
-#define BOX_LEAST 64       /* fewer say nothing */
+#define BOX_PHOTONS 500    /* boxes with more are halved */
+#define BOX_LEAST 64       /* boxes with fewer guide nothing */
 #define BOX_DEPTH 24
 #define SQUARE_DEPTH 11
-#define SQUARE_SHARE 0.01  /* of its box' flux, and … */
+#define SQUARE_SHARE 0.01  /* of its box's flux, and … */
 #define SQUARE_PHOTONS 8   /* … photons in a square that is quartered */
-#define CONCENTRATED 16.0 /* mean density of light, over that of light from all around: less needs no guide */
-#define GUIDED_SHARE 0.5f  /* of directions */
+#define CONCENTRATED 16.0 /* mean density of light, over that of light from all around: boxes with less need no guide */
+#define GUIDED_SHARE 0.5f  /* share of directions that are guided */
 
 #define LAST_UNIT 0x1.fffffep-1f
 
@@ -38,7 +38,7 @@ typedef struct photon {
 } photon;
 _Static_assert(sizeof(photon) == sizeof(ec_photon), "one takes the place of the other");
 
-/* Zeroed; *at: the first of them. */
+/* Adds words, zeroed, to the table; *at: the first of them. */
 static ec_result add(table *t, size_t words, size_t *at, ec_error *err)
 {
     if (t->count + words > t->room) {
@@ -67,7 +67,7 @@ static uint32_t get_word(const float *at)
     return word;
 }
 
-/* Puts those first whose word of that number is less; how many they are. */
+/* Moves those first whose word of that number is less than `than`; returns how many they are. */
 static size_t part(ec_photon *list, size_t count, size_t word, float than)
 {
     size_t less = 0;
@@ -91,7 +91,7 @@ static double flux_of(const ec_photon *list, size_t count)
 
 enum { WORD_X = offsetof(photon, x) / sizeof(float), WORD_Y = offsetof(photon, y) / sizeof(float) };
 
-/* A square from x, y on, of photons in their box, and its quarters. */
+/* Adds a square from x, y on, and its quarters, for the photons in it. */
 static ec_result add_square(table *t, ec_photon *list, size_t count, float x, float y, float size, double least, int depth, size_t *at, ec_error *err)
 {
     const float half = 0.5f * size;
@@ -111,7 +111,7 @@ static ec_result add_square(table *t, ec_photon *list, size_t count, float x, fl
     return EC_OK;
 }
 
-/* From a direction to its place in the square. */
+/* Sets a direction's place in the square. */
 static void find_place(const float d[3], float *x, float *y)
 {
     const double turn = atan2((double)d[1], (double)d[0]) / (2 * PI);
@@ -119,7 +119,7 @@ static void find_place(const float d[3], float *x, float *y)
     *y = fminf((float)(turn < 0 ? turn + 1 : turn), LAST_UNIT);
 }
 
-/* The box' size goes beside it. */
+/* Turns a photon into one in its box, of this size. */
 static void place(ec_photon *one, float size)
 {
     photon in = {.size = size, .flux = one->flux};
@@ -140,7 +140,7 @@ static ec_result add_leaf(table *t, size_t box, ec_photon *list, size_t count, f
     return EC_OK;
 }
 
-/* box: its first word. */
+/* Divides a box, or makes it a leaf. box: its first word. */
 static ec_result fill_box(table *t, size_t box, ec_photon *list, size_t count, int depth, ec_error *err)
 {
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -160,7 +160,7 @@ static ec_result fill_box(table *t, size_t box, ec_photon *list, size_t count, i
     return fill_box(t, halves + EC_GUIDE_BOX_WORDS, list + below, count - below, depth + 1, err);
 }
 
-/* The word that p's box begins with, and the root of its quadtree; 0: it has none. */
+/* Returns the word at which p's box begins; *root: the root of its quadtree, 0 if it has none. */
 static size_t box_at(const float *words, const float p[3], uint32_t *root)
 {
     for (size_t box = 0;;) {
@@ -171,7 +171,7 @@ static size_t box_at(const float *words, const float p[3], uint32_t *root)
     }
 }
 
-/* Which quarter x, y lies in; they become its own. */
+/* Returns the quarter in which *x, *y lie, and turns them into its own coordinates. */
 static int quarter_of(float *x, float *y)
 {
     const int right = *x >= 0.5f, up = *y >= 0.5f;
@@ -187,14 +187,14 @@ static float size_at(const table *t, uint32_t at, float x, float y)
     return size;
 }
 
-/* In [-0.5, 0.5). */
+/* Returns a random number in [-0.5, 0.5). */
 static float jitter(uint64_t *state)
 {
     *state += EC_RANDOM_STEP;
     return (float)((double)(ec_random_mix(*state) >> 40) * 0x1p-24 - 0.5);
 }
 
-/* sums: of each word of the table that is a share. */
+/* Spreads a photon's flux. sums: of each word of the table that is a share. */
 static void spread(const table *t, double *sums, const photon *one, float factor, uint64_t *state)
 {
     float p[3];
@@ -203,7 +203,7 @@ static void spread(const table *t, double *sums, const photon *one, float factor
     box_at(t->words, p, &at);
     const float size = factor * size_at(t, at, one->x, one->y);
     float x = one->x + size * jitter(state), y = one->y + size * jitter(state);
-    x = fminf(fmaxf(x < 0 ? -x : x >= 1 ? 2 - x : x, 0), LAST_UNIT); /* off the poles, and once around */
+    x = fminf(fmaxf(x < 0 ? -x : x >= 1 ? 2 - x : x, 0), LAST_UNIT); /* reflected at the poles, and once around */
     y = fminf(y - floorf(y), LAST_UNIT);
     while (at) {
         const size_t share = at + 2 * (size_t)quarter_of(&x, &y);
@@ -212,8 +212,8 @@ static void spread(const table *t, double *sums, const photon *one, float factor
     }
 }
 
-/* Sets the shares of a square and of those in it. Returns the mean of the density that they have where light comes from, over the square's own
- * mean: 1 where it comes evenly. */
+/* Sets the shares of a square and of the squares in it. Returns the mean density where light comes from, over the square's own mean: 1 where it comes
+ * evenly. */
 static double settle_square(table *t, const double *sums, size_t at)
 {
     double sum = 0, mean = 0;

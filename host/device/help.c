@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 
-#define SECONDS_A_KERNEL 0.4  /* at least, where the first kernels' own time says less because they were there */
+#define SECONDS_A_KERNEL 0.4  /* at least, where the first kernels' own time says less because they were in the cache */
 #define MOMENT_MS 20
 
 struct ec_help {
@@ -44,7 +44,7 @@ bool ec_help_is_done(const ec_pipeline *p)
     return p->help && p->compiler.states && ec_compile_states_are_done(p->compiler.states, p->help->job.needed);
 }
 
-/* Seconds until what is needed is compiled if both are at it. */
+/* Returns the seconds until what is needed is compiled if both processes compile. */
 static double compiling_left(const ec_help *h, const ec_compile_states *states)
 {
     uint32_t left = 0;
@@ -53,7 +53,7 @@ static double compiling_left(const ec_help *h, const ec_compile_states *states)
     return left * fmax(fmax(h->first / h->job.kernel_count, SECONDS_A_KERNEL), so_far);
 }
 
-/* Waits no longer in all than all of it should take: the other process may have been stopped. */
+/* Waits for the other process. It may have been stopped, so the waits together last no longer than all of compiling should take. */
 static bool wait_a_moment(ec_pipeline *p)
 {
     const double start = ec_now();
@@ -72,7 +72,7 @@ bool ec_help_compile(ec_pipeline *p, double seconds_left)
     if (!h || !states || !p->is_narrow || p->waves_until_fast || h->has_failed) return false;
     if (h->first == 0) h->first = ec_now() - h->begun;
     if (ec_compiler_has_ended(&p->compiler) || ec_help_is_done(p) || seconds_left < compiling_left(h, states)) return false;
-    p->cl->keeps_programs = true; /* for the fast set */
+    p->cl->keeps_programs = true; /* kept for the fast set */
     if (!h->run.cl) h->has_failed = ec_compile_run_begin(p->cl, &h->job, states, &h->run, NULL) != EC_OK;
     if (h->has_failed || !ec_compile_run_take(&h->run, &kernel)) return !h->has_failed && wait_a_moment(p);
     h->has_failed = ec_compile_run_kernel(&h->run, kernel, NULL) != EC_OK;

@@ -5,15 +5,15 @@
 
 #include "device/pipeline.h"
 
-/* The other process was started with this job, which is this function's from now on. */
+/* Begins to help with a job, which the other process was started with and which this function takes over. */
 void ec_help_begin(ec_pipeline *pipeline, ec_compile_job *job);
 void ec_help_end(ec_pipeline *pipeline); /* fine without a beginning */
 
-/* Between waves, where rendering with narrow kernels would go on for so many seconds: compiles one kernel, or waits a moment for the other
- * process to end the last. False: to render is better. */
+/* To be called between waves, where rendering with narrow kernels would go on for so many seconds: compiles one kernel, or waits a moment for the
+ * other process to end the last. Returns false if rendering is better. */
 bool ec_help_compile(ec_pipeline *pipeline, double seconds_left);
 
-/* Are the needed kernels compiled, whoever did it? */
+/* Returns whether the needed kernels are compiled, by whichever process. */
 bool ec_help_is_done(const ec_pipeline *pipeline);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Numbers of the materials that bound bodies, EC_NO_ID for the others; returns how many there are. */
+/* Numbers the materials that bound bodies, EC_NO_ID for the others; returns how many there are. */
 static uint32_t number_bodies(const ec_pack *pack, uint32_t *number)
 {
     const ec_scene *plain = &pack->plain.scene;

@@ -10,11 +10,11 @@
 #include "device/lamp_tiles.h"
 #include "film/schedule.h"
 
-#define SEED 0x7f4a7c15u /* of all pictures */
+#define SEED 0x7f4a7c15u /* the same for all pictures */
 #define DARK 16.0f       /* lamps that are so many times darker than the brightest in sight have no edges … */
 #define LIT 4.0f         /* … nor have those that are not so many times brighter than the environment, which surfaces may be as bright as */
 
-/* Luminance of the lamps that each pixel's ray meets, in row order; and the most of all. */
+/* Luminance of the lamps that each pixel's ray meets, in row order; and the greatest of all. */
 typedef struct sight {
     float *seen, most;
 } sight;
@@ -26,7 +26,7 @@ static ec_result send_params(ec_pipeline *p, ec_error *err)
 
 static ec_result make_room(ec_pipeline *p, uint32_t entries, ec_error *err)
 {
-    const uint64_t bytes = 4ull * EC_LIST_WORDS * entries, slack = 64 * 4 * EC_LIST_WORDS; /* lanes past the last sample look too */
+    const uint64_t bytes = 4ull * EC_LIST_WORDS * entries, slack = 64 * 4 * EC_LIST_WORDS; /* lanes past the last sample read too */
     if (entries <= p->edges.room) return EC_OK;
     free(p->edges.list);
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_EDGE_LIST]);
@@ -80,7 +80,7 @@ static ec_result look_at_tiles(ec_pipeline *p, const ec_lamp_tiles *tiles, sight
     return count ? look(p, count, rgb, of, err) : EC_OK;
 }
 
-/* Do lamps differ among the 3 x 3 pixels around one? */
+/* Returns whether lamps differ among the 3 x 3 pixels around one. */
 static bool is_edge(const ec_params *params, const float *seen, uint32_t place, float least)
 {
     const uint32_t width = params->width, x = place % width, y = place / width;
@@ -108,7 +108,7 @@ static bool mark(const ec_params *params, const ec_lamp_tiles *tiles, const floa
     return any;
 }
 
-/* One sample a pixel, which is not counted among the picture's rays. */
+/* Finds edges by one sample a pixel, which does not count among the picture's rays. */
 static ec_result find(ec_pipeline *p, const ec_lamp_tiles *tiles, float least, bool *any, ec_error *err)
 {
     const uint32_t pixels = p->params.width * p->params.height, batch = p->params.batch, first_sample = p->params.first_sample;
@@ -159,7 +159,7 @@ static bool is_marked(const ec_pipeline *p, uint32_t number)
     return p->edges.marks[at / 32] >> at % 32 & 1;
 }
 
-/* The list's entry for pixel i after `first`; without a list `own`, filled in: the pixel's number, and 0. */
+/* Returns the list's entry for pixel i after `first` or, without a list, `own` with the pixel's number and 0. */
 static const uint32_t *entry_of(const uint32_t *list, uint32_t first, uint32_t i, uint32_t own[EC_LIST_WORDS])
 {
     if (list) return list + EC_LIST_WORDS * (size_t)(first + i);
@@ -181,7 +181,7 @@ static uint32_t fit(const ec_pipeline *p, const uint32_t *list, uint32_t first, 
     return count;
 }
 
-/* Entries of a list: the wave's pixels, then EC_EDGE_RAYS positions for each marked one, then where in the wave that is. */
+/* Fills the entries of a list: the wave's pixels, then EC_EDGE_RAYS positions for each marked one, then where in the wave that is. */
 static void fill(ec_pipeline *p, const uint32_t *list, uint32_t first, uint32_t count)
 {
     const ec_params *params = &p->params;
@@ -191,7 +191,7 @@ static void fill(ec_pipeline *p, const uint32_t *list, uint32_t first, uint32_t 
         if (!is_marked(p, at[0])) continue;
         for (uint32_t k = 0; k < EC_EDGE_RAYS; k++, rays += EC_LIST_WORDS) {
             rays[0] = at[0] + params->edge_numbers;
-            rays[1] = (at[1] + params->first_sample) * EC_EDGE_RAYS + k * params->batch - params->first_sample; /* which kernels add again */
+            rays[1] = (at[1] + params->first_sample) * EC_EDGE_RAYS + k * params->batch - params->first_sample; /* kernels add first_sample again */
         }
         where[0] = i;
         where[1] = 0;

@@ -11,7 +11,7 @@
 
 #define ELSEWHERE (EC_FEATURE_INSTANCES | EC_FEATURE_MOTION | EC_FEATURE_LENS) /* lamps that the table does not have, or rays that start elsewhere */
 #define TILE ((int64_t)EC_TILE_ROWS)
-#define MARGIN 2.0 /* pixels: of the filter, and of a neighbour's */
+#define MARGIN 2.0 /* pixels: for the filter, and for a neighbour's */
 
 /* Bounds of a lamp in the picture, in pixels; in_front: how many of its corners are before the camera. */
 typedef struct extent {

@@ -1,4 +1,4 @@
-/* Where in the picture lamps can be seen by themselves. */
+/* Finds where in the picture lamps may be seen directly. */
 #ifndef EC_DEVICE_LAMP_TILES_H
 #define EC_DEVICE_LAMP_TILES_H
 
@@ -11,7 +11,7 @@ typedef struct ec_lamp_tiles {
 } ec_lamp_tiles;
 
 ec_result ec_lamp_tiles_find(ec_pipeline *pipeline, float least, ec_lamp_tiles *tiles, ec_error *err);
-/* Pixel numbers of a tile: from *first on, so many. */
+/* Returns how many pixel numbers a tile has, from *first on. */
 uint32_t ec_lamp_tile_numbers(const ec_params *params, const ec_lamp_tiles *tiles, uint32_t tile, uint32_t *first);
 
 #endif

@@ -3,8 +3,9 @@
 
 #include "device/pipeline.h"
 
-/* Always the whole wave, work-items past the queue's end leave at once: the host need not know the count, PoCL need not compile again for a
- * smaller grid, and several devices of its never run one kernel at two sizes, which makes it abort (3.1, pocl_release_dlhandle_cache). */
+/* Counts work-items for the whole wave, of which those past the queue's end leave at once: the host need not know the count, PoCL need not compile
+ * again for a smaller grid, and several PoCL devices never run one kernel at two sizes, which makes it abort (3.1, pocl_release_dlhandle_cache).
+ * Cards get fewer (held_items). */
 uint64_t ec_pipeline_items(ec_stage_id id, uint32_t takes, uint32_t wave, uint32_t triangles, uint32_t *rows)
 {
     const bool is_of_triangles = id == EC_RASTER_SETUP || id == EC_RASTER_FILL;
@@ -18,7 +19,7 @@ uint32_t ec_local_size(const ec_device_info *device)
     return device->type & CL_DEVICE_TYPE_CPU ? EC_LOCAL_SIZE : EC_LOCAL_SIZE_OF_CARDS;
 }
 
-/* Cards go over as many entries of each part of the queue as any of them may hold: a million work-items without a path take as long as a late
+/* On cards, launches cover as many entries of each part of the queue as any part may hold: a million work-items without a path take as long as a late
  * bounce's few with one. */
 static uint64_t held_items(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t takes, uint64_t items)
 {
@@ -27,7 +28,7 @@ static uint64_t held_items(const ec_pipeline *p, const ec_stage_entry *stage, ui
     return most < items ? most : items;
 }
 
-/* That carry so many paths, pixels or triangles. */
+/* Returns how many work-items carry so many paths, pixels or triangles. */
 static uint64_t work_items(const ec_pipeline *p, const ec_stage_entry *stage, uint64_t count)
 {
     return count / (stage->lanes == 1 ? 1 : p->kernels.lanes);

@@ -1,4 +1,4 @@
-/* Set-up and tear-down of a render on one device, from a cargo. */
+/* Sets up a render on one device from a cargo, and tears it down. */
 #include "device/pipeline.h"
 
 #include <stdlib.h>

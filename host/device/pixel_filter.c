@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* The window's distribution on [0, 1] (Harris 1978, table I: 92 dB). It is positive at its ends, so that there is an inverse. */
+/* Returns the window's distribution on [0, 1] (Harris 1978, table I: 92 dB). The window is positive at its ends, so that there is an inverse. */
 static double distribution(double x)
 {
     static const double a[4] = {0.35875, -0.48829, 0.14128, -0.01168};

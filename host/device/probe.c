@@ -77,7 +77,7 @@ static ec_result make_buffers(ec_pipeline *p, const ec_scene *scene, ec_error *e
     return ec_buffer_create(p->cl, "parameters", sizeof p->params, &p->params, &p->buffers[EC_ARG_PARAMS], err);
 }
 
-/* Packets count for each ray what the whole packet does: they are counted one ray wide. */
+/* A packet counts for each of its rays what the whole packet does, so counts come from kernels of one lane. */
 static ec_result build(ec_pipeline *p, uint32_t which, bool count, ec_error *err)
 {
     char unit[64], options[64], name[64];
@@ -148,7 +148,7 @@ static ec_result probe_one(ec_cl *cl, const ec_scene *scene, const ec_scene *bui
     return result;
 }
 
-/* Rays start on surfaces, which of instances are only there once they are written out. */
+/* Rays start on surfaces, which instances have only once they are written out. */
 ec_result ec_probe_accel(ec_cl *cl, const ec_scene *scene, uint32_t which, float grid_density, ec_accel_probe *probe, ec_error *err)
 {
     if (!scene->placed_count) return probe_one(cl, scene, scene, which, grid_density, probe, err);

@@ -1,4 +1,4 @@
-/* What an accelerator costs on a scene: to build, to keep, to send a ray through. For `eclat info --accel`. */
+/* Measures what an accelerator costs on a scene: to build, to keep, to trace a ray. For `eclat info --accel`. */
 #ifndef EC_DEVICE_PROBE_H
 #define EC_DEVICE_PROBE_H
 
@@ -10,8 +10,8 @@
 
 typedef struct ec_accel_probe {
     ec_accel_stats build;
-    double nodes;           /* that a ray visits on average; for a grid blocks of cells and occupied cells */
-    double triangles;       /* that a ray is tested against */
+    double nodes;           /* visited by a ray on average; for a grid blocks of cells and occupied cells */
+    double triangles;       /* that a ray is tested against on average */
     double rays_per_second; /* closest hits, on all units of the device */
 } ec_accel_probe;
 

@@ -3,16 +3,16 @@
 #include "device/pipeline.h"
 
 #define EC_SMALLEST_WAVE 4096
-#define LEAST_UNITS 4        /* of a queue: in the room of so many, kernels of all effects, whose paths are larger, have one at least */
+#define LEAST_UNITS 4        /* of a queue: in the memory of so many, kernels of all effects, whose paths are larger, have room for at least one */
 #define EC_UNIT_PATHS 32768  /* of a CPU's wave, for each of its cores: 2^16 to 2^18 in all */
 #define EC_NARROW_WAVE 32768 /* at most, of narrow kernels */
 
-/* A slot has R, G, B, and again of indirect light where it is kept apart, or of each layer. */
+/* Returns the floats of radiance in a slot: R, G, B, and again for indirect light where it is kept apart, or for each layer. */
 static uint64_t radiance_fields(const ec_pipeline *p) { return p->params.apart ? 6 : 3 + 3 * p->params.layer_count + (p->params.layer_ids ? 3 : 0); }
 
-/* Paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads, and few enough for queues that
- * stay in the cache. (On two cores waves of 2^18 take 0 to 17 % longer than those of 2^16, and those of 2^14 20 % longer in a small scene. An
- * H100 takes 4.4 times as long for waves of 2^16 as for 2^20, 2 % longer for 2^22, 16 % for 2^23.) */
+/* Returns the wanted paths in flight: enough to fill a GPU; on a CPU enough for a launch to last longer than waking its threads, and few enough for
+ * queues that stay in the cache. (On two cores waves of 2^18 take 0 to 17 % longer than those of 2^16, and those of 2^14 20 % longer in a small
+ * scene. An H100 takes 4.4 times as long for waves of 2^16 as for 2^20, 2 % longer for 2^22, 16 % for 2^23.) */
 static uint64_t wanted_wave(const ec_device_info *device)
 {
     uint64_t wave = (uint64_t)1 << 16;
@@ -34,13 +34,13 @@ static uint64_t fit_wave(const ec_pipeline *p)
     return wave;
 }
 
-/* Samples that a wave has room for at least: a pixel's, and the rays to lamps' edges that they may have. */
+/* Returns how many samples a wave needs room for: a pixel's, and the rays to lamps' edges that they may have. */
 static uint64_t least_samples(const ec_pipeline *p)
 {
     return p->params.batch * (ec_pipeline_edges_can_be(p) ? 1 + EC_EDGE_RAYS : 1ull);
 }
 
-/* No more than the picture has samples, or than a small one takes; no fewer than a pixel's; every part of a queue holds whole packets. */
+/* Sets the wave: no more than the picture has samples, or than a small one takes; no fewer than a pixel's; every part of a queue holds whole packets. */
 static void set_wave(ec_pipeline *p, uint64_t wave)
 {
     const uint64_t unit = (uint64_t)EC_PARTS * p->lanes, samples = (uint64_t)p->params.width * p->params.height * p->params.batch;
@@ -52,7 +52,7 @@ static void set_wave(ec_pipeline *p, uint64_t wave)
     p->params.part = p->wave / EC_PARTS;
 }
 
-/* Drivers give memory when it is first used. Used here it is missed while there is a remedy. */
+/* Creates a buffer and writes to it. Drivers give memory when it is first used; used here, a lack of it is found while there is a remedy. */
 static ec_result create(ec_pipeline *p, const char *label, uint64_t bytes, cl_mem *buffer, ec_error *err)
 {
     const ec_workaround *workaround = ec_workaround_for(&p->cl->info);
@@ -89,7 +89,7 @@ static ec_result create_wave(ec_pipeline *p, ec_error *err)
         EC_TRY(create(p, "times of paths", field + slack, &p->buffers[EC_ARG_TIMES], err));
     if (p->effects.called.bits & EC_FEATURES_FROM_LIGHTS)
         EC_TRY(create(p, "what light paths are of", field * EC_LIGHT_SLOT_FIELDS + slack, &p->buffers[EC_ARG_LIGHT_SLOTS], err));
-    if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->effects.built & EC_FEATURE_TRANSMISSION)) return EC_OK; /* only what passes light branches */
+    if (p->integrator != EC_INTEGRATOR_WHITTED || !(p->effects.built & EC_FEATURE_TRANSMISSION)) return EC_OK; /* branches need transmission */
     return create(p, "ray trees", field * ec_whitted_stack_words(p->params.max_depth), &p->buffers[EC_ARG_BRANCHES], err);
 }
 
@@ -173,7 +173,7 @@ static ec_result halve_wave(ec_pipeline *p, ec_error *err)
     return ec_pipeline_use_wave(p, p->is_narrow ? ec_pipeline_narrow_wave(p, p->kernels.features) : p->room, err);
 }
 
-/* Here too paths in flight make room. */
+/* Makes room by halving the wave, too. */
 ec_result ec_pipeline_fit_films(ec_pipeline *p, uint64_t pixels, uint64_t positions, ec_error *err)
 {
     ec_error why = {0};

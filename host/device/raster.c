@@ -1,10 +1,10 @@
-/* The rasteriser: triangles into tiles once, then a depth test a sample. */
+/* The rasteriser: sorts triangles into tiles once, then makes a depth test a sample. */
 #include <stdlib.h>
 
 #include "device/pipeline.h"
 #include "shared/raster.h"
 
-/* Counts become the places where lists begin. */
+/* Turns counts into the places where lists begin; returns their sum. */
 static uint64_t scan(uint32_t *counts, uint64_t tiles)
 {
     uint64_t sum = 0;

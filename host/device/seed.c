@@ -1,4 +1,4 @@
-/* Seeds of kernels. Those that differ in one bit must give numbers that differ in every bit. */
+/* Seeds of kernels. Seeds that differ in one bit must give numbers that differ in every bit. */
 #include "base/random.h"
 #include "device/options.h"
 

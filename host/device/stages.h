@@ -1,4 +1,4 @@
-/* The stage table: which kernel a stage is, what it is built with, which arguments it takes in which order. */
+/* The stage table: each stage's kernel, what it is built with, which arguments it takes in which order. */
 #ifndef EC_DEVICE_STAGES_H
 #define EC_DEVICE_STAGES_H
 
@@ -10,13 +10,13 @@
 #include "shared/accel.h"
 #include "shared/features.h"
 
-/* Everything a kernel can be handed. The first ones are scalars that change from launch to launch. */
+/* Arguments of kernels. The first ones are scalars that change from launch to launch. */
 typedef enum ec_arg {
     EC_ARG_SEED,
     EC_ARG_FIRST_PIXEL,
     EC_ARG_BOUNCE,
     EC_ARG_STEP,
-    EC_ARG_SORTS,      /* do packets sort their rays (lib/sort_rays.h)? */
+    EC_ARG_SORTS,      /* packets sort their rays (lib/sort_rays.h) */
     EC_ARG_PATH_COUNT,
     EC_ARG_PIXEL_COUNT,
     EC_ARG_TRIANGLE_COUNT,
@@ -25,7 +25,7 @@ typedef enum ec_arg {
     EC_ARG_PARAMS = EC_ARG_SCALAR_COUNT,
     EC_ARG_PIXEL_LIST, /* of a pass over some of the pixels; else NULL */
     EC_ARG_EDGES,      /* which pixels lamps' edges go through, a bit each; NULL: none */
-    EC_ARG_EDGE_LIST,  /* a wave's pixel list, with their rays (device/lamp_edges.c) */
+    EC_ARG_EDGE_LIST,  /* a wave's pixel list, with their rays to edges (device/lamp_edges.c) */
     EC_ARG_PIXEL_FILTER, /* NULL: a box */
     EC_ARG_COUNTERS,
     EC_ARG_INVALID,
@@ -57,20 +57,20 @@ typedef enum ec_arg {
     EC_ARG_SRGB,
     EC_ARG_PLACES,
     EC_ARG_MOTION,
-    EC_ARG_COPLANAR,   /* NULL: nothing lies on anything */
+    EC_ARG_COPLANAR,   /* NULL: no faces lie on one another */
     EC_ARG_TIMES,      /* of paths, by slot */
-    EC_ARG_CAMERA_KEYS, /* NULL: it stands still */
+    EC_ARG_CAMERA_KEYS, /* NULL: the camera stands still */
     EC_ARG_LIGHT_TABLE,
     EC_ARG_LIGHT_SHARES,
     EC_ARG_LIGHT_TREE,
     EC_ARG_LIGHT_TRAILS,
     EC_ARG_LAMP_PARTS,
     EC_ARG_EMISSION,
-    EC_ARG_PARTS,      /* which triangles are of which node (lib/features.h); NULL: nobody asks */
-    EC_ARG_LIGHT_GROUPS, /* of the environment, of each light, of each material; NULL: none */
-    EC_ARG_LIGHT_SLOTS, /* what light paths are of, by slot */
+    EC_ARG_PARTS,      /* which triangles belong to which node (lib/features.h); NULL: not needed */
+    EC_ARG_LIGHT_GROUPS, /* group of the environment, of each light, of each material; NULL: none */
+    EC_ARG_LIGHT_SLOTS, /* light and point of each light path, by slot */
     EC_ARG_SPLATS,
-    EC_ARG_GUIDE,      /* which way light comes from; NULL: nobody asked */
+    EC_ARG_GUIDE,      /* the guide's table; NULL: none */
     EC_ARG_PHOTONS,    /* what light paths meet, while the guide is made; else NULL */
     EC_ARG_ENVIRONMENT_TEXELS,
     EC_ARG_ENVIRONMENT_TABLE,
@@ -102,7 +102,7 @@ typedef enum ec_stage_id {
 #define EC_OF_PATHS (EC_OF(PATH) | EC_OF(LIGHT))
 #define EC_OF_ALL UINT32_MAX
 
-/* How many entries a work-item of a stage has: as many as the pipeline or the accelerator has lanes, which its program is built with, or one. */
+/* How many entries a work-item of a stage has: as many lanes as its program is built with, the pipeline's or the accelerator's; or one. */
 #define EC_LANES_OF_PIPELINE 0
 #define EC_LANES_OF_ACCEL UINT32_MAX
 
@@ -114,30 +114,31 @@ typedef struct ec_stage_entry {
     const char *label;         /* for messages and profiles */
     uint32_t integrators;      /* EC_OF(x): those that launch it */
     uint32_t lanes;
-    uint64_t calls_for;        /* launched with this effect alone; 0: always */
-    uint64_t features;         /* bits that can change its code; others do not multiply binaries */
-    ec_arg busy;               /* what says how many of a launch have something to do: EC_ARG_COUNTERS of a queue (ec_pipeline_busy) */
+    uint64_t calls_for;        /* an effect without which it is not launched; 0: always launched */
+    uint64_t features;         /* those that can change its code; others do not multiply binaries */
+    ec_arg busy;               /* argument that says how many of a launch have something to do: EC_ARG_COUNTERS for a queue (ec_pipeline_busy) */
     uint32_t argument_count;
     const ec_arg *arguments;
 } ec_stage_entry;
 
-/* Is it there with that integrator and these effects? */
+/* Returns whether a render with that integrator and these effects has the stage. */
 bool ec_stage_is_of(const ec_stage_entry *stage, ec_integrator integrator, uint64_t features);
 
 extern const ec_stage_entry ec_stages[EC_STAGE_ID_COUNT];
 
 typedef struct ec_traversal {
-    const char *options; /* that an accelerator's kernels are built with besides lanes and features; static text, "" for nothing */
+    const char *options; /* build options of an accelerator's kernels besides lanes and features; static text, "" for nothing */
     uint32_t lanes;      /* of its kernels */
     uint32_t takes;      /* rays that a work-item takes: a packet, a run, or one */
 } ec_traversal;
 
-/* On processors a work-item traces 16 rays, one after the other, or in bvh8 64 by turns (lib/trace_interleaved.h), where the accelerator's buffers, `bytes`
- * in all, are larger than the device's cache. features: those that are built; packet: rays of those accelerators that send packets. */
+/* Returns how a device traverses an accelerator. On processors a work-item traces 16 rays, one after the other, or in bvh8 64 by turns
+ * (lib/trace_interleaved.h), where the accelerator's buffers, `bytes` in all, are larger than the device's cache. features: those that are built;
+ * packet: rays of those accelerators that send packets. */
 ec_traversal ec_traversal_of(const ec_device_info *device, uint32_t accel, uint64_t bytes, uint64_t features, uint32_t packet);
 
 #define EC_LOCAL_SIZE 16 /* one fixed local size a kernel: PoCL compiles again for each new one */
-#define EC_LOCAL_SIZE_OF_CARDS 64 /* whose threads go in step by 32 or 64. On an H100 128 are as fast, 32 and 256 take 3 to 13 % longer */
+#define EC_LOCAL_SIZE_OF_CARDS 64 /* cards' threads run in step by 32 or 64. On an H100 128 are as fast, 32 and 256 take 3 to 13 % longer */
 uint32_t ec_local_size(const ec_device_info *device);
 
 #endif

@@ -10,7 +10,7 @@
 #include "cl/workarounds.h"
 #include "device/help.h"
 
-/* One lane, and one accelerator: one whose kernels have one lane too, if there is one, for they compile twice as fast. */
+/* Returns the narrow set: one lane, and one accelerator. Takes one whose kernels have one lane anyway, if there is one, for they compile twice as fast. */
 static ec_kernel_set narrow_set(const ec_pipeline *p)
 {
     ec_kernel_set set = {.lanes = 1, .wave = ec_pipeline_narrow_wave(p, p->effects.built), .features = p->effects.built, .calls = true};
@@ -19,7 +19,8 @@ static ec_kernel_set narrow_set(const ec_pipeline *p)
     return set;
 }
 
-/* One lane, for any scene without instances: all effects, and the accelerators that are chosen by themselves, where there are any. */
+/* Returns the universal set: one lane, for any scene without instances, with all effects, and the accelerators that are chosen by default, if it
+ * needs any. */
 static ec_kernel_set universal_set(const ec_pipeline *p)
 {
     const uint64_t features = ec_universal_features(&p->effects);
@@ -34,7 +35,8 @@ static ec_compile when_to_compile(ec_compile compile)
     return !strcmp(wanted, "first") ? EC_COMPILE_FIRST : !strcmp(wanted, "narrow") ? EC_COMPILE_NARROW : EC_COMPILE_BESIDE;
 }
 
-/* Who asks for a width gets it. To change kernels later pays where the driver compiles late, and takes bits that are known not to depend on it. */
+/* Returns whether a render may begin with narrow kernels. A width that was asked for is kept. Changing kernels later pays if the driver compiles
+ * late, and needs bits that are known not to depend on it. */
 static bool may_begin_narrow(ec_pipeline *p, const ec_cargo_head *head)
 {
     const ec_compile when = when_to_compile(head->compile);
@@ -45,7 +47,8 @@ static bool may_begin_narrow(ec_pipeline *p, const ec_cargo_head *head)
     return !p->keeps_kernels;
 }
 
-/* Not ray trees: they would need a stack of branches for glass that the scene may not have. */
+/* Returns whether a render may begin with universal kernels. Ray trees may not: they would need a stack of branches for glass that the scene may not
+ * have. */
 static bool may_be_universal(const ec_pipeline *p)
 {
     const ec_kernel_set set = universal_set(p);
@@ -53,12 +56,12 @@ static bool may_be_universal(const ec_pipeline *p)
     return p->integrator != EC_INTEGRATOR_WHITTED && has_accel && ec_pipeline_narrow_wave(p, set.features);
 }
 
-/* Kernels that a render may go by, and what the driver's cache says of them, which is asked for once. */
+/* Kernels that a render may use, and whether the driver's cache has them, which is asked once. */
 typedef struct candidate {
     ec_kernel_set set;
     ec_compile_job job;
     bool is_asked, is_compiled;
-    bool is_helped; /* this render has seen the last of its kernels compiled, and the mark of the job may not be there yet */
+    bool is_helped; /* this render has seen the last of its kernels compiled; the job may not be marked as done yet */
 } candidate;
 enum { RASTERISER = EC_BEGUN_UNIVERSAL + 1, CANDIDATES };
 
@@ -69,12 +72,12 @@ static bool is_compiled(ec_pipeline *p, candidate *c)
     return c->is_compiled;
 }
 
-/* The preview's first picture is rasterised, of any scene. NULL: these kernels are compiled already. */
+/* Returns the job of the rasteriser's kernels, which make the preview's first picture of any scene; NULL: they are compiled already. */
 static const ec_compile_job *rasterisers_job(const ec_pipeline *p, candidate *c)
 {
     ec_pipeline *raster = malloc(sizeof *raster);
     if (!raster) return NULL;
-    *raster = *p; /* of which nothing is used but what says which kernels there are */
+    *raster = *p; /* only what says which kernels there are is used of it */
     raster->integrator = EC_INTEGRATOR_RASTER;
     c->set = universal_set(raster);
     const bool is_wanted = !is_compiled(raster, c);
@@ -82,7 +85,7 @@ static const ec_compile_job *rasterisers_job(const ec_pipeline *p, candidate *c)
     return is_wanted ? &c->job : NULL;
 }
 
-/* In another process: the fast kernels for this render, and then the universal ones for scenes to come. */
+/* Starts another process that compiles the fast kernels for this render, and then the universal ones for scenes to come. */
 static bool compile_beside(ec_pipeline *p, candidate *c, bool wants_universal)
 {
     const ec_compile_job *wanted[3] = {&c[EC_BEGUN_FAST].job}, *raster = p->integrator == EC_INTEGRATOR_RASTER ? NULL : rasterisers_job(p, &c[RASTERISER]);
@@ -101,13 +104,13 @@ static ec_begun choose(ec_pipeline *p, const ec_cargo_head *head, candidate *c)
     if (!may_begin_narrow(p, head) || is_compiled(p, &c[EC_BEGUN_FAST])) return EC_BEGUN_FAST;
     const bool may = may_be_universal(p), has_universal = may && is_compiled(p, &c[EC_BEGUN_UNIVERSAL]);
     const bool is_to_stay = when_to_compile(head->compile) == EC_COMPILE_NARROW;
-    if (is_to_stay) p->waves_until_fast = UINT32_MAX; /* no picture has as many */
+    if (is_to_stay) p->waves_until_fast = UINT32_MAX; /* no picture has as many waves */
     p->is_narrow = is_to_stay || compile_beside(p, c, may && !has_universal);
     if (!p->is_narrow) return EC_BEGUN_FAST;
     return has_universal && !is_compiled(p, &c[EC_BEGUN_NARROW]) ? EC_BEGUN_UNIVERSAL : EC_BEGUN_NARROW;
 }
 
-/* Says how far compiling is, at most every so many seconds. */
+/* Seconds between messages about the progress of compiling, at least. */
 #define SAYS_EVERY 2.0
 typedef struct teller {
     const ec_log *log;
@@ -123,7 +126,7 @@ static void tell(void *user, uint32_t done, uint32_t count)
     t->said = now;
 }
 
-/* Where the driver compiles at the first launch, all that there is to compile for is compiled here, and not in the first waves. */
+/* Builds a set. Where the driver compiles at the first launch, all kernels are compiled here rather than in the first waves. */
 static ec_result build(ec_pipeline *p, candidate *c, ec_error *err)
 {
     teller t = {.log = p->cl->log, .begun = ec_now()};
@@ -132,13 +135,13 @@ static ec_result build(ec_pipeline *p, candidate *c, ec_error *err)
     t.said = t.begun;
     p->kernels = c->set;
     ec_result result = ec_kernel_set_build(p, &p->kernels, err);
-    p->kernels.accels &= ec_kernel_set_fast(p).accels; /* a universal set has others too */
+    p->kernels.accels &= ec_kernel_set_fast(p).accels; /* a universal set has others too, which are not used */
     if (result == EC_OK && is_late) result = ec_kernel_set_warm(p, is_done || c->is_helped ? NULL : tell, &t, err);
     if (result == EC_OK && !is_done) ec_compile_job_done(p->cl, &c->job);
     return result;
 }
 
-/* While eclat is built: what any scene can begin with is compiled, for users' first renders to find. */
+/* While eclat is built: compiles what any scene can begin with, so that users' first renders find it. */
 static ec_result prepare(ec_pipeline *p, candidate *c, ec_error *err)
 {
     static const int kinds[] = {RASTERISER, EC_BEGUN_UNIVERSAL};
@@ -146,7 +149,7 @@ static ec_result prepare(ec_pipeline *p, candidate *c, ec_error *err)
     (void)is_compiled(p, &c[EC_BEGUN_UNIVERSAL]);
     for (int i = 0; i < 2; i++) {
         candidate *one = &c[kinds[i]];
-        if (one->is_compiled || !one->set.wave) continue; /* 0: for so small a picture there are none */
+        if (one->is_compiled || !one->set.wave) continue; /* 0: there are none for so small a picture */
         EC_TRY(ec_compile_job_run(p->cl, &one->job, err));
         one->is_compiled = true;
     }
@@ -172,7 +175,7 @@ static ec_result trace_by(ec_pipeline *p, uint32_t accels, ec_error *err)
     return ec_compiles_late(&p->cl->info) ? ec_kernel_set_warm(p, NULL, NULL, err) : EC_OK;
 }
 
-/* Where not all of them are compiled, without packets: these compile for long, and make few renders much faster. */
+/* Switches to the fast kernels; without packets if not all are compiled: packets take long to compile, and make few renders much faster. */
 static ec_result switch_to_fast(ec_pipeline *p, bool is_whole, ec_error *err)
 {
     candidate fast = {.set = ec_kernel_set_fast(p), .is_helped = ec_help_is_done(p)};
@@ -193,7 +196,7 @@ static ec_result switch_to_fast(ec_pipeline *p, bool is_whole, ec_error *err)
     return result;
 }
 
-/* A wave of none is one for which memory became too short: the fast kernels' is larger. */
+/* A wave of 0 paths is one for which memory became too short: the fast kernels' wave is larger. */
 ec_result ec_tiers_step(ec_pipeline *p, ec_error *err)
 {
     const uint32_t accels = ec_kernel_set_fast(p).accels;

@@ -1,23 +1,23 @@
-/* Which accelerator a bounce goes through, where several are in use, and whether its packets sort their rays first. Hits are the same, so
- * only time is at stake. */
+/* Chooses which accelerator a bounce traverses, where several are in use, and whether its packets sort their rays first. Hits are the same, so only
+ * time is at stake. */
 #include <math.h>
 
 #include "base/clock.h"
 #include "device/pipeline.h"
 
-/* An accelerator, and one that sends packets with its rays sorted too; camera rays lie side by side as they come. */
+/* An accelerator, and whether its packets sort their rays; camera rays are neighbours as they come. */
 typedef struct way {
     uint32_t accel, sorts;
 } way;
 
-/* Rays of a kind, which have a choice of their own. */
+/* Kinds of rays that are tuned separately. */
 typedef struct kind {
     int of_light, connect;
 } kind;
 
 static bool is_packets(uint32_t accel) { return ec_accels[accel].lanes == EC_LANES_OF_PIPELINE; }
 
-/* All that there are at a bounce; returns how many. */
+/* Lists all ways to trace a bounce; returns how many. */
 static uint32_t list_ways(const ec_pipeline *p, kind k, uint32_t bounce, way ways[2 * EC_ACCEL_COUNT])
 {
     uint32_t count = 0;
@@ -34,9 +34,9 @@ static struct ec_tuning *tuning_of(ec_pipeline *p, kind k, uint32_t bounce, way 
     return &p->accels[w.accel].tuning[k.of_light][k.connect][bounce][w.sorts];
 }
 
-/* Tries each at each of the first bounces, then keeps the fastest. The best of three counts (after one that may compile),
- * since other programs can only slow a trial down. Rays only lose coherence from bounce to bounce: packets are tried where
- * they have won the bounce before, and until then the last of the list takes over. */
+/* Tries each way at each of the first bounces, then keeps the fastest. The best of three trials counts (after one that may compile), since other
+ * programs can only slow a trial down. Rays only lose coherence from bounce to bounce: packets are tried where they have won the bounce before, and
+ * until then the last of the list is used. */
 #define TRIALS 4
 static way choose(ec_pipeline *p, kind k, uint32_t bounce, bool *is_trial)
 {
@@ -45,7 +45,7 @@ static way choose(ec_pipeline *p, kind k, uint32_t bounce, bool *is_trial)
     for (uint32_t b = 0; b <= bounce && b < EC_TUNED_BOUNCES; b++) {
         const uint32_t count = list_ways(p, k, b, ways);
         double best_rate = -1.0;
-        best = ways[0]; /* where there is no other */
+        best = ways[0]; /* if there is no other */
         for (uint32_t w = 0; w < count && count > 1; w++) {
             const struct ec_tuning *tuning = tuning_of(p, k, b, ways[w]);
             if (tuning->trials < TRIALS) {

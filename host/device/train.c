@@ -1,4 +1,4 @@
-/* Light paths that are traced before the picture, for the table that guides directions. */
+/* Traces light paths before the picture, for the guide's table. */
 #include <stdlib.h>
 
 #include "base/clock.h"
@@ -9,7 +9,7 @@
 
 #define PATHS (1u << 19)        /* whatever the picture's size */
 #define PHOTONS_MOST (1u << 20) /* 32 MiB */
-#define SEED 0x9e3779b9u        /* of all pictures: slices and frames of one job are guided alike */
+#define SEED 0x9e3779b9u        /* the same for all pictures: slices and frames of one job are guided alike */
 
 _Static_assert(sizeof(ec_photon) == 4 * EC_PHOTON_WORDS, "photons are read as kernels write them");
 
@@ -31,7 +31,7 @@ static ec_result add(photons *all, const ec_photon *one, ec_error *err)
     return EC_OK;
 }
 
-/* Adds what paths first … first + count - 1 meet, path by path, so that waves of any size give one list. met: room for as much. */
+/* Adds what paths first … first + count - 1 meet, path by path, so that waves of any size give one list. met: room for all that they meet. */
 static ec_result trace(ec_pipeline *p, uint32_t first, uint32_t count, ec_photon *met, photons *all, ec_error *err)
 {
     const uint64_t bytes = (uint64_t)count * EC_PHOTON_VERTICES * sizeof *met;
@@ -61,7 +61,7 @@ static ec_result collect(ec_pipeline *p, photons *all, ec_error *err)
     }
     ec_buffer_release(p->cl, &p->buffers[EC_ARG_PHOTONS]);
     p->params.batch = batch;
-    p->rays = 0; /* of the picture alone */
+    p->rays = 0; /* rays count for the picture alone */
     return ec_buffer_write(p->cl, p->buffers[EC_ARG_PARAMS], 0, sizeof p->params, &p->params, err);
 }
 

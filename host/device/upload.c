@@ -1,17 +1,17 @@
-/* A cargo's buffers, put on a device. */
+/* Puts a cargo's buffers on a device. */
 #include <stdlib.h>
 
 #include "device/pipeline.h"
 #include "scene/texels.h"
 
-/* NULL: this device has no use for it. */
+/* Returns where a buffer goes; NULL: this device does not use it. */
 static cl_mem *place_of(ec_pipeline *p, const ec_cargo_buffer *b)
 {
     if (b->accel == EC_ACCEL_COUNT) return &p->buffers[b->arg];
     return p->accels[b->accel].in_use ? &p->accels[b->accel].buffers[b->arg - EC_ARG_ACCEL] : NULL;
 }
 
-/* What another render has left on the device and this one has no use for goes first: there may not be room for both. */
+/* Releases first what another render has left on the device and this one does not need: there may not be room for both. */
 static void make_room(ec_pipeline *p, const ec_cargo *cargo, ec_fingerprint keys[EC_CARGO_BUFFERS])
 {
     for (uint32_t i = 0; i < cargo->head.buffer_count; i++) {
@@ -33,7 +33,7 @@ static void CL_CALLBACK leave_texels(cl_mem buffer, void *texels)
     ec_texels_leave(texels);
 }
 
-/* The device then works on the cargo's memory itself, and frees it. */
+/* Lets the device work on the cargo's memory itself, and free it. Returns false if that is not possible. */
 static bool adopt(ec_pipeline *p, ec_cargo_buffer *b, cl_mem *place)
 {
     if (!b->owned && !b->texels) return false;

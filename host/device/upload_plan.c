@@ -1,4 +1,4 @@
-/* Which of the scene's data go to a device, and for which effects. */
+/* Decides which of the scene's data go to a device, and for which effects. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
     const uint64_t vertices = s->vertex_count, triangles = s->triangle_count, lights = pack->light_count;
     const uint64_t map_rows = pack->environment_height + 1ull, texels = pack->environment_width * map_rows;
     const uint64_t light = EC_FEATURE_AREA_LIGHTS | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_ENVIRONMENT;
-    const uint64_t prims = pack->prim_count ? pack->prim_count : 1; /* kernels read the first where a ray met none */
+    const uint64_t prims = pack->prim_count ? pack->prim_count : 1; /* kernels read the first one where a ray met none */
     const ec_upload all[] = {
         {EC_ARG_PRIMS, pack->prims, 0, {"triangles", 0, prims * sizeof *pack->prims}},
         {EC_ARG_MATERIALS, pack->materials, 0, {"materials", 0, pack->material_count * sizeof *pack->materials}},
@@ -37,14 +37,14 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
         {EC_ARG_EMISSION, pack->emission, 0, {"lights of light paths", EC_FEATURES_FROM_LIGHTS, pack->emission_words * sizeof *pack->emission}},
         {EC_ARG_LIGHT_TRAILS, pack->light_of_prim, 0,
          {"trails of lamps", EC_FEATURE_LIGHT_TREE, pack->light_node_count ? (uint64_t)pack->prim_count * sizeof *pack->light_of_prim : 0}},
-        {EC_ARG_LIGHT_TRAILS, pack->pair_of_prim, 0, /* never both */
+        {EC_ARG_LIGHT_TRAILS, pack->pair_of_prim, 0, /* a scene never has both */
          {"pairs of lamps", EC_FEATURE_LAMP_PAIRS, pack->pair_of_prim ? (uint64_t)pack->prim_count * sizeof *pack->pair_of_prim : 0}},
     };
     const uint32_t count = sizeof all / sizeof *all;
     effects->buffer_count = count;
     for (uint32_t i = 0; i < count; i++) {
         plan[i] = all[i];
-        uint64_t for_whom = plan[i].buffer.effects; /* also for universal kernels: what is not called for stays NULL */
+        uint64_t for_whom = plan[i].buffer.effects; /* universal kernels, too, get NULL for what is not called for */
         if ((for_whom && !(effects->called.bits & for_whom)) || (!plan[i].data && plan[i].arg != EC_ARG_UVS))
             plan[i].buffer.bytes = 0;
         if (plan[i].buffer.bytes) plan[i].buffer.bytes += plan[i].slack;
@@ -61,7 +61,7 @@ void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t byt
     snprintf(buffer->label, sizeof buffer->label, "%s", label);
 }
 
-/* Both sets side by side. They must be finite and small enough for the kernels' integer texels. */
+/* Adds both uv sets side by side. They must be finite and small enough for the kernels' integer texels. */
 static ec_result add_uvs(ec_cargo *cargo, const ec_scene *scene, const ec_upload *u, ec_error *err)
 {
     float *uvs = calloc(4 * (size_t)scene->vertex_count, sizeof *uvs);
@@ -86,7 +86,7 @@ ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, ec_pack *pa
         void *owned = u->arg == EC_ARG_PRIMS ? pack->prims : NULL;
         if (u->arg == EC_ARG_UVS) EC_TRY(add_uvs(cargo, scene, u, err));
         else ec_cargo_add(cargo, u->arg, u->buffer.label, bytes - u->slack, u->slack, u->data, owned);
-        if (u->arg == EC_ARG_TEXELS) { /* the cargo's */
+        if (u->arg == EC_ARG_TEXELS) { /* the cargo's from here on */
             cargo->buffers[cargo->head.buffer_count - 1].texels = pack->texels;
             pack->texels = NULL;
         }

@@ -4,7 +4,7 @@
 
 #include "device/pipeline.h"
 
-/* Counters but for rays[0], which says how many paths each part holds: zero. */
+/* Sends the counters: zeros, but for rays[0], which says how many paths each part holds. */
 static ec_result begin_segment(ec_pipeline *p, ec_error *err)
 {
     ec_counters *counters = &p->counters;
@@ -13,7 +13,7 @@ static ec_result begin_segment(ec_pipeline *p, ec_error *err)
     return ec_buffer_send(p->cl, p->buffers[EC_ARG_COUNTERS], sizeof *counters, counters, err);
 }
 
-/* rays[0] then says what is left. */
+/* Reads the counters and adds up rays; rays[0] then says how many paths are left. */
 static ec_result end_segment(ec_pipeline *p, ec_stage_id shade, ec_error *err)
 {
     ec_counters *counters = &p->counters;
@@ -29,7 +29,7 @@ static ec_result end_segment(ec_pipeline *p, ec_stage_id shade, ec_error *err)
     return EC_OK;
 }
 
-/* Up to EC_SEGMENT bounces, of light paths if `kind` is EC_LIGHT_BOUNCE. */
+/* Runs up to EC_SEGMENT bounces, of light paths if `kind` is EC_LIGHT_BOUNCE. */
 static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t first_bounce, ec_error *err)
 {
     const bool of_light = kind != 0;
@@ -43,14 +43,14 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, u
         ec_pipeline_swap_queues(p, bounce);
         EC_TRY(ec_pipeline_trace(p, 0, bounce, scalars, err));
         EC_TRY(ec_pipeline_launch(p, shade, scalars, err));
-        if (p->buffers[EC_ARG_PHOTONS]) continue; /* they teach the guide (train.c), and are joined to no camera */
+        if (p->buffers[EC_ARG_PHOTONS]) continue; /* photons make the guide (train.c), and are joined to no camera */
         if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, bounce, scalars, err));
         if (of_light) EC_TRY(ec_pipeline_launch(p, EC_SPLAT, scalars, err));
     }
     return end_segment(p, shade, err);
 }
 
-/* From a bounce on, as long as p->counters.rays[0] tells of paths. */
+/* Runs bounces from `first` on, as long as p->counters.rays[0] has paths. */
 static ec_result run_bounces(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t first, ec_error *err)
 {
     for (uint32_t bounce = first; ec_pipeline_total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
@@ -73,7 +73,7 @@ ec_result ec_pipeline_run_light_wave(ec_pipeline *p, uint32_t seed, uint32_t fir
     cl_mem list = p->buffers[EC_ARG_PIXEL_LIST];
     p->buffers[EC_ARG_PIXEL_LIST] = NULL;
     ec_pipeline_swap_queues(p, 0);
-    memset(&p->counters, 0, sizeof p->counters); /* ec_emit counts */
+    memset(&p->counters, 0, sizeof p->counters); /* ec_emit counts the paths */
     ec_result result = run_segment(p, scalars, EC_LIGHT_BOUNCE, 0, err);
     if (result == EC_OK) result = run_bounces(p, scalars, EC_LIGHT_BOUNCE, EC_SEGMENT, err);
     p->buffers[EC_ARG_PIXEL_LIST] = list;

@@ -4,7 +4,7 @@
 
 #include "device/pipeline.h"
 
-/* Counters to the device, with nothing in the shadow queues. */
+/* Sends the counters to the device, with empty shadow queues. */
 static ec_result clear_shadows(ec_pipeline *p, ec_error *err)
 {
     memset(p->counters.shadows, 0, sizeof p->counters.shadows);
@@ -21,7 +21,7 @@ static ec_result read_counters(ec_pipeline *p, ec_error *err)
     return EC_OK;
 }
 
-/* The lights in turn; after every EC_SEGMENT the shadow queues' counters are used up. */
+/* Shades by the lights in turn; after every EC_SEGMENT of them the shadow queues' counters are used up, and cleared. */
 static ec_result shade_lights(ec_pipeline *p, uint32_t *scalars, ec_error *err)
 {
     for (uint32_t k = 0; k < p->params.light_count; k++) {

@@ -10,7 +10,7 @@
 
 #include "film/statistics.h"
 
-#define FEWEST 8   /* neighbours that tell how they differ */
+#define FEWEST 8   /* neighbours needed to tell how they differ */
 #define ALIKE 1e-6 /* the least of psi'(d0 / 2) */
 
 /* psi(y) - ln y: to 5 % from y = 1/2 on */

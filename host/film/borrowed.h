@@ -1,4 +1,4 @@
-/* A pixel's squared standard error, with what those of its neighbours tell of it: borrowed.c has the method. */
+/* A pixel's squared standard error, improved by those of its neighbours. borrowed.c has the method. */
 #ifndef EC_FILM_BORROWED_H
 #define EC_FILM_BORROWED_H
 
@@ -21,7 +21,7 @@ typedef struct ec_neighbours {
     double count, sum, squares;
 } ec_neighbours;
 
-/* Degrees of freedom that a pixel's SE^2 has with what these tell of it: its own R - 1 and up to EC_BORROWED_MOST. */
+/* Returns the degrees of freedom of a pixel's SE^2 with what its neighbours add: its own R - 1 and up to EC_BORROWED_MOST. */
 double ec_borrowed_freedom(const ec_borrower *borrower, const ec_neighbours *neighbours);
 
 /* The plain 95 % interval of a pixel reaches from its mean by t standard errors to both sides. */
@@ -29,7 +29,7 @@ typedef struct ec_reach {
     double t, se;
 } ec_reach;
 
-/* The reach for a pixel whose squared standard error is se2. The neighbours do not include it. */
+/* Returns the reach for a pixel whose squared standard error is se2. The neighbours do not include it. */
 ec_reach ec_borrowed_reach(const ec_borrower *borrower, double se2, const ec_neighbours *neighbours);
 
 #endif

@@ -1,4 +1,4 @@
-/* The channels of a picture, in its EXR and for callers of the library: what writes, reads and lists them goes by this table. */
+/* The table of a picture's channels, in its EXR and for callers of the library, by which they are written, read and listed. */
 #ifndef EC_FILM_CHANNELS_H
 #define EC_FILM_CHANNELS_H
 
@@ -25,14 +25,14 @@ typedef enum ec_channel_type {
     EC_CHANNEL_WORDS  /* 32-bit unsigned integers, as they are */
 } ec_channel_type;
 
-/* When a picture has it, if it can: always; where it, its layer or all are asked for; where it or its layer is, since it makes a render dearer. */
+/* When a picture that can have a channel has it: always; if it, its layer or all are asked for; if it or its layer is, since it makes a render dearer. */
 typedef enum ec_channel_choice { EC_CHANNEL_DEFAULT, EC_CHANNEL_OF_ALL, EC_CHANNEL_BY_NAME } ec_channel_choice;
 
 typedef struct ec_channel_row {
     const char *name;
     ec_plane plane;
-    uint32_t place;       /* in the plane's floats of a pixel */
-    ec_channel_type type; /* in the EXR of a picture; its sums (store/layout.h) come with 32-bit floats of all */
+    uint32_t place;       /* among the plane's floats of a pixel */
+    ec_channel_type type; /* in the EXR of a picture; with its sums (store/layout.h) all come as 32-bit floats */
     ec_channel_choice when;
 } ec_channel_row;
 
@@ -43,11 +43,11 @@ static inline uint32_t ec_channel_count(const ec_channel_row *row) { return ec_c
 enum { EC_CHANNEL_ROWS = 56 };
 extern const ec_channel_row ec_channel_rows[EC_CHANNEL_ROWS];
 
-/* Those of a light group, after "light.NAME.". */
+/* Channels of a light group, whose names begin with "light.NAME.". */
 enum { EC_GROUP_ROWS = 7 };
 extern const ec_channel_row ec_group_rows[EC_GROUP_ROWS];
 
-/* The name of a plane's float; NULL: it has none. */
+/* Returns the name of a plane's float; NULL: it has none. */
 const char *ec_channel_name_of(ec_plane plane, uint32_t place);
 
 #endif

@@ -27,7 +27,7 @@ void ec_film_sum_cut(const ec_film *film, ec_cut_sums *sums)
     }
 }
 
-/* The standard error of cut / (cut + kept), to first order. Both rise together, which would make it smaller, and is left out. */
+/* Returns the standard error of cut / (cut + kept), to first order. Ignores that both rise together, which would make it smaller. */
 static double share_stderr(double cut, double cut_se, double kept, double kept_se)
 {
     return hypot(kept * cut_se, cut * kept_se) / ((cut + kept) * (cut + kept));

@@ -1,5 +1,5 @@
-/* Light that a clamp takes away: where a film has a limit, of each pixel what was cut off its samples' indirect light, and so the picture's
- * bias, measured. A sample's indirect light comes over paths of more than EC_DIRECT_SEGMENTS segments; what is cut off is counted in luminance. */
+/* Light that a clamp takes away: where a film has a limit, it measures what was cut off the indirect light of each pixel's samples, and so the
+ * picture's bias. A sample's indirect light comes over paths of more than EC_DIRECT_SEGMENTS segments; what is cut off is counted in luminance. */
 #ifndef EC_FILM_CLAMP_H
 #define EC_FILM_CLAMP_H
 
@@ -12,7 +12,7 @@ typedef struct ec_cut {
 } ec_cut;
 ec_cut ec_film_cut(const ec_film *film, uint64_t pixel);
 
-/* Over pixels, one after the other: films that follow one another downwards come to the bits of the whole. Begin with zeros. */
+/* Sums over pixels in order: films that follow one another downwards, added one after the other, give the bits of the whole. Begin with zeros. */
 typedef struct ec_cut_sums {
     double mean, square, se2;
 } ec_cut_sums;
@@ -29,7 +29,7 @@ typedef struct ec_clamp_error {
 ec_clamp_error ec_clamp_error_of(const ec_cut_sums *sums, const ec_film_error *noise, double pixels);
 ec_clamp_error ec_film_clamp_error(const ec_film *film); /* of a whole picture */
 
-/* The bias, or where noise makes more than half of its square the most that it may be. */
+/* Returns the bias or, where noise makes more than half of its square, the most that it may be. */
 double ec_clamp_bias(const ec_clamp_error *error);
 
 #endif

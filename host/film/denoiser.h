@@ -1,4 +1,4 @@
-/* Which denoiser a picture gets: --denoise. */
+/* The denoisers that --denoise chooses from. */
 #ifndef EC_FILM_DENOISER_H
 #define EC_FILM_DENOISER_H
 

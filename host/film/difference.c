@@ -8,7 +8,7 @@ typedef struct sums {
     uint64_t pixels, unequal;
 } sums;
 
-/* Variance of luminance; without se_y from the channels, as if their noise were one: never too little. */
+/* Returns the variance of luminance; without se_y from the channels, as if their noise were one: never too little. */
 static double luminance_variance(const ec_measured *image, uint64_t p)
 {
     if (!image->se) return 0;

@@ -1,4 +1,4 @@
-/* How far a picture is from a reference, in the usual figures. docs/error.md has the definitions. */
+/* Measures how far a picture is from a reference, in the usual figures; docs/error.md defines them. */
 #ifndef EC_FILM_DIFFERENCE_H
 #define EC_FILM_DIFFERENCE_H
 
@@ -18,7 +18,7 @@ typedef struct ec_difference {
     double noise_relative_rms, noise_relmse;
 } ec_difference;
 
-/* Both of one size, with a pixel that counts. */
+/* Both pictures must have the same size, and a pixel that counts. */
 ec_difference ec_measure_difference(const ec_measured *a, const ec_measured *b);
 
 #endif

@@ -18,14 +18,15 @@ static double variance_of(const ec_measured *image, uint64_t pixel, int channel)
     return se * se;
 }
 
-/* The pixel's difference less the mean of its n neighbours', squared: (1 + 1 / n) of a's variance is expected, beside b's. */
+/* Estimates a's variance at a pixel: the square of its difference less the mean of its n neighbours' is expected to be (1 + 1 / n) times that, plus
+ * what b's variances add. */
 static double own_variance(const ec_measured *a, const ec_measured *b, uint32_t x, uint32_t y, int channel)
 {
     static const int beside[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     uint64_t p = (uint64_t)y * a->width + x;
     double own = value_of(a->rgb, p, channel) - value_of(b->rgb, p, channel), sum = 0, known = 0, n = 0;
     for (int k = 0; k < 4; k++) {
-        uint32_t i = x + (uint32_t)beside[k][0], j = y + (uint32_t)beside[k][1]; /* -1 becomes the largest */
+        uint32_t i = x + (uint32_t)beside[k][0], j = y + (uint32_t)beside[k][1]; /* -1 wraps to the largest number */
         uint64_t q = (uint64_t)j * a->width + i;
         if (i >= a->width || j >= a->height || !ec_counts(a, b, q)) continue;
         sum += value_of(a->rgb, q, channel) - value_of(b->rgb, q, channel);

@@ -1,4 +1,4 @@
-/* The noise of a picture that states none, from how its difference from another one varies between neighbours. */
+/* Estimates the noise of a picture that states none, from how its difference from another one varies between neighbours. */
 #ifndef EC_FILM_ESTIMATED_NOISE_H
 #define EC_FILM_ESTIMATED_NOISE_H
 

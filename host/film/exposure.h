@@ -1,4 +1,4 @@
-/* How bright a picture is shown. */
+/* Chooses the exposure that a picture is shown with. */
 #ifndef EC_FILM_EXPOSURE_H
 #define EC_FILM_EXPOSURE_H
 
@@ -12,7 +12,7 @@ typedef struct ec_exposure {
     bool is_auto; /* by the picture instead: Reinhard et al. 2002, equations 1 and 2, over the pixels that are not black */
 } ec_exposure;
 
-/* 0 for a black film, where it is auto. */
+/* Returns the stops to show a film with; 0 for a black film, where they are auto. */
 double ec_exposure_stops(const ec_exposure *exposure, const ec_film *film);
 
 #endif

@@ -13,14 +13,14 @@ double ec_film_feature_samples(const ec_film *film)
     return samples;
 }
 
-/* A part's set; NULL: it has none. */
+/* Returns a part's set from pixel `first` on; NULL: it has none. */
 static const float *values_of(const ec_film_part *part, uint32_t set, uint64_t first)
 {
     if (!(part->set_samples[set] > 0)) return NULL;
     return part->batch ? part->features + EC_FILM_FEATURES * first : ec_sums_features(&part->sums, set, first);
 }
 
-/* Parts from left to right, and even replicates first. An average that moves by differences leaves values that are all alike as they are. */
+/* Averages parts from left to right, and even replicates first. An average that moves by differences keeps values that are all alike. */
 void ec_film_features_of(const ec_film *film, uint32_t half, uint64_t first, uint64_t count, float *out)
 {
     const uint64_t values = count * EC_FILM_FEATURES;

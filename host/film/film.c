@@ -85,7 +85,7 @@ static ec_result start_counting(ec_film *film, ec_error *err)
     return EC_OK;
 }
 
-/* Replicates of the set have `count` samples each, and those before this one `samples` more. */
+/* Adds an entry's features. All replicates of the set have counts[place] samples each, and those before this one `samples` more. */
 static void add_entry_features(ec_film *film, const float *features, uint32_t place, uint32_t replicate, uint32_t samples)
 {
     const uint32_t sets = film->feature_sets, set = replicate % sets;
@@ -93,7 +93,7 @@ static void add_entry_features(ec_film *film, const float *features, uint32_t pl
     ec_sums_add_feature(&film->parts[0].sums, features, set, samples / (before + samples), place);
 }
 
-/* Entries [first, end), which are all that there are of their pixels. */
+/* Adds entries [first, end), which are all entries of their pixels. */
 static uint64_t add_entries(ec_film *film, const float *batch, const float *features, const uint32_t *places, uint64_t first, uint64_t end,
                             uint32_t samples)
 {
@@ -108,7 +108,7 @@ static uint64_t add_entries(ec_film *film, const float *batch, const float *feat
     return invalid;
 }
 
-/* Where piece k of so many begins: not within a pixel. */
+/* Returns where piece k of `pieces` begins, never within a pixel. */
 static uint64_t piece_start(const uint32_t *places, uint64_t count, uint64_t k, uint64_t pieces)
 {
     uint64_t first = count * k / pieces;
@@ -130,7 +130,7 @@ ec_result ec_film_add_some(ec_film *film, const float *batch, const float *featu
     return EC_OK;
 }
 
-/* Zeros, which are what is there. NULL: there is no memory, as is said when it is needed. */
+/* Writes zeros, which the memory holds already, so that its pages are there. values: NULL if there was no memory, which is reported when it is needed. */
 static void touch(float *values, uint64_t from, uint64_t to)
 {
     enum { PAGE = 1024 }; /* values; no page is smaller */

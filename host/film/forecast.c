@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define SLOPE_MOST 3.0
-#define PRIOR 0.15 /* slopes of pictures stray so much about what their rounds show, and change on the way */
+#define PRIOR 0.15 /* by so much slopes of pictures differ from what their rounds show; they also change on the way */
 
 /* The slope's excess over 1 falls by a factor e in so many e-folds of the samples: measured from 32 to 1024 samples, about 9 on the Cornell
  * box and 2 on the showcase. */
@@ -24,7 +24,7 @@ double ec_outlook_bound(const ec_film_outlook *o, double samples)
     return samples < o->unmet_samples ? hypot(met, o->unmet) : met;
 }
 
-/* As if no light were missing. */
+/* Returns the samples that are needed if no light is missing. */
 static double samples_if_met(const ec_film_outlook *o, double target)
 {
     const ec_film_outlook met = {o->square, o->samples, o->slope, o->noisy_pixels, o->bright_samples, o->larger, o->larger_falls,
@@ -44,9 +44,8 @@ double ec_outlook_samples(const ec_film_outlook *o, double target)
     return before < o->unmet_samples ? before : fmin(before, fmax(samples_if_met(o, target), o->unmet_samples));
 }
 
-/* Least squares of ln error^2 over ln samples, over at most two octaves. A round's error^2 strays by `spread`, mostly in common with
- * those before it, so that no more than an independent half of it is taken for each. Between 1 and what was
- * fitted by their precision. */
+/* Fits ln error^2 over ln samples by least squares, over at most two octaves. A round's error^2 deviates by `spread`, mostly in common with those
+ * before it, so that only an independent half of it is taken for each. The slope is a mean of 1 and what was fitted, weighted by their precision. */
 static void fit(ec_slope *s, double spread)
 {
     double x = 0, y = 0, xx = 0, xy = 0;

@@ -1,4 +1,4 @@
-/* How many samples an accuracy will take, judged from those there are. */
+/* Foretells how many samples an accuracy takes, from those there are. */
 #ifndef EC_FILM_FORECAST_H
 #define EC_FILM_FORECAST_H
 
@@ -6,41 +6,41 @@
 
 #include "film/film.h"
 
-/* The squared error falls as samples^-slope: 1 for independent samples, more where their order tells. What exceeds 1 fades with more samples,
+/* The squared error falls as samples^-slope: 1 for independent samples, more where their order helps. The excess over 1 fades with more samples,
  * since edges and rare paths are left (forecast.c). */
 typedef struct ec_film_outlook {
     double square, samples;  /* error^2 with so many samples a pixel */
     double slope;
     double noisy_pixels, bright_samples, larger, larger_falls, pixels, replicates;
-    double unmet, unmet_samples; /* by which light that may be missing widens the bound; a pixel, after which it is as good as met */
+    double unmet, unmet_samples; /* by how much light that may be missing widens the bound; samples a pixel after which it is as good as met */
 } ec_film_outlook;
 
-/* How many times smaller error^2 is after so many samples a pixel. */
+/* Returns how many times smaller error^2 is after so many samples a pixel. */
 double ec_outlook_fall(const ec_film_outlook *outlook, double samples);
 
-/* The bound after so many samples a pixel. */
+/* Returns the bound after so many samples a pixel. */
 double ec_outlook_bound(const ec_film_outlook *outlook, double samples);
 
-/* The least number of samples a pixel, not whole, with a bound under `target`. */
+/* Returns the least number of samples a pixel, not whole, with a bound under `target`. */
 double ec_outlook_samples(const ec_film_outlook *outlook, double target);
 
 enum { EC_SLOPE_ROUNDS = 12 };
 
-/* The slope that rounds show, with its standard error. Zero-initialise it, and tell it of each round. */
+/* The slope that rounds show, with its standard error. Zero-initialise it, and add each round. */
 typedef struct ec_slope {
     double value, deviation;      /* 1, and a guess, before there is an octave of rounds */
     uint32_t count;
-    double samples[EC_SLOPE_ROUNDS], square[EC_SLOPE_ROUNDS]; /* ln, of the last rounds, the oldest first */
+    double samples[EC_SLOPE_ROUNDS], square[EC_SLOPE_ROUNDS]; /* logarithms, of the last rounds, the oldest first */
 } ec_slope;
 void ec_slope_add(ec_slope *slope, double samples, const ec_film_error *error);
 
-/* From here on samples go to the pixels that hold the noise, where their order tells less: halfway between 1 and what it was, and rounds
- * are looked at anew. */
+/* Restarts the slope halfway between 1 and what it was, without its rounds: from here on samples go to the pixels that hold the noise, where their
+ * order helps less. */
 void ec_slope_restart(ec_slope *slope);
 
 /* Samples and time that the render is foretold to take. Low and high: 95 % interval. Infinite where no limit would end it. */
 typedef struct ec_forecast {
-    double pilot_samples;               /* a pixel, that it is judged by; 0: there was no forecast yet */
+    double pilot_samples;               /* samples a pixel that the forecast is based on; 0: there was none yet */
     double pilot_seconds;
     double samples, samples_low, samples_high; /* a pixel, in all */
     double seconds, seconds_low, seconds_high; /* of rendering, in all */

@@ -47,13 +47,13 @@
 #include "film/statistics.h"
 #include "film/threads.h"
 
-#define MANY 1e6   /* bright samples: of more the number is as good as known */
-#define TWO 2.0    /* bright samples of a pixel, by their fourth powers: of fewer there is one */
-#define FEWEST 3   /* places that tell of others */
-#define MISSED 0.05 /* places whose samples are larger than any yet, and did not come: of them so many are expected */
+#define MANY 1e6   /* bright samples: with more, their number is as good as known */
+#define TWO 2.0    /* bright samples of a pixel, by their fourth powers: fewer count as one */
+#define FEWEST 3   /* places that it takes to tell of others */
+#define MISSED 0.05 /* expected number of places whose samples are larger than any yet, and did not come */
 
-/* An estimate of v^2 without bias for any distribution: with k-statistics (Fisher 1930; Kendall & Stuart ch. 12)
- * E[k2^2] = v^2 (n+1)/(n-1) + kappa4/n and E[k4] = kappa4. */
+/* Returns an estimate of v^2 that is unbiased for any distribution, by k-statistics (Fisher 1930; Kendall & Stuart ch. 12) E[k2^2] = v^2
+ * (n+1)/(n-1) + kappa4/n and E[k4] = kappa4. */
 static double squared_variance(double n, double m2, double m4)
 {
     double k2 = m2 / (n - 1);
@@ -133,7 +133,7 @@ static void add_row(const ec_error_sums *row, ec_error_sums *sums)
     ec_tail_join(&sums->single, &row->single);
 }
 
-/* Rows by all threads, and their sums in order: the same bits for any number of threads, and of strips. */
+/* Sums rows by all threads, and the rows' sums in order: the same bits for any number of threads, and of strips. */
 void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums)
 {
     enum { ROWS = 64 };
@@ -147,7 +147,7 @@ void ec_film_sum_errors(const ec_film *film, ec_error_sums *sums)
     }
 }
 
-/* How many equal samples the few largest are of that make the noise: (sum v)^2 / sum x^4, x how far one moved its pixel's mean. */
+/* Returns how many equal samples would make the noise as the few largest do: (sum v)^2 / sum x^4, x how far one moved its pixel's mean. */
 static double bright_samples(const ec_error_sums *sums)
 {
     double fourth = 0;
@@ -155,8 +155,8 @@ static double bright_samples(const ec_error_sums *sums)
     return fmax(sums->s2 * sums->s2 / fourth, 1); /* infinite where none stands out */
 }
 
-/* The square root of how much larger a picture's E^2 is, over its noise, by a place whose samples are larger than the largest few; *falls: it
- * goes as the number of samples to the power of minus that, as samples of expected number 1 are of size n^xi, over n, and noise goes as 1 / n. */
+/* Returns the square root of how much larger a picture's E^2 is, over its noise, if a place has samples larger than the largest few; *falls: it goes
+ * as the number of samples to the power of minus that, as samples of expected number 1 are of size n^xi, over n, and noise goes as 1 / n. */
 static double larger_samples(const ec_error_sums *sums, double *falls)
 {
     const ec_tail *t = &sums->single;
@@ -170,8 +170,8 @@ static double larger_samples(const ec_error_sums *sums, double *falls)
     return least * pow(fmax(count * exp(-1) / MISSED, 1), xi) / sqrt(sums->s2);
 }
 
-/* nu. G is taken one standard error high, since it comes out low just when a noisy pixel's variance does, and then both
- * would make the bound too small; with many pixels that margin vanishes. */
+/* Returns nu. G is taken one standard error high, since it comes out low just when a noisy pixel's variance does, and then both would make the
+ * bound too small; with many pixels that margin vanishes. */
 static double effective_pixels(const ec_error_sums *sums, double n, double pixels)
 {
     double v4 = sums->v4, v8 = sums->v8;
@@ -195,9 +195,9 @@ double ec_film_error_bound(double square, double noisy_pixels, double bright_sam
     return sqrt(square) * hypot(exp(0.5 * hypot(hypot(from_pixels, from_mean), from_samples)), larger);
 }
 
-/* Light that may be missing widens the bound; there is none where that light may be more than the noise. Where some of it was met by
- * chance, the picture is brighter and its error larger for it; then a few samples hold most of the noise, and what is missing is looked at
- * beside what the picture is without them. */
+/* Widens the bound by light that may be missing; there is no bound where that light may be more than the noise. Where some of it was met by chance,
+ * the picture is brighter and its error larger for it; then a few samples hold most of the noise, and what is missing is compared with the picture
+ * without them. */
 static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare, double limit, ec_film_error *e)
 {
     const ec_rare_kind *kind;

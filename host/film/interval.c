@@ -53,10 +53,10 @@ typedef struct around {
 
 static const ec_pixel *at(const window *w, uint32_t x, uint32_t y) { return w->pixels + (uint64_t)y * w->width + x; }
 
-/* Where row j - REACH is, AROUND added. */
+/* Returns where row j - REACH is in `part`; AROUND is added so that it is not negative. */
 static uint64_t row_at(uint64_t j) { return (j + AROUND - EC_INTERVAL_REACH) % AROUND; }
 
-/* By how much the pixel's brightest sample exceeds its mean. The largest is a float: steady pixels have no excess. */
+/* Returns by how much the pixel's brightest sample exceeds its mean, which is raised by a float's rounding so that steady pixels have no excess. */
 static double excess_of(const ec_pixel *p) { return fmax(p->tail[0] - (1 + 1e-6) * ec_luminance(p->mean), 0); }
 
 static double log_noise(const ec_pixel *p, int channel)
@@ -65,7 +65,7 @@ static double log_noise(const ec_pixel *p, int channel)
     return se2 > 0 ? log(se2) : NAN;
 }
 
-/* Row y comes in place of row y - AROUND. */
+/* Takes row y in place of row y - AROUND. */
 static void take_row(window *w, uint64_t y)
 {
     const uint64_t row = y % AROUND;
@@ -88,7 +88,7 @@ static void take_row(window *w, uint64_t y)
     }
 }
 
-/* For all columns of row y at once, rows in order from above. Above the first row there are zeros too. */
+/* Sums the terms around each column of row y, rows in order from above. Above the first row there are zeros. */
 static void sum_around(const double part[AROUND][WIDE], uint64_t y, double *sums)
 {
     double columns[WIDE] = {0};
@@ -110,21 +110,21 @@ static void look_around(const window *w, uint64_t y, around *sum)
             }
 }
 
-/* excess: the largest around */
+/* excess: the largest of the pixels around. */
 static bool is_dominated(const ec_pixel *p, double excess)
 {
     const double scatter = sqrt(ec_pixel_se2(p, 3)) * p->samples;
     return excess_of(p) > share_most * p->samples * ec_luminance(p->mean) || excess > scatter_most * scatter;
 }
 
-/* T with g(T) = y: g is the cubic ((1 + a T)^3 - 1) / (3 a) + gamma / 6 with a = gamma / 3. */
+/* Returns T with g(T) = y: g is the cubic ((1 + a T)^3 - 1) / (3 a) + gamma / 6 with a = gamma / 3. */
 static double inverse_hall(double y, double gamma)
 {
     if (fabs(gamma) < 1e-4) return y - gamma * (y * y / 3 + 1.0 / 6);
     return (cbrt(1 + gamma * (y - gamma / 6)) - 1) * 3 / gamma;
 }
 
-/* low and high: of the pixel in column x of the window; either may be NULL */
+/* Writes the interval of the pixel in column x of the window; low or high may be NULL. */
 static void write_interval(const window *w, uint32_t x, uint32_t y, const around *sum, double gamma, float *low, float *high)
 {
     const ec_pixel *p = at(w, w->first + x, y);
@@ -148,7 +148,7 @@ static void know_nothing(float *low, float *high)
     }
 }
 
-/* Is the pixel in column x of the window heavy? */
+/* Writes the interval of the pixel in column x of the window; returns whether it is heavy. */
 static bool judge(const window *w, uint32_t x, uint32_t y, const around *sum, float *low, float *high)
 {
     const ec_pixel *p = at(w, w->first + x, y);
@@ -165,7 +165,7 @@ static bool judge(const window *w, uint32_t x, uint32_t y, const around *sum, fl
     return is_heavy;
 }
 
-/* The window's columns of the row; i: the place of the first in what is written. */
+/* Judges the window's columns of the row; i: index of the first in what is written. Returns how many are heavy. */
 static uint64_t judge_row(const window *w, uint32_t y, uint64_t i, const ec_intervals_of *out)
 {
     around sum;

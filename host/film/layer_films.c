@@ -36,7 +36,7 @@ static float sum_of(const float *numbers, uint32_t count, uint32_t stride)
     return sum;
 }
 
-/* By one number alone: where it starts from is nearly right, since the sum of the others loses no more than roundings. */
+/* Adjusts one number alone, which starts nearly right, since the sum of the others loses no more than roundings. */
 static bool step_to(float *number, const float *numbers, uint32_t count, uint32_t stride, float sum)
 {
     enum { STEPS = 16 };
@@ -49,7 +49,7 @@ static bool step_to(float *number, const float *numbers, uint32_t count, uint32_
     return false;
 }
 
-/* By another one too, in steps from an eighth of the sum's last place on. */
+/* Adjusts another one too, in steps from an eighth of the sum's last place on. */
 static bool nudge_to(float *number, const float *numbers, uint32_t count, uint32_t stride, float sum)
 {
     const float before = *number, place = nextafterf(fabsf(sum), INFINITY) - fabsf(sum);
@@ -61,8 +61,8 @@ static bool nudge_to(float *number, const float *numbers, uint32_t count, uint32
     return false;
 }
 
-/* A step of the largest moves the sum by one of its last place, or by two where both halves round to even: then another one makes up for that. Should
- * none, which no test has seen, all is in the largest. */
+/* A step of the largest number moves the sum by one in its last place, or by two where both halves round to even: then another number makes up for
+ * that. If none does, which no test has seen, the largest takes all. */
 void ec_sum_to(float *numbers, uint32_t count, uint32_t stride, float sum)
 {
     uint32_t largest = 0;
@@ -81,7 +81,7 @@ static void write_pixel(const ec_pixel *pixel, float *out)
     for (int c = 0; c < 4; c++) out[3 + c] = (float)sqrt(ec_pixel_se2(pixel, c));
 }
 
-/* Layers [first, first + count) of a pixel. */
+/* Makes layers [first, first + count) of a pixel add up to rgb. */
 static void add_up(float *out, uint32_t first, uint32_t count, const float *rgb)
 {
     for (uint32_t c = 0; c < 3 && count; c++) ec_sum_to(out + EC_LAYER_PLANES * first + c, count, EC_LAYER_PLANES, rgb[c]);

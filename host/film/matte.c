@@ -63,7 +63,7 @@ static uint32_t samples_of(const finder *f, uint32_t hash)
     return samples;
 }
 
-/* Those that come after one of so many samples; false: there are none. */
+/* Goes on to the next hash, by falling number of samples and then by hash; returns false if there is none. */
 static bool next_after(const finder *f, uint32_t *hash, uint32_t *samples)
 {
     const uint32_t before = *hash, most = *samples;

@@ -1,5 +1,5 @@
-/* How many samples of each pixel have met which node and which material, whole numbers: in whatever order batches come they are the same. Cryptomatte
- * (Friedman and Jones, specification 1.2) is made of them: the names that most of a pixel's samples meet, by hash, and the parts that they have. */
+/* Counts how many samples of each pixel have met which node and which material: whole numbers, the same in whatever order batches come. Cryptomatte
+ * (Friedman and Jones, specification 1.2) is made of them: the names that most of a pixel's samples meet, by hash, and the shares that they have. */
 #ifndef EC_FILM_MATTE_H
 #define EC_FILM_MATTE_H
 
@@ -10,7 +10,7 @@
 enum { EC_MATTE_FLOATS = 2 * EC_MATTE_RANKS, EC_MATTE_BYTES = 80 /* of a pixel, about: 4 + 16 for each thing that it sees, and as much in the log */ };
 
 typedef struct ec_matte_seen {
-    uint32_t next; /* of its pixel, as ec_matte.first has it */
+    uint32_t next; /* next entry of its pixel, as in ec_matte.first */
     uint32_t node, material, samples;
 } ec_matte_seen;
 
@@ -23,7 +23,7 @@ typedef struct ec_matte {
 ec_result ec_matte_create(ec_matte *matte, uint64_t pixels, ec_error *err);
 void ec_matte_free(ec_matte *matte); /* zero-initialised ones are fine */
 
-/* What a batch has met. places: pixels of its positions; NULL: positions are pixels. */
+/* Adds what a batch has met. places: pixels of its positions; NULL: positions are pixels. */
 ec_result ec_matte_take(ec_matte *matte, const ec_matte_log *log, const uint32_t *places, ec_error *err);
 
 /* Writes EC_MATTE_RANKS times a hash and its coverage, for a pixel that has so many samples: the largest coverage first, of equal ones the lowest hash; 0

@@ -1,4 +1,4 @@
-/* Which surfaces the samples of a batch meet, until the batch is in the film. Devices write it, each in a thread of its own. */
+/* A log of which surfaces the samples of a batch meet, until the batch is in the film. Devices write it, each in a thread of its own. */
 #ifndef EC_FILM_MATTE_LOG_H
 #define EC_FILM_MATTE_LOG_H
 
@@ -17,10 +17,10 @@ typedef struct ec_matte_log {
     pthread_mutex_t *lock;   /* NULL: one thread alone writes */
 } ec_matte_log;
 
-/* False where there is no memory. */
+/* Adds entries; returns false if there is no memory. */
 bool ec_matte_log_add(ec_matte_log *log, const ec_matte_entry *entries, uint64_t count);
 
-/* The samples of one position, `count` of them: floats that are whole numbers; what met nothing is left out. */
+/* Adds the `count` samples of one position, floats that are whole numbers; those that met nothing are left out. */
 bool ec_matte_log_samples(ec_matte_log *log, uint32_t position, const float *nodes, const float *materials, uint32_t count);
 
 #endif

@@ -1,4 +1,4 @@
-/* A picture with what is known of its noise. The memory is its owner's. */
+/* A picture with what is known of its noise. Owns no memory. */
 #ifndef EC_FILM_MEASURED_H
 #define EC_FILM_MEASURED_H
 
@@ -27,7 +27,7 @@ static inline double ec_rounding(const ec_measured *a, const ec_measured *b, dou
     return a->is_half || b->is_half ? 0x1p-10 * largest + 0x1p-24 : 1e-5 * largest;
 }
 
-/* Does this pixel count? */
+/* Returns whether a pixel counts in both pictures. */
 static inline int ec_counts(const ec_measured *a, const ec_measured *b, uint64_t pixel)
 {
     return (!a->mask || a->mask[pixel]) && (!b->mask || b->mask[pixel]);

@@ -29,7 +29,7 @@
 #include "film/statistics.h"
 
 enum { TESTS = 4, RADIUS = 2 };
-#define MANY 1000 /* degrees of freedom: of more an error is as good as known */
+#define MANY 1000 /* degrees of freedom: with more, an error is as good as known */
 static const double weights[TESTS] = {0.45, 0.45, 0.05, 0.05};
 static const double outlying_p = 0.01, certainly_within = 2.5; /* P(|T| > 2.5) > 0.01 for any degrees of freedom */
 
@@ -62,7 +62,7 @@ typedef struct surroundings {
     ec_neighbours others;
 } surroundings;
 
-/* logs: of all variances */
+/* logs: logarithms of all variances. */
 static surroundings look_around(const ec_measured *image, const double *logs, uint32_t x, uint32_t y, uint64_t c)
 {
     const ec_neighbourhood around = ec_neighbourhood_of(x, y, RADIUS, image->width, image->height);
@@ -82,7 +82,7 @@ static surroundings look_around(const ec_measured *image, const double *logs, ui
     return s;
 }
 
-/* room: as much as judged */
+/* room: as many values as `judged`. */
 static void judge(const ec_measured *image, double dof, double *judged, double *doubt, double *room)
 {
     const bool is_counted = dof >= 1 && dof < MANY;
@@ -121,7 +121,7 @@ static double rounding_of(const pair *q, uint64_t i)
     return ec_rounding(q->a, q->b, q->a->rgb[i], q->b->rgb[i]);
 }
 
-/* A value by its own noise; the mean of the picture adds these up. */
+/* Adds a value by its own noise, for the mean of the picture. */
 static void add_own(const pair *q, uint64_t i, t_sums *s)
 {
     double va = own_variance(q->a, i), vb = own_variance(q->b, i);
@@ -131,7 +131,7 @@ static void add_own(const pair *q, uint64_t i, t_sums *s)
     s->spread += va * va / q->dof_a + vb * vb / q->dof_b;
 }
 
-/* A value as it is judged. */
+/* Adds a value by the variances that pixels and blocks are judged by. */
 static void add_judged(const pair *q, uint64_t i, t_sums *s)
 {
     double wa = q->judged_a[i], wb = q->judged_b[i], rounding = rounding_of(q, i);
@@ -147,7 +147,7 @@ static double t_of(const t_sums *s)
     return s->variance > 0 ? copysign(beyond, s->difference) / sqrt(s->variance) + 0.0 : 0; /* no -0 */
 }
 
-/* Two-sided. Without own noise at all: as few degrees of freedom as either picture has. */
+/* Returns the two-sided p-value. Without any noise of its own, t has as few degrees of freedom as either picture. */
 static double p_of(const pair *q, const t_sums *s, double most)
 {
     double dof = s->spread > 0 ? s->variance * s->variance / s->spread : fmin(q->dof_a, q->dof_b);
@@ -155,7 +155,8 @@ static double p_of(const pair *q, const t_sums *s, double most)
     return 2 * ec_student_t_upper_tail(fabs(t_of(s)), dof);
 }
 
-/* Noise that a curve has bent is not normal, however many neighbours tell of it: its tails are those of few degrees of freedom. */
+/* Returns the most degrees of freedom of a single value. Noise that a curve has bent is not normal, however many neighbours tell of it: its tails are
+ * those of few degrees of freedom. */
 static double most_of_single(const pair *q)
 {
     return q->a->tail_se || q->b->tail_se ? fmin(q->dof_a, q->dof_b) : INFINITY;
@@ -212,7 +213,7 @@ static void note_exact(const pair *q, uint64_t i, ec_noise_test *test)
     test->exact_y = (uint32_t)(i / 3 / q->a->width);
 }
 
-/* The worst value, and the share of outlying ones. */
+/* Tests the worst value, and the share of outlying ones. */
 static double test_pixels(const pair *q, uint32_t c, double *p_share, ec_noise_test *test)
 {
     double least = 1, count = 0, outlying = 0;
@@ -259,7 +260,7 @@ ec_result ec_test_noise(const ec_measured *a, const ec_measured *b, ec_noise_tes
 {
     uint64_t values = 3ull * a->width * a->height;
     EC_FREED double *room = malloc(5 * values * sizeof *room);
-    const pair q = {a, b, a->se ? a->replicates - 1 : INFINITY, b->se ? b->replicates - 1 : INFINITY, /* what has no noise has no say */
+    const pair q = {a, b, a->se ? a->replicates - 1 : INFINITY, b->se ? b->replicates - 1 : INFINITY, /* a picture without noise sets no limit */
                     room, room + values, room + 2 * values, room + 3 * values};
     *test = (ec_noise_test){0};
     if (!room) return ec_fail(err, "out of memory for the comparison of two images of %ux%u pixels", a->width, a->height);

@@ -1,4 +1,4 @@
-/* Do two renders differ by more than their noise? */
+/* Tests whether two renders differ by more than their noise. */
 #ifndef EC_FILM_NOISE_TEST_H
 #define EC_FILM_NOISE_TEST_H
 
@@ -17,7 +17,7 @@ typedef struct ec_noise_place {
 } ec_noise_place;
 
 typedef struct ec_noise_test {
-    double p;                                    /* that noise alone makes them differ so much; 0 if an exact pixel differs */
+    double p;                                    /* probability that noise alone makes them differ so much; 0 if an exact pixel differs */
     double p_mean, p_blocks, p_pixels, p_share;  /* the four tests that p is made of; see noise_test.c */
     double mean_difference[3], mean_t[3];        /* a - b of the picture's mean, and the same in standard errors */
     uint64_t judged, outlying;                   /* values with noise; those beyond what noise reaches 1 time in 100 */
@@ -26,7 +26,7 @@ typedef struct ec_noise_test {
     ec_noise_place block, pixel;
 } ec_noise_test;
 
-/* Both of one size, with a pixel that counts, at least one with standard errors. */
+/* Both pictures must have the same size and a pixel that counts; at least one has standard errors. */
 ec_result ec_test_noise(const ec_measured *a, const ec_measured *b, ec_noise_test *test, ec_error *err);
 
 #endif

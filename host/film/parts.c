@@ -7,7 +7,7 @@
 
 #include "film/film.h"
 
-/* The size of what was joined last to make `count` batches: 1, EC_FILM_FIRST or a power of 16 times that. */
+/* Returns the size of what was joined last to make `count` batches: 1, EC_FILM_FIRST or a power of 16 times that. */
 static uint64_t unit_of(uint64_t count)
 {
     uint64_t unit = 1;
@@ -48,7 +48,7 @@ uint64_t ec_film_bytes(uint32_t replicates, uint32_t sets, uint64_t first, uint6
 
 static uint64_t pixels_of(const ec_film *film) { return (uint64_t)film->width * film->height; }
 
-/* The set of features that a replicate's go into. */
+/* Returns the set that a replicate's features go into. */
 static uint32_t set_of(const ec_film *film, uint32_t replicate) { return replicate % film->feature_sets; }
 
 static double share_of(double left, double right) { return right > 0 ? right / (left + right) : 0; }
@@ -87,7 +87,7 @@ static void join_neighbours(ec_film *film)
     }
 }
 
-/* After any change. */
+/* Joins parts that fit, and counts batches and samples anew, after any change. */
 static void settle(ec_film *film)
 {
     join_neighbours(film);
@@ -101,7 +101,7 @@ static void settle(ec_film *film)
 
 uint32_t ec_film_sets(const ec_film *film, uint64_t first) { return first < film->feature_end ? film->feature_sets : 0; }
 
-/* Samples of each replicate, as the schedule has them; of features where there are some, up to the last batch that has them. */
+/* Sets the samples of each replicate by the schedule, and those of features, where there are some, up to the last batch that has them. */
 static void count_samples(const ec_film *film, ec_film_part *part)
 {
     const uint64_t end = (uint64_t)part->first + part->count, feature_end = end < film->feature_end ? end : film->feature_end;
@@ -112,7 +112,7 @@ static void count_samples(const ec_film *film, ec_film_part *part)
     }
 }
 
-/* `cut` of them, of the last batch, are not there. */
+/* Takes off the `cut` samples that the last batch lacks. */
 static void cut_samples(const ec_film *film, ec_film_part *part, uint32_t cut)
 {
     const uint32_t last = part->first + part->count - 1, replicate = last % film->replicates;
@@ -120,7 +120,7 @@ static void cut_samples(const ec_film *film, ec_film_part *part, uint32_t cut)
     if ((part->sums.features || part->features) && last < film->feature_end) part->set_samples[set_of(film, replicate)] -= cut;
 }
 
-/* The parts before those from batch `first` on. */
+/* Returns how many parts begin before batch `first`. */
 static uint32_t parts_before(const ec_film *film, uint32_t first)
 {
     uint32_t i = 0;
@@ -128,7 +128,8 @@ static uint32_t parts_before(const ec_film *film, uint32_t first)
     return i;
 }
 
-/* Are none of these batches there, the last of them `cut` samples short, and none after the end of a picture that ended within one? */
+/* Fails if the film has any of these batches, the last of which lacks `cut` samples, or if one would come after the end of a picture that ended
+ * within a batch. */
 static ec_result check_free(const ec_film *film, uint32_t first, uint32_t count, uint32_t cut, ec_error *err)
 {
     const uint64_t end = (uint64_t)first + count, there = ec_film_end(film);
@@ -146,7 +147,7 @@ static ec_result check_free(const ec_film *film, uint32_t first, uint32_t count,
     return EC_OK;
 }
 
-/* What `part` is joined to as it comes; NULL: it waits. */
+/* Returns the part that `part` is joined to as it comes; NULL: it waits. */
 static ec_film_part *neighbour_of(const ec_film *film, const ec_film_part *part)
 {
     const uint32_t before = parts_before(film, part->first);
@@ -180,7 +181,7 @@ ec_result ec_film_insert(ec_film *film, ec_film_part *part, ec_error *err)
     return insert(film, part, err);
 }
 
-/* A copy for a part; values that are not finite are 0 in it, and counted. */
+/* Returns a copy for a part, in which values that are not finite are 0; counts those in radiance. */
 static float *kept(const float *values, uint64_t count, uint64_t *invalid)
 {
     float *own = malloc(count * sizeof *own);
@@ -199,7 +200,7 @@ static bool keep_batch(const ec_film *film, const ec_film_batch *batch, ec_film_
     return part->batch && (part->features || !batch->features);
 }
 
-/* Makes a sum of it alone. */
+/* Begins a sum with this batch alone. */
 static bool begin_sums(ec_film *film, const ec_film_batch *batch, ec_film_part *part, uint64_t *invalid)
 {
     const uint64_t pixels = pixels_of(film) - batch->missing;
@@ -223,7 +224,7 @@ static ec_result insert_batch(ec_film *film, const ec_film_batch *batch, ec_film
     return result;
 }
 
-/* Joins it to its left neighbour, without a part of its own. */
+/* Adds a batch to its left neighbour, without a part of its own. */
 static void add_batch(ec_film *film, const ec_film_batch *batch, const ec_film_part *part, ec_film_part *left)
 {
     const uint32_t replicate = batch->index % film->replicates, set = batch->features ? set_of(film, replicate) : 0;

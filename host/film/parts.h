@@ -17,26 +17,26 @@
 
 typedef struct ec_film_part {
     uint32_t first, count; /* batches; these two say what has been joined in which order */
-    double samples[EC_REPLICATES_MOST]; /* of each replicate; the film's to set */
+    double samples[EC_REPLICATES_MOST]; /* of each replicate; set by the film */
     double set_samples[2]; /* that each set of features is the mean of; likewise */
-    ec_sums sums;          /* of parts that are no single batch */
+    ec_sums sums;          /* of parts that are not kept as a single batch */
     float *batch;          /* of a single one with batches to its left, owned: EC_BATCH_FIELDS a pixel, finite; else NULL */
     float *features;       /* of such a one, owned: EC_FILM_FEATURES a pixel; NULL: it has none */
 } ec_film_part;
 
-/* Is a part of one batch kept as it is? One that begins a sum is one at once. */
+/* Returns whether a part is a single batch that is kept as it is. A batch that begins a sum becomes one at once. */
 static inline bool ec_film_part_is_batch(uint32_t first, uint32_t count)
 {
     return count == 1 && first % EC_FILM_FIRST;
 }
 
-/* May `right` be joined to `left`? */
+/* Returns whether `right` may be joined to `left`. */
 bool ec_film_parts_fit(const ec_film_part *left, const ec_film_part *right);
 
-/* May a part of these batches be at all? For those that come from a file. */
+/* Returns whether a part of these batches is possible; for parts that come from a file. */
 bool ec_film_part_is_sound(uint64_t first, uint64_t count);
 
-/* Bytes a pixel that batches [first, end) take at most, with so many sets of features. */
+/* Returns how many bytes a pixel batches [first, end) take at most, with so many sets of features. */
 uint64_t ec_film_bytes(uint32_t replicates, uint32_t sets, uint64_t first, uint64_t end);
 
 #endif

@@ -5,7 +5,7 @@
 
 enum { PIECE = 32 }; /* pixels whose means by replicate stay in the first cache */
 
-/* A replicate that has samples, as it is the same for all pixels. */
+/* A replicate that has samples; the same for all pixels. */
 typedef struct replicate {
     uint32_t number;
     double share;  /* of the samples of all up to it */
@@ -25,7 +25,7 @@ static uint32_t list_replicates(const ec_film *film, replicate list[EC_REPLICATE
     return count;
 }
 
-/* Parts from left to right. An average that moves by differences leaves values that are all alike as they are. */
+/* Takes in a part, parts from left to right. An average that moves by differences keeps values that are all alike. */
 static void take_part(const ec_film_part *part, uint64_t first, uint64_t count, uint32_t r, double share, double *mean)
 {
     const float *to = part->batch ? part->batch + EC_BATCH_FIELDS * first : ec_sums_mean(&part->sums, r, first);
@@ -44,7 +44,7 @@ static void add_replicate(const ec_film *light, uint64_t first, uint64_t count, 
     }
 }
 
-/* Adds the replicate's light. During the first batches it may have none yet, and takes the mean of those that have. */
+/* Adds what light paths bring to the replicate. During the first batches it may have none of that yet, and takes the mean of those that have. */
 static void add_light(const ec_film *light, uint64_t first, uint64_t count, uint32_t r, double *mean)
 {
     if (light->samples[r] > 0) {
@@ -68,7 +68,7 @@ void ec_film_replicate(const ec_film *film, uint64_t first, uint64_t count, uint
     if (film->light && samples > 0) add_light(film->light, first, count, r, mean);
 }
 
-/* As large as they would be among the pixel's own samples to move its mean as they do. */
+/* Adds the tail of what light paths bring, with the largest scaled to what among the pixel's own samples would move its mean as much. */
 static void add_light_tail(const ec_film *film, uint64_t p, float tail[3])
 {
     float light[3] = {0};
@@ -86,7 +86,7 @@ void ec_film_tail(const ec_film *film, uint64_t p, float tail[3])
     if (film->light && film->light->part_count) add_light_tail(film, p, tail);
 }
 
-/* What a piece of pixels comes to, field by field, so that compilers take several pixels at once. */
+/* Sums of a piece of pixels, field by field, so that compilers take several pixels at once. */
 typedef struct piece {
     double by_replicate[EC_REPLICATES_MOST][3 * PIECE], mean[3 * PIECE], m2[3 * PIECE], y2[PIECE], y3[PIECE], y4[PIECE];
 } piece;

@@ -1,4 +1,4 @@
-/* What a film knows of a pixel. */
+/* Statistics of a film's pixels: means, deviations and tails, from the film's sums. */
 #ifndef EC_FILM_PIXEL_H
 #define EC_FILM_PIXEL_H
 
@@ -16,16 +16,16 @@ typedef struct ec_pixel {
     float tail[3];      /* of the samples' luminance: ec_sums.tail */
 } ec_pixel;
 
-/* Pixels [first, first + count), in row order. */
+/* Looks at pixels [first, first + count), in row order. */
 void ec_film_look(const ec_film *film, uint64_t first, uint64_t count, ec_pixel *pixels);
 
-/* The means of one replicate alone, 3 a pixel: 0 where it has no samples. */
+/* Writes the means of one replicate alone, 3 a pixel: 0 where it has no samples. */
 void ec_film_replicate(const ec_film *film, uint64_t first, uint64_t count, uint32_t replicate, double *mean);
 
-/* The pixel's ec_sums.tail, which must begin with zeros. */
+/* Adds a pixel's ec_sums.tail to `tail`, which must begin with zeros. */
 void ec_film_tail(const ec_film *film, uint64_t pixel, float tail[3]);
 
-/* Squared standard error of the pixel's mean: of channel 0 to 2, or of luminance, 3. 0 with one replicate. */
+/* Returns the squared standard error of the pixel's mean: of channel 0 to 2, or of luminance, 3. 0 with one replicate. */
 static inline double ec_pixel_se2(const ec_pixel *p, int channel)
 {
     return p->n >= 2 ? p->m2[channel] / (p->n * (p->n - 1.0)) : 0;

@@ -20,7 +20,7 @@ void ec_rare_way(const char *through, const char *light, char *text, size_t size
 
 static int is_unmet(const ec_rare_kind *kind, double samples) { return samples * kind->chance < EC_RARE_MET; }
 
-/* The luminance that a kind brings to a picture of that mean and limit. */
+/* Returns the luminance that a kind brings to a picture of that mean and limit. */
 static double luminance_of(const ec_rare_kind *kind, double mean, double limit)
 {
     const double all = kind->luminance * (kind->is_relative ? mean : 1), clamped = kind->clamped * all;

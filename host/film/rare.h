@@ -22,11 +22,11 @@
 #define EC_RARE_TAIL 0.5   /* … the largest few samples hold more than this share of the noise */
 #define EC_RARE_DOUBT 2.0  /* by which what is foretold of its light may be too low */
 
-/* One kind of path: through a material, as sharp as that, to one light. */
+/* One kind of path: through one material, with one sharpness, to one light. */
 typedef struct ec_rare_kind {
     char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* names for messages; through is empty where the camera sees the light itself */
-    double chance; /* that a sample of the picture is one of them */
-    double luminance; /* that they bring to a pixel in the mean */
+    double chance; /* probability that a sample of the picture is such a path */
+    double luminance; /* mean luminance that they bring to a pixel */
     bool is_relative; /* luminance is relative to the picture's mean: how bright a picture it makes is not known */
     double clamped;   /* share of it that a clamp of indirect light limits (film/clamp.h) */
     double caustic;   /* share of it that light paths could bring; 0 where they do */
@@ -42,26 +42,25 @@ typedef struct ec_rare {
     ec_rare_kind kinds[EC_RARE_KINDS];
 } ec_rare;
 
-/* Room for a kind of which so much light matters (luminance * gathered): a new one, or in place of the kind of which the least does; NULL
- * where that is more. */
+/* Returns room for a kind that matters so much (luminance * gathered): a new one, or that of the kind that matters least; NULL if that one matters more. */
 ec_rare_kind *ec_rare_make_room(ec_rare *rare, double matters);
 
-/* "through "glass" to "lamp"", or "straight to "lamp"" where nothing is passed through. */
+/* Writes "through "glass" to "lamp"", or "straight to "lamp"" where nothing is passed through. */
 void ec_rare_way(const char *through, const char *light, char *text, size_t size);
 
-/* The mean over pixels of the square of the luminance that is missing where kinds that so many samples (of the whole picture) expect fewer
- * than EC_RARE_MET of are not met; *most: the kind that matters most, or NULL. rare may be NULL. mean: the picture's luminance. limit: of a
- * sample's indirect light, where the picture is clamped; else 0. */
+/* Returns the mean over pixels of the square of the luminance that is missing if kinds are not met of which so many samples (of the whole picture)
+ * expect fewer than EC_RARE_MET; *most: the kind that matters most, or NULL. rare may be NULL. mean: the picture's luminance. limit: of a sample's
+ * indirect light, where the picture is clamped; else 0. */
 double ec_rare_unmet(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most);
 
-/* Variance of a sample by what light paths could bring, over the square of the picture's mean luminance; *most: the kind of which there is most,
+/* Returns the variance of a sample by what light paths could bring, over the square of the picture's mean luminance; *most: the kind with most of it,
  * or NULL. */
 double ec_rare_caustics(const ec_rare *rare, double mean, const ec_rare_kind **most);
 
-/* The tile that a pixel of the picture lies in. */
+/* Returns the tile that a pixel of the picture lies in. */
 uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y);
 
-/* The mean luminance of such kinds around a pixel, in a picture whose pixels all have as many samples; y: row of the film. */
+/* Returns the mean luminance of such kinds around a pixel, in a picture whose pixels all have as many samples; y: row of the film. */
 double ec_rare_unmet_at(const ec_rare *rare, double samples_a_pixel, double mean, double limit, uint32_t x, uint32_t y);
 
 #endif

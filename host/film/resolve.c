@@ -35,7 +35,7 @@ static ec_intervals_of intervals_from(const ec_intervals_of *all, uint64_t i)
     return (ec_intervals_of){all->low ? all->low + 3 * i : NULL, all->high ? all->high + 3 * i : NULL, all->heavy ? all->heavy + i : NULL};
 }
 
-/* A pixel whose missing light may be more than its noise tells is heavy too. Returns how many were not before. */
+/* Marks pixels as heavy, too, whose missing light may be more than their noise tells. Returns how many were not heavy before. */
 static uint64_t mark_unmet(const ec_film *film, uint32_t first, uint32_t rows, const ec_pixel *pixels, float *heavy)
 {
     uint64_t count = 0, i = 0;

@@ -15,13 +15,13 @@ typedef struct ec_planes {
 
 enum { EC_RESOLVE_ROWS = 16 }; /* at a time */
 
-/* Pixels of room that ec_film_resolve_rows wants for so many rows. */
+/* Returns how many pixels of room ec_film_resolve_rows needs for so many rows. */
 uint64_t ec_resolve_room(uint32_t width, uint32_t rows);
 
-/* Rows [first, first + rows) of the film. Returns the number of heavy pixels, 0 where no intervals are asked for. */
+/* Writes the planes of rows [first, first + rows). Returns the number of heavy pixels, 0 where no intervals are asked for. */
 uint64_t ec_film_resolve_rows(const ec_film *film, uint32_t first, uint32_t rows, const ec_planes *planes, ec_pixel *room);
 
-/* All rows: rgb and stderr_rgb, either may be NULL. */
+/* Writes all rows of rgb and stderr_rgb, either of which may be NULL. */
 void ec_film_resolve(const ec_film *film, float *rgb, float *stderr_rgb);
 
 #endif

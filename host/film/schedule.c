@@ -1,6 +1,7 @@
 #include "film/schedule.h"
 
-enum { DOUBLING = 4, QUARTERED = 28 }; /* strides that double; up to which octaves have four; then all are of EC_BATCH_MOST samples */
+enum { DOUBLING = 4, QUARTERED = 28 }; /* the first strides, which double; the stride up to which octaves have four; then all are of EC_BATCH_MOST
+                                        * samples */
 
 static uint64_t start_of(uint64_t stride)
 {

@@ -1,6 +1,6 @@
-/* What batches come to: of each pixel and replicate the mean radiance of its samples, of each pixel the tail of all samples, and first-hit
- * features where they are wanted. 12 R + 12 bytes a pixel, and 32 for each set of features. Means in float take one rounding a batch;
- * film/parts.h keeps the chain of roundings short. */
+/* Sums of batches: for each pixel and replicate the mean radiance of its samples, for each pixel the tail of all samples, and first-hit features
+ * where they are wanted. 12 R + 12 bytes a pixel, and 32 for each set of features. Means in float take one rounding a batch; film/parts.h keeps the
+ * chain of roundings short. */
 #ifndef EC_FILM_SUMS_H
 #define EC_FILM_SUMS_H
 
@@ -35,7 +35,7 @@ static inline float *ec_sums_features(const ec_sums *s, uint32_t set, uint64_t p
 static inline uint64_t ec_sums_bytes(uint32_t replicates, uint32_t sets) { return 12ull * replicates + 12 + 4ull * EC_FILM_FEATURES * sets; } /* a pixel */
 static inline uint64_t ec_batch_bytes(uint32_t sets) { return 4ull * (EC_BATCH_FIELDS + (sets ? EC_FILM_FEATURES : 0)); } /* likewise, of a batch as it is */
 
-/* Zeros. False where there is no memory. */
+/* Creates sums of zeros; returns false if there is no memory. */
 bool ec_sums_create(ec_sums *sums, uint32_t replicates, uint32_t sets, uint64_t pixels);
 void ec_sums_destroy(ec_sums *sums); /* zero-initialised or destroyed is fine */
 
@@ -45,29 +45,29 @@ static inline ec_sums ec_sums_from(const ec_sums *s, uint64_t first)
     return (ec_sums){s->replicates, s->sets, s->stride, s->mean + 3 * first, s->tail + 3 * first, s->sets ? s->features + EC_FILM_FEATURES * first : NULL};
 }
 
-/* One array after the other in memory that is owned by another, ec_sums_bytes a pixel: as they are sent. */
+/* Returns sums that lie one array after the other in memory that they do not own, ec_sums_bytes a pixel: as they are sent. */
 ec_sums ec_sums_in(void *memory, uint32_t replicates, uint32_t sets, uint64_t pixels);
 
-/* Takes a batch in, EC_BATCH_FIELDS floats a pixel. share: of the replicate's samples, the part that is the batch's. What is not finite
- * counts as 0; returns how many values are not. */
+/* Adds a batch, EC_BATCH_FIELDS floats a pixel. share: the batch's part of the replicate's samples. Values that are not finite count as 0; returns
+ * how many there are. */
 uint64_t ec_sums_add(const ec_sums *sums, const float *batch, uint32_t replicate, double share, uint64_t pixels);
 
-/* One pixel's part of that. */
+/* Likewise, for one pixel. */
 uint32_t ec_sums_add_pixel(const ec_sums *sums, const float *batch, uint32_t replicate, double share, uint64_t pixel);
 
-/* Takes a batch's features into a set, EC_FILM_FEATURES floats a pixel. share: of the set's samples, the part that is the batch's. */
+/* Adds a batch's features to a set, EC_FILM_FEATURES floats a pixel. share: the batch's part of the set's samples. */
 void ec_sums_add_features(const ec_sums *sums, const float *features, uint32_t set, double share, uint64_t pixels);
 
-/* One pixel's part of that. */
+/* Likewise, for one pixel. */
 void ec_sums_add_feature(const ec_sums *sums, const float *features, uint32_t set, double share, uint64_t pixel);
 
-/* `into` takes `next` in; share: of each replicate's samples, and set_share: of those of each set of features, the part that is `next`'s. */
+/* Joins `next` to `into`. share: the part of each replicate's samples that is `next`'s; set_share: likewise of each set of features. */
 void ec_sums_join(const ec_sums *into, const ec_sums *next, const double *share, const double set_share[2], uint64_t pixels);
 
-/* One pixel's tail takes another of the same pixel in: two that have light. */
+/* Joins two tails of the same pixel, both of which have light. */
 void ec_sums_join_tails(float into[3], const float next[3]);
 
-/* Any two. */
+/* Likewise, for any two. */
 static inline void ec_sums_add_tail(float into[3], const float next[3])
 {
     if (!(next[0] > 0)) return;

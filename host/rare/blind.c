@@ -8,8 +8,8 @@
 #include "base/random.h"
 
 #define PI 3.14159265358979323846
-#define CHANCE 1e-7 /* that a sample meets such light: so many paths would not have */
-enum { RAYS = 128 }; /* of each light */
+#define CHANCE 1e-7 /* that a sample meets such light, so small that the look's paths would not have */
+enum { RAYS = 128 }; /* rays from each light */
 
 /* Two unit vectors at right angles to a third and to each other. */
 static void make_frame(const float normal[3], double u[3], double v[3])
@@ -21,7 +21,7 @@ static void make_frame(const float normal[3], double u[3], double v[3])
     for (int c = 0; c < 3; c++) v[c] = normal[(c + 1) % 3] * u[(c + 2) % 3] - normal[(c + 2) % 3] * u[(c + 1) % 3];
 }
 
-/* From anywhere on a lamp, as it shines. */
+/* Starts a ray anywhere on a lamp, in a direction distributed as its light is. */
 static void start_at_lamp(const ec_rare_lamp *lamp, uint64_t *random, ec_chain *ray)
 {
     const double root = sqrt(ec_random_unit(random)), b = ec_random_unit(random) * root, sine2 = ec_random_unit(random);
@@ -35,7 +35,7 @@ static void start_at_lamp(const ec_rare_lamp *lamp, uint64_t *random, ec_chain *
     ray->prim = lamp->prim;
 }
 
-/* From an environment's part, through a disk as large as the scene. */
+/* Starts a ray from a part of an environment, through a disk as large as the scene. */
 static void start_far_away(const ec_rare_light *light, const ec_params *params, double radius, uint64_t *random, ec_chain *ray)
 {
     const double r = radius * sqrt(ec_random_unit(random)), angle = 2 * PI * ec_random_unit(random);
@@ -50,7 +50,7 @@ static void start_far_away(const ec_rare_light *light, const ec_params *params, 
     ray->prim = EC_NO_ID;
 }
 
-/* From each light that is not all around; returns how many. */
+/* Starts rays from each light that is not all around; returns how many. */
 static uint32_t start_rays(const ec_rare_lights *all, const ec_params *params, ec_chain *rays)
 {
     uint64_t random = 7;
@@ -64,7 +64,7 @@ static uint32_t start_rays(const ec_rare_lights *all, const ec_params *params, e
     return count;
 }
 
-/* In place of any other where there is no room: nothing is known of it. */
+/* Adds a kind, in place of any other where there is no room: how often it is met is not known. */
 static void add_kind(const ec_rare_lights *all, const ec_rare_light *light, uint32_t material, double share, ec_rare *rare)
 {
     ec_rare_kind *kind = ec_rare_make_room(rare, INFINITY);
@@ -75,7 +75,7 @@ static void add_kind(const ec_rare_lights *all, const ec_rare_light *light, uint
     memcpy(kind->light, light->name, sizeof kind->light);
 }
 
-/* Adds a kind for each material that sends on much of a light's rays, and that paths hardly met: light paths do, where they are aimed at it. */
+/* Adds a kind for each material that sends on much of a light's rays and that paths have hardly met, unless light paths are aimed at it. */
 static void judge_light(const ec_rare_lights *all, const ec_chains *chains, const ec_rare_light *light, const ec_chain *rays, bool has_light_paths,
                         double *shares, ec_rare *rare)
 {

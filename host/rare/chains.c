@@ -12,7 +12,7 @@
 
 enum { LANES_MOST = 64 }; /* more than any work-item has */
 enum { WIDE = 1, WIDE_AT_FIRST = 2 };
-#define CHAINS_EACH 8 /* of a path, in the mean, at most */
+#define CHAINS_EACH 8 /* chains of a path, in the mean, at most */
 
 /* The paths of a wave. */
 typedef struct tracer {
@@ -23,8 +23,8 @@ typedef struct tracer {
     uint32_t room;                /* for so many chains */
     uint32_t *at;                 /* by slot: the path's entry in the queue, or UINT32_MAX */
     int64_t *last;                /* by slot: its chain that waits to know where it ended, or -1 */
-    uint8_t *wide;                /* by slot: has it left a surface in a direction that is not sharp, and the first one so? */
-    ec_joined joined;             /* what its paths gather */
+    uint8_t *wide;                /* by slot: WIDE if it has left a surface in a direction that is not sharp, and WIDE_AT_FIRST if the first one so */
+    ec_joined joined;             /* what the paths gather */
     float *queue, *hits;          /* fields of the device's */
 } tracer;
 
@@ -37,7 +37,7 @@ static uint32_t word_u(const tracer *t, const float *queue, int field, uint32_t 
     return value;
 }
 
-/* Where each path stands in the queue, whose order is the threads'. */
+/* Finds where each path is in the queue, whose order depends on threads. */
 static void find_paths(tracer *t, const uint32_t *parts)
 {
     memset(t->at, 0xff, t->look.count * sizeof *t->at);
@@ -73,7 +73,8 @@ static void set_segment(const tracer *t, uint32_t slot, uint32_t entry, uint32_t
     c->segment = segment;
 }
 
-/* The density that the surface itself gave the path's direction: what a guide makes narrow, light sampling copes with. */
+/* Returns the density with which the surface alone samples the path's direction, without the guide: what a guide makes narrow, light sampling copes
+ * with. */
 static float pdf_of(const tracer *t, uint32_t entry)
 {
     const float pdf = word(t, t->queue, EC_PATH_PDF, entry);
@@ -102,7 +103,8 @@ static void note_chain(tracer *t, uint32_t slot, uint32_t entry, uint32_t segmen
     c->is_caustic = (t->wide[slot] & WIDE_AT_FIRST) && segment > 1 && casts(t, c->prim);
 }
 
-/* A path that is seen where it first meets a surface, if that is not sharp: light paths that casters send there can be joined to it. */
+/* Notes what light paths could bring to a path: they come from casters to where it first meets a surface, if that is not sharp, and are joined to it
+ * there. */
 static void note_joined(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
 {
     ec_joined_path *path = &t->joined.paths[t->look.first + slot];
@@ -115,13 +117,13 @@ static void note_joined(tracer *t, uint32_t slot, uint32_t entry, uint32_t segme
     path->by_vertex = is_joined && casts(t, word_u(t, t->hits, EC_HIT_PRIM, entry));
 }
 
-/* Where a surface has one direction, no light is sampled. */
+/* Records a vertex where light is sampled; where a surface has one direction, none is. */
 static void note_vertex(tracer *t, uint32_t slot, uint32_t entry, uint32_t segment)
 {
     if (segment && word(t, t->queue, EC_PATH_PDF, entry) > 0) set_segment(t, slot, entry, segment, &t->found->vertices[t->found->vertex_count++]);
 }
 
-/* Where the path goes on, its last segment has ended. */
+/* Sets the reach of a chain, whose segment ends where the path goes on. */
 static void end_chain(tracer *t, uint32_t slot, uint32_t entry)
 {
     double squares = 0;
@@ -182,7 +184,7 @@ static ec_result lit(void *user, uint32_t number, ec_error *err)
     return ec_joined_gather(&t->joined, &t->look, number, false, err);
 }
 
-/* Where nothing is more than diffuse only the camera's own directions are sharp. */
+/* Returns how many bounces to trace. Where nothing is more than diffuse only the camera's own directions are sharp. */
 static uint32_t bounces_of(const ec_pipeline *p, bool has_vertices)
 {
     const bool all = (p->effects.called.bits & EC_FEATURE_SPECULAR) || p->params.sample == EC_SAMPLE_BSDF || p->params.sample == EC_SAMPLE_HEMISPHERE;
@@ -244,7 +246,7 @@ void ec_chains_free(ec_chains *chains)
     *chains = (ec_chains){0};
 }
 
-/* A queue of rays alone, part after part as fill_parts has them, as the shutter opens. Lanes past the last ray look too: they have it again. */
+/* Traces a queue of rays alone, part after part as fill_parts has them, at the time when the shutter opens. Lanes past the last ray repeat it. */
 static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float *fields, ec_error *err)
 {
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
@@ -261,7 +263,7 @@ static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float
             float *to = &fields[(size_t)f * entries + i];
             if (f < EC_PATH_DX) *to = ray->origin[k];
             else if (f < EC_PATH_BR) *to = ray->direction[k];
-            else memcpy(to, f == EC_PATH_PRIM ? &ray->prim : &i, sizeof i); /* slots, and what nobody looks at */
+            else memcpy(to, f == EC_PATH_PRIM ? &ray->prim : &i, sizeof i); /* slots, and fields that nobody reads */
         }
     EC_TRY(ec_buffer_write_rows(p->cl, p->buffers[EC_ARG_PATHS], 4ull * p->wave, 4ull * entries, EC_PATH_PRIM + 1, fields, err));
     if (p->buffers[EC_ARG_TIMES]) EC_TRY(ec_buffer_zero(p->cl, p->buffers[EC_ARG_TIMES], 0, 4ull * entries, err));

@@ -20,23 +20,23 @@ typedef struct ec_chain {
     uint32_t place;                /* its pixel, in row order */
     uint32_t segment;              /* of its path: 0 is the camera's */
     bool is_direct;                /* no segment before it left in a wider direction: the pixel sees through it as by way of mirrors */
-    bool is_caustic;               /* it leaves what light paths are aimed at, and the pixel sees what it falls on, to which they can be joined */
+    bool is_caustic;               /* it leaves what light paths are aimed at, and light paths can be joined to what the pixel sees by its light */
 } ec_chain;
 
 typedef struct ec_chains {
     uint32_t paths, count;
-    ec_chain *chains;              /* bounce by bounce, by path; owned, as the next one */
+    ec_chain *chains;              /* bounce by bounce, by path; owned, as the next two */
     uint32_t *visits;              /* by material: how often a path met it */
     ec_chain *vertices;            /* of the first EC_CHAIN_VERTICES bounces, segments that left a surface whose light is sampled; owned */
     uint32_t vertex_count;
-    bool may_join;                 /* may light paths pay? False where the lights' flux is not known */
+    bool may_join;                 /* light paths may pay; false where the lights' flux is not known */
 } ec_chains;
 
-/* EC_CHAIN_PATHS paths, or EC_LOOK_PIXEL a pixel where that is less, spread over the picture, with random numbers of their own: the same
- * whatever the wave. Nothing else on the device changes; no film is touched. has_vertices: are they asked for? */
+/* Traces EC_CHAIN_PATHS paths, or EC_LOOK_PIXEL a pixel where that is less, spread over the picture, with random numbers of their own: the same
+ * whatever the wave. Nothing else on the device changes; no film is touched. has_vertices: asks for vertices. */
 ec_result ec_chains_trace(ec_pipeline *pipeline, const ec_rare_lights *lights, bool has_vertices, ec_chains *chains, ec_error *err);
 
-/* How many light paths pay, by so many more paths that a few strong ones do not decide. */
+/* Finds how many light paths pay, by so many more paths that a few strong ones do not decide. */
 ec_result ec_chains_join(ec_pipeline *pipeline, const ec_rare_lights *lights, ec_joined_choice *joined, ec_error *err);
 void ec_chains_free(ec_chains *chains);
 

@@ -8,7 +8,7 @@
 
 
 #define PI 3.14159265358979323846
-#define DIRECT_LEFT 0.25 /* of direct light's variance where samples are in order, about */
+#define DIRECT_LEFT 0.25 /* share of direct light's variance that is left where samples are in order, about */
 
 /* Time of a sample, over that of one without light paths: shading weighs one more way, and a light path takes as long as some camera paths. */
 #define TIME_WITH 1.25
@@ -72,7 +72,7 @@ ec_result ec_joined_gather(ec_joined *j, const ec_look *look, uint32_t bounce, b
     return EC_OK;
 }
 
-/* In time to an error, where so much of a variance is taken away. */
+/* Returns the gain in time to an error where `number` light paths a camera path take `saved` of the variance away. */
 static double gain_of(double saved, double variance, double number)
 {
     return 1 / ((1 - fmin(saved / variance, 0.99)) * (TIME_WITH + TIME_EACH * number));

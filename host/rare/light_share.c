@@ -1,7 +1,7 @@
-/* Light of a kind that has share p of the samples has variance V / p about, V what it has with all of them, found by paths whose light samples all go
- * to one kind, two of a pixel: half of their mean squared difference. Densities stay those of halves, as weights against directions that surfaces
- * choose need them. Adaptive sampling gives a part of the picture samples in proportion to its standard error, and an error that comes of few pixels
- * says nothing of the others: so what is to be least is the sum over blocks of pixels of their standard errors. */
+/* Light of a kind that has share p of the light samples has variance V / p, about. V, what it has with all of them, is half the mean squared
+ * difference of two paths of a pixel whose light samples all go to that kind. Densities stay those of halves, as weights against directions that
+ * surfaces choose need them. Adaptive sampling gives a part of the picture samples in proportion to its standard error, and an error that comes of
+ * few pixels says nothing of the others: so what is minimised is the sum over blocks of pixels of their standard errors. */
 #include "rare/light_share.h"
 
 #include <math.h>
@@ -44,7 +44,7 @@ static ec_result after(void *user, uint32_t bounce, ec_error *err)
     return add(user, 1, err);
 }
 
-/* All numbers but one go to the kind. */
+/* Traces paths whose light samples go to one kind, by all random numbers but one. */
 static ec_result trace(gathered *g, int kind, ec_error *err)
 {
     g->kind = kind;

@@ -1,4 +1,4 @@
-/* How many of the light samples to give lights at infinity, and how many to lamps: by the noise that either bring. */
+/* Chooses how many of the light samples go to lights at infinity, and how many to lamps, by the noise that each brings. */
 #ifndef EC_RARE_LIGHT_SHARE_H
 #define EC_RARE_LIGHT_SHARE_H
 

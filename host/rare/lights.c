@@ -35,7 +35,7 @@ static float brightest(const ec_pack *pack)
     return most;
 }
 
-/* What ilogb says of a double that is no denormal, as no float is: half a million texels ask. */
+/* Returns what ilogb says of a double that is not denormal, as none from a float is; it is called for half a million texels. */
 static int octave_of(double bright)
 {
     uint64_t bits;
@@ -117,12 +117,12 @@ typedef struct piece {
     double radiance, power;
 } piece;
 
-/* By material and octave of radiance, from that of the material's factor down. */
+/* Pieces of one material and octave of radiance, from that of the material's factor down. */
 enum { LAMP_OCTAVES = 12 };
 typedef struct lamp_group {
     uint32_t count, seen, stride;
     double power, area;   /* area: of all that shines, twice where two-sided */
-    ec_rare_light *light; /* NULL: not among those that are kept */
+    ec_rare_light *light; /* NULL: not kept */
 } lamp_group;
 
 typedef void take_piece(const piece *piece, lamp_group *group);
@@ -133,7 +133,7 @@ static void give_piece(const piece *p, const ec_light_data *l, lamp_group *group
     if (p->radiance > 0) take(p, &groups[p->material * LAMP_OCTAVES + (uint32_t)(octave < 0 ? 0 : octave < LAMP_OCTAVES ? octave : LAMP_OCTAVES - 1)]);
 }
 
-/* Down to the leaves of what lib/lamp_parts.h descends in: numbers from `first` to `end` choose this node, whose edges are `size` of the lamp's. */
+/* Gives the leaves of what lib/lamp_parts.h descends in: numbers from `first` to `end` choose this node, whose edges are `size` of the lamp's. */
 static void give_parts(const ec_pack *pack, const ec_light_data *l, uint32_t node, const piece *whole, const double b[2], double size, uint32_t first,
                        uint32_t end, lamp_group *groups, take_piece *take)
 {
@@ -182,7 +182,7 @@ static void count_piece(const piece *p, lamp_group *group)
     group->area += p->lamp.area * (p->lamp.two_sided ? 2 : 1);
 }
 
-/* Some of a group's pieces, evenly among them. */
+/* Keeps some of a group's pieces, evenly spaced. */
 static void keep_piece(const piece *p, lamp_group *group)
 {
     if (!group->light || group->seen++ % group->stride) return;
@@ -199,7 +199,7 @@ static void add_group(lamp_group *group, uint32_t material, ec_rare_lights *all)
     all->power += group->power;
 }
 
-/* The groups with the most power, as far as there is room. */
+/* Adds the groups with the most power, as far as there is room. */
 static ec_result find_lamps(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
 {
     const uint32_t count = all->material_count * LAMP_OCTAVES, before = all->count;
@@ -228,8 +228,8 @@ static void *copy_of(const void *data, size_t bytes)
     return copy;
 }
 
-/* Share of head-on light that a material sends on in a narrow lobe. Roughness by its factor alone: where a texture has a say, paths that get
- * there tell. */
+/* Returns the share of head-on light that a material sends on in a narrow lobe. Takes its roughness factor alone: where a texture changes that, paths
+ * that get there tell. */
 static float sharp_share(const ec_material_data *m)
 {
     const double f0 = luminance(m->f0), base = luminance(m->base_color);
@@ -239,7 +239,7 @@ static float sharp_share(const ec_material_data *m)
     return (float)share;
 }
 
-/* The power of all lights but triangles. */
+/* Returns the power of all lights but triangles. */
 static double power_of_others(const ec_pack *pack)
 {
     const ec_scene *scene = &pack->plain.scene;
@@ -249,7 +249,7 @@ static double power_of_others(const ec_pack *pack)
     return power;
 }
 
-/* The scene without its lights: which material a triangle has. */
+/* Copies the materials of the scene's triangles, without its lights. */
 static ec_result copy_materials(const ec_scene *scene, ec_rare_lights *all, ec_error *err)
 {
     all->stored_count = scene->triangle_count;

@@ -1,5 +1,5 @@
-/* Lights that a direction which nobody aimed would hardly ever meet: lamps of one material and about one radiance, where a texture varies
- * parts of them; and the brightest parts of an environment map. Copied, so that what was packed may go. */
+/* Lights that a direction which is not aimed at them would hardly ever meet: lamps of one material and about one radiance, where a texture varies
+ * parts of them; and the brightest parts of an environment map. They are copies, so that what was packed may go. */
 #ifndef EC_RARE_LIGHTS_H
 #define EC_RARE_LIGHTS_H
 
@@ -28,10 +28,10 @@ typedef struct ec_rare_light {
     uint32_t lamp_count;
 } ec_rare_light;
 
-/* What shines from one direction, or nearly so: a directional light, or a small part of an environment; or from a lamp's middle. */
+/* A light from one direction, or nearly so: a directional light, or a small part of an environment; or a lamp, which is taken to shine from its middle. */
 typedef struct ec_rare_sun {
     char name[EC_RARE_NAME];
-    float direction[3]; /* towards it, unit; on the map if it is on one. A lamp's normal */
+    float direction[3]; /* towards it, unit, in the map's frame if it is on one; a lamp's normal */
     float middle[3];    /* of a lamp */
     bool is_on_map, is_lamp, two_sided;
     uint32_t material;  /* of a lamp */
@@ -42,10 +42,10 @@ typedef struct ec_rare_sun {
 typedef struct ec_rare_lights {
     uint32_t count;
     double power;                    /* of all lights of the scene */
-    double flux;                     /* W of what they send to what casts; 0: nobody asks */
+    double flux;                     /* W that they send to casters; 0: not asked for */
     float radius;                    /* of a sphere around the scene */
     float *sharp;                    /* by material: share of light that it sends on in a narrow lobe, head-on, if its factors say so */
-    bool *casts;                     /* by material: are light paths aimed at it, where they are traced? */
+    bool *casts;                     /* by material: light paths are aimed at it, where they are traced */
     ec_rare_light *lights;           /* owned, as all here; NULL: nothing in the scene is small */
     uint32_t *triangle_material;     /* by triangle's id as stored */
     uint32_t stored_count, material_count;
@@ -59,22 +59,22 @@ typedef struct ec_rare_lights {
     uint32_t edge_count, flat_count; /* flat_count: triangles that stand where they were made, which come first */
 } ec_rare_lights;
 
-/* Empty where the scene has no such light. */
+/* Finds such lights; empty where the scene has none. */
 ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *lights, ec_error *err);
 void ec_rare_lights_free(ec_rare_lights *lights); /* zero-initialised or freed is fine */
 
-/* Does it shine from no direction more than from others? No ray goes towards it. */
+/* Returns whether it shines from no direction more than from others, so that no ray can be aimed at it. */
 static inline bool ec_rare_light_is_all_around(const ec_rare_light *light)
 {
     return !light->lamp_count && light->direction[0] == 0 && light->direction[1] == 0 && light->direction[2] == 0;
 }
 
-/* Towards an environment's part that is not all around, in the scene. */
+/* Sets the direction, in the scene, towards an environment's part that is not all around. */
 void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3]);
 
 void ec_rare_sun_direction(const ec_rare_sun *sun, const ec_params *params, float direction[3]);
 
-/* The material of a triangle by the id that rays know. */
+/* Returns the material of a triangle by the id that hits have. */
 uint32_t ec_rare_material_of(const ec_rare_lights *lights, uint32_t id);
 
 #endif

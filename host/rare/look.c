@@ -36,7 +36,7 @@ ec_result ec_look_luminance(const ec_look *look, float *rgb, float *luminance, e
     return EC_OK;
 }
 
-/* One bounce: rays[0] of the counters says what each part of the queue holds, and at the end what is left. */
+/* Traces one bounce: rays[0] of the counters says how many paths each part of the queue holds, and at the end how many are left. */
 static ec_result bounce(ec_look *look, uint32_t *scalars, uint32_t number, ec_error *err)
 {
     ec_pipeline *p = look->p;
@@ -81,7 +81,8 @@ static ec_result trace_all(ec_look *look, ec_error *err)
     return EC_OK;
 }
 
-/* Evenly over the numbers of pixels, which lie tile by tile, `each` samples of a pixel; the next round over them takes their next samples. */
+/* Lists the paths' pixels, evenly over the numbers of pixels, which lie tile by tile, `each` samples of a pixel; the next round over them takes their
+ * next samples. */
 static void list_paths(const ec_look *look)
 {
     const uint64_t pixels = (uint64_t)look->p->params.width * look->p->params.height, each = look->each, group = each * look->replicates, places = look->paths / group;
@@ -92,7 +93,7 @@ static void list_paths(const ec_look *look)
     }
 }
 
-/* Paths are one sample a pixel, and no part of a batch. Shading counts what is invalid: counts are put back as they were. */
+/* Traces paths as one sample a pixel, and no part of a batch. Shading counts values that are not finite; those counts are restored. */
 static ec_result trace_apart(ec_look *look, ec_error *err)
 {
     ec_pipeline *p = look->p;

@@ -8,12 +8,13 @@
 #include "base/random.h"
 
 #define PI 3.14159265358979323846
-#define BESIDE 1e-4   /* of the scene's radius: so far from an edge rays go past it */
+#define BESIDE 1e-4   /* of the scene's radius: rays pass this far from an edge */
 #define ABOVE 1e-5    /* likewise, above what is lit */
-#define GRAZING 0.05  /* cosine under which light goes along what it falls on */
+#define GRAZING 0.05  /* cosine under which light only grazes what it falls on */
 enum { PAGE = 256 }; /* triangles that are read at once */
 enum { PASSED = 1 << 11 };                       /* rays past edges that are followed to where they land */
-enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a sun whose surroundings are looked at, and felt for; patches in all */
+enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a sun that are looked at where they land; places around which rays feel what is lit;
+                                                 * patches in all */
 enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one before */
 enum { SMALL_RING = 3, SMALL_LIT = 3 }; /* so many of this ring's rays that are lit make an area of more than SMALL */
 #define LARGEST 0.3   /* of the scene's radius: the first one */
@@ -28,7 +29,7 @@ typedef struct finder {
     const ec_rare_lights *all;
     ec_pipeline *p;
     ec_chain *rays;
-    ec_prim **pages;           /* of triangles, each read when one of its is asked for */
+    ec_prim **pages;           /* pages of triangles, each read when one of its triangles is asked for */
     patch *patches;            /* those that are small */
     uint32_t count;
 } finder;
@@ -42,7 +43,7 @@ static double square_between(const float *a, const float *b)
     return sum;
 }
 
-/* From a point towards a sun. */
+/* Sets the direction from a point towards a sun. */
 static void aim(const finder *f, const ec_rare_sun *sun, const float point[3], float towards[3])
 {
     double length = 0;
@@ -52,14 +53,14 @@ static void aim(const finder *f, const ec_rare_sun *sun, const float point[3], f
     for (int k = 0; k < 3; k++) towards[k] = (float)(towards[k] / fmax(sqrt(length), 1e-30));
 }
 
-/* Has a ray towards the sun met it? */
+/* Returns whether a ray towards the sun has met it. */
 static bool meets(const finder *f, const ec_rare_sun *sun, const ec_chain *ray)
 {
     if (!sun->is_lamp || ray->hit == EC_NO_ID) return !sun->is_lamp && ray->hit == EC_NO_ID;
     return ec_rare_material_of(f->all, ray->hit) == sun->material;
 }
 
-/* Of a surface that faces the sun, whose light goes along a direction. */
+/* Returns the irradiance of a surface that faces the sun, at a point that its light comes to along a direction. */
 static double irradiance_at(const ec_rare_sun *sun, const float point[3], const float along[3])
 {
     const double cosine = dot(sun->direction, along);
@@ -68,7 +69,7 @@ static double irradiance_at(const ec_rare_sun *sun, const float point[3], const 
     return fmin(far, PI * sun->radiance); /* no more than under a sky of such lamps */
 }
 
-/* From a point moved `back` against a direction, along it. */
+/* Sets a ray along a direction, or against it (sign), from a point that is moved back by `back`. */
 static void set_ray(ec_chain *ray, const float point[3], const float direction[3], double sign, double back)
 {
     ray->prim = EC_NO_ID;
@@ -78,7 +79,7 @@ static void set_ray(ec_chain *ray, const float point[3], const float direction[3
     }
 }
 
-/* A triangle that stands where it was made; the pages are freed as a whole. */
+/* Reads a triangle below flat_count; the pages are freed as a whole. */
 static ec_result read_triangle(const finder *f, uint32_t prim, const ec_prim **at, ec_error *err)
 {
     ec_prim **page = &f->pages[prim / PAGE];
@@ -92,7 +93,7 @@ static ec_result read_triangle(const finder *f, uint32_t prim, const ec_prim **a
     return EC_OK;
 }
 
-/* Where a ray of the sun ends; false where it only grazes. */
+/* Finds where a ray of the sun ends; *is_there: it does not only graze. */
 static ec_result land(const finder *f, const ec_chain *ray, const ec_rare_sun *sun, patch *at, bool *is_there, ec_error *err)
 {
     float e[3], g[3], n[3], way[3];
@@ -112,7 +113,7 @@ static ec_result land(const finder *f, const ec_chain *ray, const ec_rare_sun *s
     return EC_OK;
 }
 
-/* Moves the rays past edges that get by and land to the front. Lamps are many: past some of the edges. */
+/* Traces a sun's rays past edges, and moves those that get by and land to the front. There are many lamps, whose rays pass only some of the edges. */
 static ec_result pass_edges(finder *f, const ec_rare_sun *sun, uint32_t *landed, ec_error *err)
 {
     const uint32_t most = sun->is_lamp ? EC_RARE_LAMP_EDGES : EC_RARE_EDGES, count = f->all->edge_count < most ? f->all->edge_count : most;
@@ -129,7 +130,7 @@ static ec_result pass_edges(finder *f, const ec_rare_sun *sun, uint32_t *landed,
         aim(f, sun, f->all->edges[i], towards);
         set_ray(&f->rays[passed++], f->all->edges[i], towards, -1, back);
     }
-    passed = passed < PASSED ? passed : PASSED; /* edges are in no order */
+    passed = passed < PASSED ? passed : PASSED; /* any of them will do: edges are in no order */
     if (result == EC_OK && passed) result = ec_chains_meet(f->p, f->rays, passed, err);
     *landed = 0;
     for (uint32_t i = 0; i < passed; i++)
@@ -156,7 +157,7 @@ static double lit_area(const finder *f, const ec_rare_sun *sun, const ec_chain *
     return area;
 }
 
-/* Rays from around it towards the sun: in a ring evenly. */
+/* Makes rays towards the sun from a ring around a patch, evenly spaced. */
 static void feel_ring(const finder *f, const patch *at, int ring, uint64_t *random, ec_chain *rays)
 {
     const int axis = fabsf(at->normal[0]) < 0.6f ? 0 : 1;
@@ -182,7 +183,7 @@ static bool is_known(const finder *f, const patch *at)
     return false;
 }
 
-/* Leaves those alone around which not so much is lit that they are no small patches. */
+/* Keeps the patches, up to FELT, around which so little is lit that they are small. */
 static ec_result drop_large(finder *f, const ec_rare_sun *sun, patch *found, uint32_t *count, uint64_t *random, ec_error *err)
 {
     uint32_t kept = 0;
@@ -217,7 +218,7 @@ static ec_result find_patches(finder *f, const ec_rare_sun *sun, ec_error *err)
     return EC_OK;
 }
 
-/* A vertex that paths left, as far from the patch. */
+/* A vertex that a path left, and the square of its distance from the patch. */
 typedef struct near_vertex {
     double square;
     const ec_chain *from;
@@ -229,7 +230,7 @@ typedef struct near_patch {
     uint32_t count[2];
 } near_patch;
 
-/* Those of the patch's plane and side. */
+/* Finds the nearest vertices in the patch's plane and on its side. */
 static void find_near(double radius, const ec_chains *paths, const patch *at, near_patch *found)
 {
     found->count[0] = found->count[1] = 0;
@@ -248,7 +249,7 @@ static void find_near(double radius, const ec_chains *paths, const patch *at, ne
     }
 }
 
-/* Root mean square over the mean, from pairs in one tile: as if there were many. */
+/* Returns the root mean square over the mean, from pairs in one tile, as it would be with many vertices. */
 static double gathered(const uint32_t *tiles, uint32_t count)
 {
     uint32_t pairs = 0;

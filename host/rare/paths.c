@@ -14,7 +14,7 @@
 #define COMPARED (1 << 18)  /* chains times lamps that are compared, about, of each kind */
 #define LEAST 1024          /* chains of a kind that are looked at in any case */
 #define NEAREST 12
-#define FEW 16              /* fewer chains say nothing of where they go: anywhere */
+#define FEW 16              /* fewer chains say nothing of where they go, which may be anywhere */
 #define AROUND 0.35         /* length of the nearest ones' mean offset, over its root mean square: beyond, all lie to one side … */
 #define AROUND_CHANCE 1.0   /* … but for what chance makes of it, this over the root of their number */
 #define COMMON 0.02         /* chance beyond which every picture meets its light */
@@ -22,7 +22,7 @@
 /* A chain beside a light. */
 typedef struct beside {
     double square;          /* of the distance of the two unit directions */
-    float offset[3];        /* from the light's to the chain's */
+    float offset[3];        /* from the light's direction to the chain's */
     double solid_angle;     /* of the light, from there; 0: none of it is in sight */
     bool is_open;           /* whether it is in sight is not known: the chain's path ended with it */
     const ec_chain *chain;
@@ -33,7 +33,7 @@ typedef struct selection {
     const ec_chain **chains;
     uint32_t count;
     double weight;
-    const bool *in_sight;   /* as ec_rare_sight has it, of what add_light is called for; NULL: there are chains enough */
+    const bool *in_sight;   /* from ec_rare_sight, for the light of this call of add_light; NULL: there are enough chains */
 } selection;
 
 /* Sums over the chains of a kind. */
@@ -53,7 +53,7 @@ static void place_beside(const ec_chain *chain, const double towards[3], beside 
     }
 }
 
-/* Solid angle of a light from where a chain starts. */
+/* Returns the solid angle of a light from where a chain starts. */
 static double size_of(const ec_chain *chain, const ec_rare_light *light, const ec_rare_lamp *lamp)
 {
     double square = 0, projected = 0;
@@ -88,7 +88,7 @@ static void beside_lamp(const ec_rare_lights *all, const ec_chain *chain, const 
     b->solid_angle = is_hidden ? 0 : size_of(chain, light, lamp);
 }
 
-/* Do they lie around what they are beside, or all to one side: where directions end, there is nothing behind? */
+/* Returns whether the chains surround the light. If all lie to one side, their directions end beside it. */
 static bool surround(const beside *near, uint32_t count)
 {
     double mean[3] = {0}, squares = 0;
@@ -101,8 +101,8 @@ static bool surround(const beside *near, uint32_t count)
     return length2 <= most * most * squares / count;
 }
 
-/* Adds what those chains bring; cap: steradians that they are spread over. A lobe that is wider than the light is met more often, by light
- * sampling, which then brings less; the mean is the same. */
+/* Adds what those chains bring; cap: steradians that they are spread over. With a lobe that is wider than the light, light sampling meets it more
+ * often and brings less; the mean is the same. */
 static void add_chains(const ec_rare_lights *all, const beside *near, uint32_t count, double cap, double weight, double radiance,
                        const ec_rare *rare, sums *s)
 {
@@ -120,7 +120,7 @@ static void add_chains(const ec_rare_lights *all, const beside *near, uint32_t c
     }
 }
 
-/* Keeps the nearest, the nearest first. */
+/* Puts `next` among the nearest, which are sorted, the nearest first. */
 static void keep_nearest(const beside *next, beside *near, uint32_t *count)
 {
     if (*count == NEAREST && next->square >= near[NEAREST - 1].square) return;
@@ -137,8 +137,8 @@ static beside place(const ec_rare_lights *all, const ec_chain *chain, const ec_r
     return b;
 }
 
-/* The square of the distance of a chain's direction from the light's, and the largest solid angle that this may have from there: enough to tell
- * of most chains that they are neither near nor meet it. towards: an environment's part. */
+/* Returns the square of the distance of a chain's direction from the light's; *most: the largest solid angle that the light may have from there. Of
+ * most chains that is enough to tell that they are neither near nor meet it. towards: an environment's part. */
 static double distance_of(const ec_chain *chain, const ec_rare_light *light, const ec_rare_lamp *lamp, const float towards[3], double *most)
 {
     double way[3], far = 0, square = 0;
@@ -150,7 +150,7 @@ static double distance_of(const ec_chain *chain, const ec_rare_light *light, con
     return square;
 }
 
-/* The light is as much in sight of chains that do not know as it is of those around them that do. */
+/* Takes the light to be as much in sight of chains that do not know as it is of those around them that do. */
 static void settle_open(beside *near, uint32_t count)
 {
     uint32_t known = 0, seen = 0;
@@ -160,8 +160,8 @@ static void settle_open(beside *near, uint32_t count)
         if (near[i].is_open) near[i].solid_angle *= (double)seen / known;
 }
 
-/* By those that are nearest to a light, or, where it is so large that more meet it, by these; by all of them where it lies all around, or where
- * they are too few to tell, and it is in sight of them. */
+/* Adds what a light brings, by the chains that are nearest to it or, where it is so large that more meet it, by these; by all of them where it lies
+ * all around; by those that have it in sight where there are too few to tell. */
 static void add_light(const ec_rare_lights *all, const selection *of, const ec_rare_light *light, const ec_rare_lamp *lamp,
                       const ec_params *params, const ec_rare *rare, sums *s)
 {
@@ -191,7 +191,7 @@ static void add_light(const ec_rare_lights *all, const selection *of, const ec_r
     add_chains(all, near, count, fmin(PI * fmax(near[count - 1].square, 1e-12), 4 * PI), weight, light->radiance, rare, s);
 }
 
-/* Chains that are alike: mirrors' and glass's, sharp lobes, wide ones; and the same where the pixel sees through them. */
+/* Kinds of chains: mirrors' and glass's, sharp lobes, wide ones; the same where the pixel sees through them; and the camera's. */
 enum { ALIKE = 7, CAMERA = 6 };
 static int kind_of(const ec_chain *c)
 {
@@ -199,10 +199,10 @@ static int kind_of(const ec_chain *c)
     return (isinf(c->pdf) ? 0 : c->pdf > 2048 ? 1 : 2) + (c->is_direct ? 3 : 0);
 }
 
-/* What light paths bring is not rare. */
+/* Returns whether a chain is of a kind. What light paths bring is not rare, and left out. */
 static bool is_of(const ec_chain *c, int kind, bool has_light_paths) { return kind_of(c) == kind && !(has_light_paths && c->is_caustic); }
 
-/* One of every so many, any: paths come in the order of pixels. */
+/* Selects one of every `stride` chains, at random: paths come in the order of pixels. */
 static void select_chains(const ec_chains *chains, int kind, bool has_light_paths, uint32_t most, selection *of)
 {
     uint32_t found = 0, seen = 0, next = 0;
@@ -227,8 +227,8 @@ static void name_way(const ec_rare_lights *all, const sums *s, char *name)
     if (best < all->material_count) snprintf(name, EC_RARE_NAME, "%s", all->materials[best]);
 }
 
-/* Root mean square over pixels of what they bring, over the mean. Seen directly it is the light's image, which takes the part of
- * the picture that its chance is, but a pixel at least; else it lies as the chains do, tile by tile. */
+/* Returns the root mean square over pixels of what a kind brings, over the mean. Seen directly it is the light's image, whose part of the picture is
+ * its chance, but a pixel at least; else it lies as the chains do, tile by tile. */
 static double gathered(const sums *s, bool is_direct, double pixels)
 {
     double squares = 0;
@@ -237,7 +237,7 @@ static double gathered(const sums *s, bool is_direct, double pixels)
     return sqrt(squares) * EC_RARE_TILES / s->luminance;
 }
 
-/* Keeps the kinds that matter most. */
+/* Keeps a kind if it is among those that matter most. */
 static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, const sums *s, double spread, ec_rare *rare)
 {
     ec_rare_kind *kind = s->luminance > 0 && s->chance <= COMMON ? ec_rare_make_room(rare, s->luminance * spread) : NULL;
@@ -253,7 +253,7 @@ static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, con
     memcpy(kind->light, light->name, sizeof kind->light);
 }
 
-/* All that one kind of chains brings from each light. */
+/* Adds what one kind of chains brings from each light. */
 static ec_result add_kind(const ec_rare_lights *all, selection *of, bool is_direct, ec_pipeline *p, double *through, ec_rare *rare, ec_error *err)
 {
     const ec_params *params = &p->params;

@@ -6,7 +6,7 @@
 
 static uint32_t targets_of(const ec_rare_light *light) { return ec_rare_light_is_all_around(light) ? 0 : light->lamp_count ? light->lamp_count : 1; }
 
-/* From the light to where a chain starts: whatever side of a body that is on, the ray meets the side of it that the light shines on. */
+/* Makes a ray from the light to where a chain starts: whichever side of a body that is on, the ray meets the side that the light shines on. */
 static void aim(const ec_rare_lights *all, const ec_rare_light *light, uint32_t lamp, const ec_params *params, const ec_chain *to, ec_chain *ray)
 {
     double square = 0;
@@ -26,7 +26,7 @@ static void aim(const ec_rare_lights *all, const ec_rare_light *light, uint32_t 
     for (int k = 0; k < 3; k++) ray->direction[k] /= (float)fmax(sqrt(square), 1e-30);
 }
 
-/* What mirrors or lets light through on the way leaves it in sight. */
+/* Returns whether the light is in sight; what mirrors or lets light through on the way does not hide it. */
 static bool is_reached(const ec_rare_lights *all, const ec_chain *from, const ec_chain *ray)
 {
     if (ray->hit == EC_NO_ID) return true;

@@ -1,4 +1,4 @@
-/* Which lights are in sight of where a few chains start: too few to tell from their directions where others would go. */
+/* Finds which lights are in sight of where a few chains start, when these are too few to tell from their directions where others would go. */
 #ifndef EC_RARE_SIGHT_H
 #define EC_RARE_SIGHT_H
 

@@ -10,11 +10,11 @@
 #include "film/film.h"
 
 #define BESIDE 1e-4   /* of the scene's radius, from the edge */
-#define NARROW 0.02   /* steradians: of what is wider one ray does not tell where its light falls */
+#define NARROW 0.02   /* steradians: of a wider light one ray does not tell where it falls */
 #define ONE_SUN 0.995 /* cosine between parts of a map that are one sun */
 #define WEAK 0.01     /* of the strongest sun's irradiance, or of all lamps' power */
 
-/* In place of the weakest where there is no room. */
+/* Adds a sun, in place of the weakest where there is no room. */
 static void add_sun(const ec_rare_sun *sun, ec_rare_lights *all)
 {
     uint32_t at = all->sun_count;
@@ -42,7 +42,7 @@ static void add_directional(const ec_scene *scene, ec_rare_lights *all)
     }
 }
 
-/* A disk's brightest octave comes first, and then what lies around it. */
+/* Joins a sun to one of the map in the same direction: a disk's brightest octave comes first, and then what lies around it. */
 static bool join_sun(const ec_rare_sun *sun, ec_rare_lights *all)
 {
     for (uint32_t i = 0; i < all->sun_count; i++) {
@@ -77,7 +77,7 @@ static void drop_weak_suns(ec_rare_lights *all)
     all->sun_count = kept;
 }
 
-/* A triangle each of the lamps that come first, two where those are few: they are in order of power. */
+/* Adds a triangle of each of the first lamps, two where lamps are few; they are in order of power. */
 static void add_lamps(ec_rare_lights *all)
 {
     uint32_t aims = 0, lamps = 0;
@@ -101,7 +101,7 @@ static void add_lamps(ec_rare_lights *all)
     }
 }
 
-/* Beside the middle of a triangle's edge, in its plane, on the side where it is not. */
+/* Sets a point beside the middle of a triangle's edge, in its plane and outside of it. */
 static void set_beside(const ec_prim *p, int edge, double distance, float point[3])
 {
     const float *v[3] = {p->v0, p->v1, p->v2}, *a = v[edge], *b = v[(edge + 1) % 3], *c = v[(edge + 2) % 3];
@@ -118,7 +118,7 @@ static double length_of(const ec_prim *p)
     return sqrt(sum);
 }
 
-/* So many triangles, each as often as it is long: around holes walls are cut in long ones, and what is finely meshed is mostly no wall. */
+/* Chooses `count` triangles, each as often as it is long: around holes walls are cut in long ones, and what is finely meshed is mostly no wall. */
 static void choose_by_length(const ec_pack *pack, uint32_t triangles, uint32_t count, uint64_t *random, uint32_t *chosen)
 {
     double all = 0, sum = 0;
@@ -132,7 +132,7 @@ static void choose_by_length(const ec_pack *pack, uint32_t triangles, uint32_t c
     while (next < count) chosen[next++] = triangles - 1;
 }
 
-/* All edges; or some of them where there are many, half of them by the triangles' lengths and half evenly, in any order. */
+/* Takes points beside all edges; where there are many, beside some, half of them by the triangles' lengths and half evenly; in random order. */
 static ec_result find_edges(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
 {
     const uint64_t edges = 3ull * all->flat_count;

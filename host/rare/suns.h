@@ -4,7 +4,7 @@
 
 #include "rare/lights.h"
 
-/* Once the environment's parts are among the lights. */
+/* Finds suns and edges, once the environment's parts are among the lights. */
 ec_result ec_rare_suns_find(const ec_pack *pack, ec_rare_lights *all, ec_error *err);
 
 #endif

@@ -1,7 +1,7 @@
-/* --light-paths auto: is so much of the picture's noise that of caustics that light paths pay?
+/* Decides for --light-paths auto whether so much of the picture's noise is that of caustics that light paths pay.
  *
- * The first look at the picture's paths (rare/paths.h) foretells two things. Of what paths have met, how many light paths
- * would pay (rare/joined.h). Of what they hardly ever meet, the chance and the light: the variance of a sample, over the square of the mean
+ * The first look at the picture's paths (rare/paths.h) foretells two things. For caustics that paths have met: how many light paths would pay
+ * (rare/joined.h). For those that they hardly ever meet: their chance and light, and so the variance of a sample over the square of the mean
  * luminance that a pilot finds. All are the same whoever renders a part of a job, with however many devices, and no clock has a say. */
 #include <float.h>
 #include <math.h>
@@ -17,7 +17,7 @@ bool ec_render_may_have_caustics(const ec_render_options *o, const ec_scene *sce
     return o->light_paths == EC_LIGHT_PATHS_AUTO && ec_scene_casts(scene);
 }
 
-/* What rare paths alone bring; the least number where that is nothing. */
+/* Returns the mean luminance that rare paths alone bring; the least number where that is nothing. */
 static double least_mean(const ec_rare *rare)
 {
     double sum = 0;
@@ -39,7 +39,7 @@ static void note_rare(const ec_rare_kind *most, double variance, const ec_log *l
                  "camera, and guide directions (--light-paths 0: none)", way, 12.5 * sqrt(variance), 1 / EC_LIGHT_PATHS_RARE);
 }
 
-/* Are there caustics that paths have hardly ever met? */
+/* Judges whether caustics that paths have hardly ever met make light paths pay. */
 static ec_result judge_rare(ec_render_state *r, bool *pays, const ec_log *log, ec_error *err)
 {
     const ec_render_options *o = r->options;

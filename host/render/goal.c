@@ -39,14 +39,14 @@ void ec_goal_restart_pace(ec_goal *g)
     g->took = g->squares = g->timed = 0;
 }
 
-/* Seconds a sample: of the last half or more, since the first batches are small. */
+/* Returns the seconds a sample takes: of the last half or more, since the first batches are small. */
 static double pace(const ec_goal *g, ec_mark at)
 {
     const ec_mark *from = &g->recent[0];
     return at.samples > from->samples ? (at.seconds - from->seconds) / (at.samples - from->samples) : at.seconds / fmax(at.samples, 1);
 }
 
-/* Relative standard deviation of a batch's pace. */
+/* Returns the relative standard deviation of a batch's pace. */
 static double pace_spread(const ec_goal *g)
 {
     if (!(g->timed > 0)) return LEAST_SPREAD;
@@ -57,7 +57,7 @@ static double pace_spread(const ec_goal *g)
 static range at_most(range a, double limit) { return (range){fmin(a.low, limit), fmin(a.expected, limit), fmin(a.high, limit)}; }
 static range at_least(range a, double limit) { return (range){fmax(a.low, limit), fmax(a.expected, limit), fmax(a.high, limit)}; }
 
-/* The end of the round that has so many samples. */
+/* Returns the samples at the end of the round that has so many samples. */
 static double whole_round(const ec_goal *g, double samples)
 {
     uint32_t before;
@@ -68,14 +68,14 @@ static double whole_round(const ec_goal *g, double samples)
     return (double)ec_schedule_samples(g->replicates, (uint32_t)ec_schedule_round(g->replicates, batch));
 }
 
-/* Whichever picture is there first. */
+/* Returns the samples of whichever picture is there first, the noisy or the clean one. */
 static range samples_of_either(const ec_goal *g, range noisy)
 {
     const ec_clean_range clean = ec_clean_goal_samples(&g->clean, g->error);
     return (range){fmin(noisy.low, whole_round(g, clean.low)), fmin(noisy.expected, whole_round(g, clean.expected)), fmin(noisy.high, whole_round(g, clean.high))};
 }
 
-/* Where error^2 is known by a wide factor, the part that no sample has met yet only adds. */
+/* Returns the samples to the error, with an interval. Where error^2 is known by a wide factor, the part that no sample has met yet only adds. */
 static range samples_to(const ec_goal *g, const ec_film_outlook *o)
 {
     const double spread = g->now.spread, wide = 1 + 2 * spread; /* a wide spread is itself not well known */

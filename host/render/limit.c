@@ -1,4 +1,4 @@
-/* The picture's mean luminance, as a pilot finds it before the picture's first sample; and the clamp's limit, so many times that.
+/* Finds the picture's mean luminance by a pilot before the picture's first sample, and sets the clamp's limit, which is given in multiples of it.
  *
  * The pilot's samples are spread over the picture, always the same ones, and none of the picture's own: whoever renders a part of a job, with
  * however many devices, finds the same. Its mean is the median of the means of 32 groups, since one bright path in one of them must not
@@ -9,10 +9,10 @@
 #include "device/adaptive.h"
 #include "render/render_state.h"
 
-enum { PILOT = 1 << 16 /* samples, of the clamp's */, GROUPS = 32 };
+enum { PILOT = 1 << 16 /* samples of the clamp's pilot */, GROUPS = 32 };
 #define PILOT_FIRST (1u << 31) /* number of its first sample in a replicate: no picture has so many (EC_MAX_SPP) */
 
-/* Entry i of the pilot: a pixel, and which sample of it. Small pictures have several of each pixel, one after the other, so that all groups
+/* Writes entry i of the pilot: a pixel, and which sample of it. Small pictures have several of each pixel, one after the other, so that all groups
  * have some of them. */
 static void write_entry(uint64_t i, uint32_t samples, uint64_t pixels, uint32_t *entry)
 {
@@ -26,7 +26,7 @@ static bool goes_on(void *user, uint32_t done)
     return true;
 }
 
-/* Entries [first, first + count) of the pilot into the groups' sums. */
+/* Adds entries [first, first + count) of the pilot to the groups' sums. */
 static ec_result take(ec_render_state *r, uint32_t samples, uint32_t first, uint32_t count, uint32_t *list, double sums[GROUPS], ec_error *err)
 {
     const uint64_t pixels = (uint64_t)r->options->width * r->options->height;
@@ -49,7 +49,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Where most groups have met no light, the mean of all has to do. */
+/* Returns the mean by the groups' median. Where most groups have met no light, the mean of all has to do. */
 static double middle(double sums[GROUPS], uint32_t samples)
 {
     double all = 0;
@@ -59,7 +59,7 @@ static double middle(double sums[GROUPS], uint32_t samples)
     return (median > 0 ? median : all) / (samples / GROUPS);
 }
 
-/* The nearest quarter of a power of two, in logarithms. */
+/* Returns the nearest quarter of a power of two, in logarithms. */
 static double rounded(double mean)
 {
     static const double quarters[] = {1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
@@ -67,7 +67,7 @@ static double rounded(double mean)
     return ldexp(quarters[steps - 4 * power], power);
 }
 
-/* Rays and dropped samples of the pilot are not the picture's. */
+/* Takes off the rays and dropped samples of the pilot, which are not the picture's. */
 static void forget_pilot(ec_render_state *r)
 {
     r->rays_before -= r->source->rays;

@@ -1,4 +1,4 @@
-/* A render from set-up to the end. */
+/* Runs a render from set-up to the end. */
 #include "render/render.h"
 
 #include <math.h>
@@ -11,7 +11,8 @@
 #include "rare/light_share.h"
 #include "render/render_state.h"
 
-/* Also where survival is no probability at all. Only paths go by it: ray trees have a depth of their own, rasterised pictures none. */
+/* Fails if nothing would end a path, also where survival is not a probability at all. Only paths use it: ray trees have a depth of their own,
+ * rasterised pictures none. */
 static ec_result check_ends(const ec_render_options *o, ec_error *err)
 {
     bool ends = (o->survival >= 0.0 && o->survival < 1.0) || o->max_depth;
@@ -19,7 +20,7 @@ static ec_result check_ends(const ec_render_options *o, ec_error *err)
     return ec_fail(err, "a survival probability of %g with unlimited depth: nothing would end a path; set max_depth, or a survival under 1", o->survival);
 }
 
-/* No option is without effect in silence. */
+/* Notes effects of --without that the scene does not call for: no option is without effect in silence. */
 static ec_result note_unneeded(const ec_scene *scene, uint64_t without, const ec_log *log, ec_error *err)
 {
     ec_effects effects;
@@ -37,7 +38,7 @@ static void count_from(ec_render_state *r, const ec_past *past)
     for (int i = 0; i < EC_STAGE_COUNT; i++) r->invalid_before[i] = past ? past->invalid[i] : 0;
 }
 
-/* Film and figures of the course's past, or of none. */
+/* Takes over the film and figures of the course's past, if it has one. */
 static void take_up(ec_render_state *r, const ec_past *past)
 {
     r->past.allotment.gain = 1.0;
@@ -46,11 +47,11 @@ static void take_up(ec_render_state *r, const ec_past *past)
     r->past = *past;
     r->past.allotment.weight = NULL;
     count_from(r, past);
-    r->kept_next = r->course->past_is_kept ? past->next : UINT32_MAX; /* of which there is no batch: all is new */
+    r->kept_next = r->course->past_is_kept ? past->next : UINT32_MAX; /* no batch has that number, so all is new to `keep` */
     r->kept_under_way = past->under_way;
 }
 
-/* Chooses strips once the only device is loaded, since its films have to fit beside that; several devices take all rows. */
+/* Chooses strips once the only device is loaded, since its films have to fit beside that, and prepares the film; several devices take all rows. */
 static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     const ec_pipeline *alone = ec_sources_alone(&r->sources);
@@ -68,7 +69,7 @@ static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *er
     return EC_OK;
 }
 
-/* Where so many samples a pixel end, of the job or of its slice. */
+/* Sets the end: after so many samples a pixel, of the job or of its slice. */
 static void choose_end(ec_render_state *r)
 {
     const ec_render_options *o = r->options;
@@ -85,7 +86,7 @@ static void choose_end(ec_render_state *r)
     ec_goal_set(&r->goal, samples, o->time_limit, o->error_target);
 }
 
-/* Samples of the largest batch, which a wave has to hold. Pixels of an adaptive render may get many times the mean. */
+/* Returns the samples of the largest batch, which a wave has to hold. Pixels of an adaptive render may get many times the mean. */
 static uint32_t largest_batch(const ec_render_state *r)
 {
     const bool is_known = r->end != UINT32_MAX && !r->options->adaptive;
@@ -94,12 +95,12 @@ static uint32_t largest_batch(const ec_render_state *r)
 
 static ec_result open_sources(ec_render_state *r, const ec_peers *peers, const ec_log *log, ec_error *err)
 {
-    if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same ways whatever the sample */
+    if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same paths whatever the sample */
         EC_TRY(ec_rare_lights_find(&r->sources.cargo.pack, &r->lights, err));
     return ec_sources_open(&r->sources, r->options->seed, peers, log, &r->source, r->stats, err);
 }
 
-/* Who leaves it out. */
+/* Notes which options leave out scattering in bodies. */
 static void tell_scattering(const ec_render_options *o, const ec_log *log)
 {
     if (o->integrator != EC_INTEGRATOR_PATH)
@@ -108,14 +109,14 @@ static void tell_scattering(const ec_render_options *o, const ec_log *log)
         ec_note(log, "--light-paths: none are sent, since light paths do not scatter inside bodies, as light does in this scene");
 }
 
-/* Who leaves it out. */
+/* Notes what light paths leave out. */
 static void tell_unjoined(const ec_render_options *o, uint64_t called, const ec_log *log)
 {
     if (o->integrator == EC_INTEGRATOR_LIGHT && (called & (EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION)))
         ec_note(log, "what is seen in mirrors and through glass is missing here: paths from the lights are joined to the camera where a surface scatters");
 }
 
-/* The scene is what the course expects. */
+/* Checks that the scene is what the course expects. */
 static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     const ec_past *past = r->course->past;
@@ -131,10 +132,10 @@ static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
     return past && past->allotment.weight ? ec_allotment_again(&past->allotment, &r->params, r->replicates, &r->past.allotment, err) : EC_OK;
 }
 
-/* Are there lights at infinity, and others, between which light samples are shared? */
+/* Returns whether there are both lights at infinity and others, between which light samples are divided. */
 static bool mixes_lights(const ec_render_options *o, const ec_scene *scene) { return o->integrator == EC_INTEGRATOR_PATH && ec_scene_mixes_lights(scene); }
 
-/* What was loaded to judge by is given up. */
+/* Gives up what was loaded to judge by. */
 static void begin_again(ec_render_state *r)
 {
     ec_render_stats closed = {0};
@@ -145,8 +146,7 @@ static void begin_again(ec_render_state *r)
     count_from(r, r->course->past);
 }
 
-/* What they cannot be joined to, caustics in mirrors and glass, is what guiding
- * finds, where these are rare. */
+/* Sets light paths. Caustics that these cannot be joined to, in mirrors and glass, are found by guiding where they are rare. */
 static void choose_light_paths(ec_render_state *r, ec_caustics caustics)
 {
     if (!caustics) return;
@@ -154,7 +154,7 @@ static void choose_light_paths(ec_render_state *r, ec_caustics caustics)
     r->chosen.guiding |= caustics == EC_CAUSTICS_RARE;
 }
 
-/* What the options leave open, by the only source before the first sample. Light paths do not scatter on their way. */
+/* Chooses what the options leave open, by the only source before the first sample. Light paths do not scatter inside bodies. */
 static ec_result choose_open(ec_render_state *r, const ec_scene *scene, ec_caustics *caustics, const ec_log *log, ec_error *err)
 {
     const bool follow = !(r->sources.cargo.head.effects.called.bits & EC_FEATURE_SCATTERING);
@@ -171,8 +171,8 @@ static ec_result choose_open(ec_render_state *r, const ec_scene *scene, ec_caust
     return EC_OK;
 }
 
-/* The first device alone judges what is open, and goes on with what is loaded where it renders alone and no other kernels are called for. Several begin
- * to work as they are loaded: their look is before that. */
+/* Loads the devices. The first one alone judges what is open, and goes on with what is loaded if it renders alone and no other kernels are called
+ * for. Several devices begin to work as they are loaded, so the look comes before that. */
 static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const ec_scene *scene, const ec_log *log, ec_error *err)
 {
     const ec_peers *peers = r->course->peers;

@@ -14,15 +14,15 @@ typedef struct ec_progress {
     uint64_t samples_per_pixel, samples; /* done */
     double samples_per_second;
     double error, error_bound;
-    const ec_forecast *pilot;           /* the first one, once there is one; then the one of now */
+    const ec_forecast *pilot;           /* the first one, once there is one; `forecast` is the present one */
     ec_forecast forecast;
 } ec_progress;
 /* Called after every batch and at least twice a second where waves allow; returning false stops cleanly: the film keeps
  * the batches that are complete, and where none is, what there is of the first. */
 typedef bool (*ec_progress_fn)(void *user, const ec_progress *progress);
 
-/* film must be zero-initialised; the caller destroys it. cl stays the caller's. On failure too the film keeps the batches that were
- * complete, and stats tells of them: film->batch_count says whether there is a picture. */
+/* Renders a scene. film must be zero-initialised; the caller destroys it. cl stays the caller's. On failure too the film keeps the batches that were
+ * complete, and stats describes them: film->batch_count says whether there is a picture. */
 ec_result ec_render(ec_cl *cl, const ec_scene *scene, const ec_render_options *options, ec_progress_fn progress,
                     void *user, ec_film *film, ec_render_stats *stats, const ec_log *log, ec_error *err);
 

@@ -1,4 +1,4 @@
-/* A batch goes into the film; and what is in it, and of the batch that is under way, is kept. */
+/* Adds batches to the film, and keeps what is in it and what there is of the batch under way. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,7 +41,7 @@ void ec_render_keep(ec_render_state *r, uint32_t under_way)
     r->kept_at = ec_now();
 }
 
-/* Tells pixels that the batch has not reached, which then hold nothing; returns how many. */
+/* Finds and clears pixels that the batch has not reached; returns how many. */
 static uint64_t clear_unreached(float *mean, float *features, float *layers, uint32_t layer_count, uint64_t pixels, uint8_t *unsampled)
 {
     uint64_t missing = 0;
@@ -63,7 +63,7 @@ static ec_result add_matte(ec_render_state *r, ec_error *err)
     return ec_matte_take(&r->film->matte, &r->matte, r->order.list ? r->past.allotment.places : NULL, err);
 }
 
-/* A first batch that was given up is the picture, since there is no other. */
+/* Adds a first batch that was given up: it is the picture, since there is no other. */
 static ec_result add_begun(ec_render_state *r, ec_error *err)
 {
     const uint64_t pixels = (uint64_t)r->film->width * r->film->height, reached = r->source->reached;
@@ -88,7 +88,7 @@ static ec_result add_block(ec_render_state *r, ec_error *err)
     return EC_OK;
 }
 
-/* The picture's, or a layer's. */
+/* Adds the batch to the picture's film, or to a layer's. */
 static ec_result add_to(const ec_render_state *r, ec_film *film, const float *mean, const float *features, ec_error *err)
 {
     if (r->order.list) return ec_film_add_some(film, mean, features, r->past.allotment.places, r->order.count, r->order.samples, err);
@@ -104,7 +104,7 @@ static ec_result add_layers(ec_render_state *r, ec_error *err)
     return EC_OK;
 }
 
-/* Or the block. */
+/* Adds a whole batch, or a block. */
 static ec_result add_whole(ec_render_state *r, ec_error *err)
 {
     if (r->order.cut) ec_render_keep(r, 0);
@@ -116,7 +116,7 @@ static ec_result add_whole(ec_render_state *r, ec_error *err)
     return are_last && r->source->end_features ? r->source->end_features(r->source, err) : EC_OK;
 }
 
-/* What the source has counted so far; the film has changed. */
+/* Takes over what the source has counted so far, after the film has changed. */
 static void take_counts(ec_render_state *r)
 {
     for (int i = 0; i < EC_STAGE_COUNT; i++) r->past.invalid[i] = r->invalid_before[i] + r->source->invalid[i];
@@ -134,7 +134,7 @@ ec_result ec_render_add_light(ec_render_state *r, ec_error *err)
 ec_result ec_render_add_batch(ec_render_state *r, bool complete, ec_error *err)
 {
     EC_TRY(complete ? add_whole(r, err) : add_begun(r, err));
-    take_counts(r); /* what add_whole keeps of a job's end has not the batch's */
+    take_counts(r); /* what add_whole keeps at a job's end does not have the batch's */
     r->past.samples += r->under_way;
     r->past.next += r->source->batches;
     return EC_OK;

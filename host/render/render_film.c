@@ -1,4 +1,4 @@
-/* Batches until a limit is met. */
+/* Takes batches until a limit is met. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,8 +7,8 @@
 #include "render/render_state.h"
 #include "render/team.h"
 
-/* With blocks of batches, since one that is given up is lost, and nothing of it is kept before it is whole: seconds, or a share of the time so far;
- * and not longer than between two checkpoints. */
+/* Returns how long a block of batches may take, since one that is given up is lost, and nothing of it is kept before it is whole: seconds, or a share
+ * of the time so far, and not longer than between two checkpoints. */
 static double patience(const ec_render_state *r)
 {
     const double seconds = fmax(EC_TEAM_PATIENCE_SECONDS, EC_TEAM_PATIENCE_SHARE * (ec_now() - r->render_start));
@@ -17,12 +17,12 @@ static double patience(const ec_render_state *r)
 
 ec_mark ec_render_mark(const ec_render_state *r) { return (ec_mark){ec_render_samples_done(r), ec_now() - r->render_start}; }
 
-/* Of a pixel that goes into the film as the first batch is given up; of one whose error is looked at, until that is known. */
+/* Seconds a pixel: for adding it to the film as the first batch is given up; for looking at its error, until that time is known. */
 #define BEGUN_SECONDS 30e-9
 #define LOOK_SECONDS 30e-9
 
-/* Seconds from a stop to the end of the render: a first batch goes into the film as far as it is there, others are given up; and then the film's
- * error is looked at, if it has changed since. */
+/* Returns the seconds from a stop to the end of the render: a first batch is added to the film as far as it is there, others are given up; then the
+ * film's error is looked at, if it has changed since. */
 static double closing_seconds(const ec_render_state *r, uint32_t done)
 {
     if (r->past.next == 0) return BEGUN_SECONDS * done;
@@ -30,7 +30,7 @@ static double closing_seconds(const ec_render_state *r, uint32_t done)
     return r->look_seconds > 0 ? r->look_seconds : LOOK_SECONDS * ec_render_film_pixels(r);
 }
 
-/* The film has it before anybody looks at its error. */
+/* Foretells rare light, once, before anybody looks at the film's error. */
 static ec_result foretell(ec_render_state *r, ec_error *err)
 {
     if (r->is_foretold) return EC_OK;
@@ -38,7 +38,7 @@ static ec_result foretell(ec_render_state *r, ec_error *err)
     return ec_film_set_rare(r->film, &r->rare, err);
 }
 
-/* As the first batch of a large picture goes, its place in the film is made: in large steps, since the threads that do it spin for a while after each. */
+/* Makes room in the film while the first batch of a large picture is rendered, in large steps, since the threads that do it spin for a while after each. */
 static void make_room(ec_render_state *r, uint32_t done)
 {
     enum { STEP = 1 << 20 };
@@ -65,18 +65,19 @@ static bool goes_on(void *user, uint32_t done)
     double now = ec_now(), share = (double)r->under_way / ec_render_film_pixels(r);
     bool out_of_time = r->options->time_limit > 0.0 && now - r->render_start + closing_seconds(r, done) > r->options->time_limit;
     bool go_on = now - r->last_report < 0.1 || ec_render_tell(r, r->samples_before_it + share);
-    if ((!out_of_time && go_on) || (r->order.light == EC_LIGHT_ALONE && r->order.index < r->replicates)) return true; /* without these no replicate is whole */
+    if ((!out_of_time && go_on) || (r->order.light == EC_LIGHT_ALONE && r->order.index < r->replicates)) return true; /* without these no replicate is
+                                                                                                                       * whole */
     r->stopped_by = go_on ? "time" : "user";
     return false;
 }
 
-/* Up to which batch a source may look ahead: what comes after the pilot of an adaptive render, and each pass then, depends on the film. */
+/* Returns up to which batch a source may look ahead: what comes after the pilot of an adaptive render, and then each pass, depends on the film. */
 static uint32_t known_end(const ec_render_state *r)
 {
     const uint32_t next = r->past.next;
     uint32_t end = next < r->end ? r->end : next + 1;
     if (r->film->light || r->past.allotment.weight || r->film->layers.count || r->film->layers.mattes) return next + 1;
-    if (ec_render_wants_sets(r) && end > r->film->feature_end) end = r->film->feature_end; /* those after it bring no features */
+    if (ec_render_wants_sets(r) && end > r->film->feature_end) end = r->film->feature_end; /* batches after it bring no features */
     while (r->options->adaptive && !r->past.allotted && end > next + 1 && ec_schedule_has_pilot(r->replicates, end - 1)) {
         const uint32_t pilot = (uint32_t)ec_schedule_round(r->replicates, next);
         if (ec_schedule_has_pilot(r->replicates, pilot) || pilot >= end) return pilot < end ? pilot : end;
@@ -94,27 +95,27 @@ static ec_result make_room_for_layers(ec_render_state *r, ec_error *err)
     return r->layers && r->layer ? EC_OK : ec_fail(err, "out of memory for %u layers; ask for fewer, or for a smaller --size", r->film->layers.count);
 }
 
-/* How many pixels a batch that was under way goes on from: whole rows of tiles (batch_source.h), since a wave may have ended within one. */
+/* Returns how many pixels of a batch under way are taken over: whole rows of tiles (batch_source.h), since a wave may have ended within one. */
 static uint32_t gone_on_from(const ec_render_state *r)
 {
     const uint32_t row = EC_TILE_ROWS * r->film->width, done = r->past.under_way < r->order.count ? r->past.under_way : 0;
     return r->order.list ? done : done - done % row;
 }
 
-/* No look at the error falls in between. Limits of time are the order's. */
+/* Returns how many batches from `index` on are wanted without a look at the error in between. Limits of time are part of the order. */
 static uint32_t whole_from(const void *user, uint32_t index)
 {
     const ec_render_state *r = user;
     return r->options->error_target > 0.0 ? (uint32_t)(ec_schedule_round(r->replicates, index) - index) : UINT32_MAX;
 }
 
-/* Samples left in all of what a number of them allows. */
+/* Returns the samples left in all where their number is limited. */
 static double samples_left(const ec_render_state *r)
 {
     return r->goal.samples > 0 ? r->goal.samples * ec_render_film_pixels(r) - (double)r->past.samples : INFINITY;
 }
 
-/* The pixels that the next batch is for: all, or the allotment's; and waves until they are done or *complete is false. */
+/* Orders the next batch, for all pixels or those of the allotment, and runs waves until they are done or *complete is false. */
 static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
 {
     ec_allotment *a = &r->past.allotment;
@@ -138,11 +139,11 @@ static ec_result run_batch(ec_render_state *r, bool *complete, ec_error *err)
     r->under_way = 0;
     ec_result result = r->source->take(r->source, &r->order, complete, err);
     if (!r->look_failed) return result;
-    if (err) *err = r->look_error; /* a device tells of a failure once */
+    if (err) *err = r->look_error; /* a device reports a failure once */
     return EC_FAILED;
 }
 
-/* Light paths fall where they will: they keep up with the batches, or with what a pixel of mean weight is due. */
+/* Returns whether light paths are due. They fall on any pixel: they keep up with the batches, or with what a pixel of mean weight is due. */
 static bool is_light_due(const ec_render_state *r)
 {
     const ec_film *light = r->film->light;
@@ -167,7 +168,7 @@ static ec_result take_light(ec_render_state *r, ec_error *err)
     return EC_OK;
 }
 
-/* Once for each state of the film. */
+/* Computes the film's error, once for each state of the film. */
 static void look_at_error(ec_render_state *r)
 {
     const double start = ec_now();
@@ -177,23 +178,25 @@ static void look_at_error(ec_render_state *r)
     r->is_looked_at = true;
 }
 
-/* Have all pixels what they are due, by the schedule or by the allotment's level? Limits of error are looked at then. */
+/* Returns whether all pixels have what they are due, by the schedule or by the allotment's level; limits of error are looked at then. */
 static bool is_round(const ec_render_state *r)
 {
-    if (r->past.allotment.weight && r->film->counts) return ec_allotment_is_even(&r->past.allotment, r->film); /* at the end of the pilot weights are there, and all have as much */
+    if (r->past.allotment.weight && r->film->counts) return ec_allotment_is_even(&r->past.allotment, r->film); /* there are weights from the end of
+                                                                                                                * the pilot on, when all pixels have
+                                                                                                                * as many samples */
     return ec_schedule_is_round(r->replicates, r->past.next);
 }
 
 static bool has_pilot(const ec_render_state *r) { return r->film->counts || ec_schedule_has_pilot(r->replicates, r->film->batch_count); }
 
-/* Samples a pixel of the next batch, as a limit of time asks. */
+/* Returns the samples a pixel of the next batch, for a limit of time. */
 static double next_samples(const ec_render_state *r)
 {
     if (r->past.allotment.weight) return 0.0;
     return (double)ec_schedule_batch(r->replicates, r->past.next).samples;
 }
 
-/* Once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
+/* Makes the allotment, once, when the pilot is over; where there is nothing to gain, sampling stays uniform. */
 static ec_result allot(ec_render_state *r, ec_error *err)
 {
     const bool is_pilot = ec_schedule_is_round(r->replicates, r->past.next) && has_pilot(r);
@@ -204,7 +207,7 @@ static ec_result allot(ec_render_state *r, ec_error *err)
     return EC_OK;
 }
 
-/* Once: why the render goes on though its samples would do. */
+/* Notes, once, why the render goes on though its samples would do. */
 static void note_withheld(ec_render_state *r, const ec_log *log)
 {
     char way[EC_RARE_WAY];
@@ -215,7 +218,7 @@ static void note_withheld(ec_render_state *r, const ec_log *log)
             r->goal.error, way);
 }
 
-/* The clean picture's error, where that is what the render goes by and a look is due. */
+/* Looks at the clean picture's error, if the render goes by that and a look is due. */
 static ec_result look_at_clean(ec_render_state *r, double samples, ec_error *err)
 {
     ec_clean_look look;
@@ -227,7 +230,7 @@ static ec_result look_at_clean(ec_render_state *r, double samples, ec_error *err
     return EC_OK;
 }
 
-/* After a batch: is it enough? */
+/* Judges after a batch whether the render has reached its end. */
 static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     const bool at_round = is_round(r);
@@ -252,7 +255,7 @@ static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
     return EC_OK;
 }
 
-/* One more for the film, or none; the batches before it stand, whatever happens. */
+/* Takes one more batch for the film, or none; the batches before it stay, whatever happens. */
 static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     bool complete;
@@ -266,12 +269,12 @@ static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err
     if (!complete || r->stopped_by) return EC_OK;
     EC_TRY(judge(r, log, err));
     if (r->stopped_by) return EC_OK;
-    const double now = ec_now(), not_asked = r->source->batches > 1 ? now - start : 0.0; /* the next one may take as long, and keeps nothing */
+    const double now = ec_now(), not_asked = r->source->batches > 1 ? now - start : 0.0; /* the next block may take as long, and keeps nothing */
     if (now + not_asked - r->kept_at >= r->course->every) ec_render_keep(r, 0);
     return EC_OK;
 }
 
-/* What was done before; perhaps that is all. */
+/* Takes up what was done before; perhaps that is all. */
 static ec_result take_up_goal(ec_render_state *r, ec_error *err)
 {
     const ec_mark at = ec_render_mark(r);
@@ -280,7 +283,7 @@ static ec_result take_up_goal(ec_render_state *r, ec_error *err)
     r->goal.slope = r->past.slope;
     r->goal.now = r->error;
     ec_goal_batch(&r->goal, at.samples, at.seconds, 0);
-    EC_TRY(allot(r, err)); /* where the pilot was the end */
+    EC_TRY(allot(r, err)); /* if the pilot was the end */
     r->stopped_by = ec_goal_met(&r->goal, at, is_round(r) && has_pilot(r), next_samples(r));
     return EC_OK;
 }

@@ -3,7 +3,7 @@
 #include "rare/paths.h"
 #include "render/render_state.h"
 
-/* By the first device that is loaded, or another one where it fails, which is out then. */
+/* Foretells on the first device that is loaded, or on another one if it fails, which is left out then. */
 static ec_result foretell(ec_render_state *r, ec_error *err)
 {
     const uint32_t count = r->sources.count;

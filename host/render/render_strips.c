@@ -1,4 +1,4 @@
-/* A render strip by strip: strips.h. */
+/* Renders strip by strip: strips.h. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,8 +8,8 @@
 #include "render/render_state.h"
 #include "render/strips.h"
 
-/* What kernels take when they first run. PoCL compiles their last part then: 13 MB for the Cornell box, 127 for all effects; where it has
- * done so before (the cache was hit), none was seen. */
+/* Returns the memory that drivers take when kernels first run. PoCL compiles their last part then: 13 MB for the Cornell box, 127 for all effects;
+ * where it has done so before (the cache was hit), none was seen. */
 static uint64_t driver_bytes(const ec_cl *cl) { return cl->cache_misses ? 144ull << 20 : 8ull << 20; }
 
 ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error *err)
@@ -35,7 +35,7 @@ ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error 
     return EC_OK;
 }
 
-/* A strip that is not complete is of no use to a picture. */
+/* Renders a strip. One that is not complete is of no use to a picture. */
 static ec_result render_strip(ec_render_state *r, uint32_t first_row, uint32_t rows, const ec_log *log, ec_error *err)
 {
     ec_render_stats told = *r->stats;
@@ -66,6 +66,6 @@ ec_result ec_render_strips(ec_render_state *r, const ec_log *log, ec_error *err)
         ec_film_destroy(r->film);
     }
     r->past.samples = r->samples_before;
-    r->error.error = r->error.error_bound = r->error.relmse = INFINITY; /* of strips, not of the picture */
+    r->error.error = r->error.error_bound = r->error.relmse = INFINITY; /* those of strips are not the picture's */
     return result;
 }

@@ -1,11 +1,11 @@
-/* What is told of a render on its way and in the end. */
+/* Reports a render's progress, and its figures in the end. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/clock.h"
 #include "render/render_state.h"
 
-/* Strips end by their samples alone. */
+/* Returns how much is done, 0 to 1. Strips end by their samples alone. */
 static double fraction_done(ec_render_state *r, ec_mark at)
 {
     if (!r->strip_rows) return ec_goal_fraction(&r->goal, at);
@@ -26,7 +26,7 @@ bool ec_render_tell(ec_render_state *r, double samples_per_pixel)
         .samples_per_pixel = (uint64_t)(r->strip_rows ? samples / ec_render_picture_pixels(r) : samples_per_pixel),
         .samples = (uint64_t)samples,
         .samples_per_second = at.seconds > 0.0 ? samples / at.seconds : 0.0,
-        .error = r->strip_rows ? INFINITY : r->error.error, /* that of a strip is not the picture's */
+        .error = r->strip_rows ? INFINITY : r->error.error, /* the error of a strip is not the picture's */
         .error_bound = r->strip_rows ? INFINITY : r->error.error_bound,
         .pilot = r->goal.pilot.pilot_samples > 0 ? &r->goal.pilot : NULL,
         .forecast = r->goal.forecast,

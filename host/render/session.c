@@ -14,11 +14,11 @@
 struct ec_session {
     ec_pipeline pipeline;
     ec_render_options options;
-    ec_insides insides;          /* what a camera can be inside of */
+    ec_insides insides;          /* the media that a camera can be inside of */
     ec_rare_lights lights;
-    ec_environment environment;  /* its turn as the scene has it; no picture */
+    ec_environment environment;  /* turned as in the scene; without texels */
     double rate;                 /* samples a second of the last waves; 0: not known */
-    float *room;                 /* for a batch, where its colours alone are wanted; and for how many pixels */
+    float *room;                 /* for a batch, where its colours alone are wanted, of room_pixels pixels */
     uint64_t room_pixels;
 };
 
@@ -132,7 +132,7 @@ static ec_result read_results(ec_session *s, ec_session_batch *batch, uint64_t p
     return ec_buffer_read(p->cl, p->buffers[EC_ARG_FEATURE_FILM], 0, pixels * 4 * EC_AOV_FIELDS, batch->features, err);
 }
 
-/* Pixels of a wave that ends within the slice. The first one finds out how fast the device is. */
+/* Returns how many pixels a wave has that ends within the slice. The first wave finds out how fast the device is. */
 static uint32_t pixels_a_wave(const ec_session *s, const ec_session_batch *batch)
 {
     uint32_t most = s->pipeline.wave / batch->samples;
@@ -149,7 +149,7 @@ static ec_result take_wave(ec_session *s, const ec_session_batch *batch, uint32_
     const uint32_t numbers = batch->replicate * params->width * params->height; /* kernels/lib/film.h */
     EC_TRY(ec_pipeline_run_wave(&s->pipeline, batch->seed, numbers + first, count, batch->features != NULL, err));
     if (batch->slice <= 0) return EC_OK;
-    EC_TRY(ec_cl_finish(s->pipeline.cl, err)); /* else the next waves would be queued before there is an answer to go_on */
+    EC_TRY(ec_cl_finish(s->pipeline.cl, err)); /* else the next waves would be queued before go_on has answered */
     double rate = (double)count * batch->samples / (ec_now() - start + 1e-9);
     s->rate = s->rate > 0 ? 0.7 * s->rate + 0.3 * rate : rate;
     return EC_OK;

@@ -8,11 +8,11 @@ ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_s
 {
     s->devices = devices;
     s->count = s->unloaded = count;
-    for (uint32_t i = 0; i < count; i++) EC_TRY(ec_pipeline_lanes(&devices[i], lanes, &stats->lanes, err)); /* before the work of what follows */
+    for (uint32_t i = 0; i < count; i++) EC_TRY(ec_pipeline_lanes(&devices[i], lanes, &stats->lanes, err)); /* checked before the work that follows */
     bool cards_alone = count > 0;
     for (uint32_t i = 0; i < count; i++) cards_alone &= !(devices[i].info.type & CL_DEVICE_TYPE_CPU);
     ec_film_beside_cards(cards_alone);
-    s->recruits = calloc(count + 1u, sizeof *s->recruits); /* there may be none, but peers */
+    s->recruits = calloc(count + 1u, sizeof *s->recruits); /* there may be no devices, but peers */
     return s->recruits ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
 }
 
@@ -26,7 +26,7 @@ ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec
     return ec_cargo_make(scene, options, batch, kinds, count == 1 && !for_all ? devices : NULL, &s->cargo, stats, err);
 }
 
-/* By the member's thread. */
+/* Loads a device, in the member's thread. */
 static ec_result load(void *user, ec_batch_source **source, ec_error *err)
 {
     ec_source_recruit *r = user;
@@ -56,7 +56,7 @@ static ec_result open_team(ec_sources *s, const ec_peers *peers, const ec_log *l
     ec_result result = ec_team_open(recruits, s->count + s->peer_members, s->cargo.head.params.width,
                                     s->cargo.head.params.height, s->cargo.head.replicates, log, &s->team, err);
     free(recruits);
-    if (result == EC_OK) ec_team_wait(s->team, s->count); /* limits of time do not count compilers */
+    if (result == EC_OK) ec_team_wait(s->team, s->count); /* limits of time do not include compiling */
     return result;
 }
 

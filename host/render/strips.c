@@ -13,7 +13,7 @@ ec_strip_need ec_strip_needs(const ec_render_options *o)
     uint32_t before;
     const uint64_t batches = o->spp ? ec_schedule_find(replicates, o->spp, &before) + 1ull : EC_FILM_FIRST;
     const uint64_t threads = (uint64_t)omp_get_max_threads(), around = EC_RESOLVE_ROWS + 2 * EC_INTERVAL_REACH;
-    const uint64_t rows = 2 * around; /* that wait: write_rows.c; a band, and what is being resolved and compressed of it: */
+    const uint64_t rows = 2 * around; /* rows that wait in write_rows.c; then a band, and what is being resolved and compressed of it: */
     const uint64_t planes = threads * 2 * 16 * (64 + 3 + 4 * EC_LAYER_PLANES * o->layers.count), coded = threads * 3 * 16 * 25 * 4, room = threads * around * sizeof(ec_pixel);
     const uint64_t first = o->slice_end ? o->slice_first : 0, end = o->slice_end ? o->slice_end : batches;
     const uint32_t sets = ec_render_feature_sets(o), all = ec_render_feature_end(o) == UINT32_MAX ? sets : 0; /* features of all batches; else of the first part */
@@ -47,7 +47,7 @@ uint32_t ec_strip_rows(const ec_render_options *o, bool shared, int64_t host, ui
     const uint64_t aside = o->width * n.column, left = host > (int64_t)aside ? (uint64_t)host - aside : 0;
     uint64_t rows = rows_in(left, o->width, n.host), other = shared ? rows : rows_in(device, o->width, n.device);
     if (other < rows) rows = other;
-    other = rows_in(largest, o->width, 32); /* first-hit features, on the device */
+    other = rows_in(largest, o->width, 32); /* 32 bytes a pixel: first-hit features, on the device */
     if (other < rows) rows = other;
     return rows >= o->height ? o->height : (uint32_t)(rows / EC_STRIP_STEP * EC_STRIP_STEP);
 }

@@ -17,7 +17,7 @@ static bool carries_on(void *user, uint32_t done)
     return carries_on;
 }
 
-/* Without the lock for as long as it takes. */
+/* Works on the member's piece, without the lock. */
 static void work_piece(member *m)
 {
     ec_team *t = m->team;
@@ -40,7 +40,7 @@ static void work_piece(member *m)
     double seconds = ec_now() - start;
     pthread_mutex_lock(&t->lock);
     ec_team_settle(m, result, complete, seconds);
-    if (m->has_failed) pthread_cond_broadcast(&t->work); /* its piece is free */
+    if (m->has_failed) pthread_cond_broadcast(&t->work); /* others may take its piece */
     pthread_cond_signal(&t->news);
 }
 
@@ -62,7 +62,7 @@ static void *work(void *user)
 
 static void wait_for_news(ec_team *t)
 {
-    const struct timespec until = ec_deadline(0.05); /* half of the time between two words of progress */
+    const struct timespec until = ec_deadline(0.05); /* half of the time between two reports of progress */
     pthread_cond_timedwait(&t->news, &t->lock, &until);
 }
 
@@ -110,7 +110,7 @@ void ec_team_leave_out(ec_team *t, uint32_t i, const ec_error *why)
     pthread_mutex_unlock(&t->lock);
 }
 
-/* Until nobody is at work. */
+/* Stops the members, and waits until none is busy. */
 static void stop(ec_team *t)
 {
     t->stops = true;
@@ -122,7 +122,7 @@ static void stop(ec_team *t)
     }
 }
 
-/* The unit that is ordered: one that was begun ahead, or a new one. */
+/* Returns the unit that is ordered: one that was begun ahead, or a new one. */
 static slot *open_ordered(ec_team *t, const ec_batch_order *order)
 {
     if (t->is_out) t->next++;
@@ -145,7 +145,7 @@ static slot *open_ordered(ec_team *t, const ec_batch_order *order)
     return &t->slots[t->next % t->room];
 }
 
-/* Whole. */
+/* Hands out a unit that is whole. */
 static void hand_out(ec_team *t, slot *s)
 {
     for (int i = 0; i < EC_STAGE_COUNT; i++) t->base.invalid[i] += s->invalid[i];
@@ -188,7 +188,7 @@ static ec_result take_unit(ec_batch_source *source, const ec_batch_order *order,
     return result;
 }
 
-/* A block that is ordered is made of smaller ones, so that all have something to do even where its positions are few. */
+/* Takes an order. A block is made of smaller ones, so that all members have something to do even if its positions are few. */
 static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool *complete, ec_error *err)
 {
     const ec_fold_parts parts = {.batches = ec_fold_step(order->batches), .take = take_unit};
@@ -196,7 +196,7 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
     return ec_fold_block(source, order, ((ec_team *)source)->replicates, &parts, &source->invalid[EC_STAGE_ACCUMULATE], complete, err);
 }
 
-/* What members have done is there already. */
+/* Nothing to do: what members have done is there already. */
 static ec_result look(ec_batch_source *source, const ec_batch_order *order, ec_error *err)
 {
     (void)source, (void)order, (void)err;

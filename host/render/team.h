@@ -20,23 +20,23 @@
 
 #include "device/batch_source.h"
 
-#define EC_TEAM_ROOM ((uint64_t)1 << 29)  /* bytes */
-#define EC_TEAM_PIECE ((uint64_t)1 << 25) /* of a block's, or one wave */
-#define EC_TEAM_PIECE_SECONDS 1.0         /* at most, but for a wave */
-#define EC_TEAM_PATIENCE_SECONDS 3.0      /* with a block, or … */
+#define EC_TEAM_ROOM ((uint64_t)1 << 29)  /* most bytes of open units, unless two need more */
+#define EC_TEAM_PIECE ((uint64_t)1 << 25) /* bytes of a block's piece, unless it is one wave */
+#define EC_TEAM_PIECE_SECONDS 1.0         /* at most, unless it is one wave */
+#define EC_TEAM_PATIENCE_SECONDS 3.0      /* seconds that a block may take, or … */
 #define EC_TEAM_PATIENCE_SHARE 0.01       /* … of the time so far */
 
-/* How many units of so many bytes a pixel a team of so many may have open; and bytes for them, with so many sets of features, where some of its pieces come
- * from afar. */
+/* Return how many units of so many bytes a pixel a team may have open; and the bytes for them, with so many sets of features, if some of its pieces
+ * come from afar. */
 uint32_t ec_team_window(uint32_t members, uint64_t pixels, uint64_t bytes);
 uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, uint32_t sets, bool from_afar);
 
 typedef struct ec_team_recruit {
     const char *name;                 /* for messages */
-    /* Called by the member's thread. *source is closed by the team, on failure too if it is not NULL. */
+    /* Called in the member's thread. The team closes *source, even on failure if it is not NULL. */
     ec_result (*open)(void *user, ec_batch_source **source, ec_error *err);
     void *user;
-    uint32_t processes;               /* that it stands for, beside this one: then its pieces come from afar */
+    uint32_t processes;               /* other processes that it stands for: its pieces come from afar then */
 } ec_team_recruit;
 
 typedef struct ec_team ec_team;
@@ -44,16 +44,16 @@ typedef struct ec_team ec_team;
 /* Starts the threads. log gets a warning for each member that fails while there are others. */
 ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height,
                        uint32_t replicates, const ec_log *log, ec_team **team, ec_error *err);
-/* The member has failed at something else, while nothing was ordered: the next take tells of it. */
+/* Leaves out a member that has failed at something else, while nothing was ordered: the next take reports it. */
 void ec_team_leave_out(ec_team *team, uint32_t member, const ec_error *why);
-/* Has it been loaded, and not failed since? waits: until that is known. */
+/* Returns whether a member has been loaded, and has not failed since. waits: waits until that is known. */
 bool ec_team_is_ready(ec_team *team, uint32_t member, bool waits);
-/* Until one of the first so many members is ready, or all of these have failed. */
+/* Waits until one of the first `count` members is ready, or all of these have failed. */
 void ec_team_wait(ec_team *team, uint32_t count);
-/* What to take batches from. Takes fail once all members have. Closing it ends the threads, each after the wave that it is in. */
+/* Returns the source to take batches from. Takes fail once all members have. Closing it ends the threads, each after the wave that it is in. */
 ec_batch_source *ec_team_source(ec_team *team);
 
-/* Samples in pieces that member i has finished; may it still take more? */
+/* Returns the samples in pieces that member i has finished; *has_failed: it takes no more. */
 double ec_team_share(const ec_team *team, uint32_t i, bool *has_failed);
 
 void ec_team_free(ec_team *team); /* closes it if need be; NULL is fine */

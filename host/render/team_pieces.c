@@ -1,4 +1,4 @@
-/* Batches and blocks that are open, and their pieces. */
+/* Open batches and blocks, and their pieces. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +35,7 @@ double ec_team_samples(const ec_team *t, const slot *s)
     return (double)(ec_schedule_samples(t->replicates, s->index + s->batches) - ec_schedule_samples(t->replicates, s->index)) - s->cut;
 }
 
-/* Samples a second of all members but this one, NULL: of all; 0 where one's pace is not known. */
+/* Returns the samples a second of all members, without one if that is not NULL; 0 if the pace of any is not known. */
 static double rate_without(const ec_team *t, const member *without)
 {
     double rate = 0;
@@ -48,14 +48,14 @@ static double rate_without(const ec_team *t, const member *without)
     return rate;
 }
 
-/* Seconds that all take for so many samples of every pixel; 0 where one's pace is not known. */
+/* Returns the seconds that all members take for so many samples of every pixel; 0 if the pace of any is not known. */
 static double seconds_for(const ec_team *t, double samples)
 {
     const double rate = rate_without(t, NULL);
     return rate > 0 ? (double)t->pixels * samples / rate : 0;
 }
 
-/* The smallest piece that is worth its launches takes so long with whoever is slowest at it. */
+/* Returns how long the smallest piece that is worth its launches takes the member that is slowest at it. */
 static double least_seconds(const ec_team *t, double samples)
 {
     double most = 0;
@@ -66,7 +66,8 @@ static double least_seconds(const ec_team *t, double samples)
     return most;
 }
 
-/* Is a block over soon, its last piece included? And is there enough for all to do until the end beside its pieces? */
+/* Returns whether a block is over soon, including its last piece, and whether there is enough left for all members to do until the end beside its
+ * pieces. */
 static bool is_soon(const ec_team *t, uint32_t index, uint32_t batches)
 {
     const slot block = {.index = index, .batches = batches}, rest = {.index = index, .batches = t->end - index};
@@ -75,7 +76,7 @@ static bool is_soon(const ec_team *t, uint32_t index, uint32_t batches)
     return unit > 0 && over <= t->patience && ec_now() + over <= t->until && 2 * least <= seconds_for(t, ec_team_samples(t, &rest));
 }
 
-/* How many batches from `index` on are the next unit. */
+/* Returns how many batches from `index` on make the next unit. */
 static uint32_t unit_from(const ec_team *t, uint32_t index)
 {
     if (!t->sends || !t->whole) return 1;
@@ -98,7 +99,7 @@ void ec_team_free_units(ec_team *t)
     for (uint32_t i = t->opened; i < t->next + t->room; i++) free_unit(&t->slots[i % t->room]);
 }
 
-/* The memory that it takes, of batches that of one before it. */
+/* Allocates a unit's memory; for batches it takes that of an earlier one. */
 static bool make_room(ec_team *t, slot *s)
 {
     if (s->batches <= 1) {
@@ -152,7 +153,7 @@ static bool has_room(const ec_team *t, uint32_t batches)
     return t->opened - t->next < (bytes <= EC_TEAM_ROOM ? t->room : 2);
 }
 
-/* One that will be ordered, before it is. */
+/* Opens a unit that will be ordered, ahead of its order. */
 static bool open_ahead(ec_team *t)
 {
     if (t->opened == t->next || t->from >= t->end) return false;
@@ -174,7 +175,7 @@ static uint32_t piece_of(const member *m, const slot *s)
     return size > 0.75 * left ? left : (uint32_t)size;
 }
 
-/* A piece that a failed member left behind. */
+/* Takes over a piece that a failed member left behind. */
 static bool take_over(member *m, slot *s)
 {
     for (uint32_t i = 0; i < m->team->count; i++) {
@@ -187,8 +188,8 @@ static bool take_over(member *m, slot *s)
     return false;
 }
 
-/* Would the others do all that may be open before this member were done with its smallest piece? Then they would only wait for it. A wave
- * takes it no longer than its last piece did, where waves cost what their launches do: so it is asked again as batches grow. */
+/* Returns whether the others would do all that may be open before this member were done with its smallest piece: they would only wait for it. A wave
+ * takes it no longer than its last piece did, where waves cost what their launches do, so it is asked again as batches grow. */
 static bool holds_up(const member *m, const slot *s)
 {
     const ec_team *t = m->team;
@@ -210,7 +211,7 @@ bool ec_team_find_piece(member *m)
     return open_ahead(t) && ec_team_find_piece(m);
 }
 
-/* What was given up: of a piece of a first batch the rows that were reached are of use. */
+/* Gives up a piece: if it is of a first batch, the rows that were reached are of use. */
 static void give_up(member *m)
 {
     slot *s = m->slot;
@@ -226,7 +227,7 @@ void ec_team_settle(member *m, ec_result result, bool complete, double seconds)
     const double samples = (m->end - m->first) * ec_team_samples(t, s);
     m->is_busy = false;
     m->has_failed = result != EC_OK;
-    if (m->has_failed) return; /* the piece stays for others */
+    if (m->has_failed) return; /* others take over the piece */
     t->rays += m->source->rays - m->rays;
     if (!complete) give_up(m);
     for (int i = 0; complete && i < EC_STAGE_COUNT; i++) s->invalid[i] += m->source->invalid[i] - m->invalid[i];
@@ -234,7 +235,7 @@ void ec_team_settle(member *m, ec_result result, bool complete, double seconds)
     if (s->light == EC_LIGHT_ALONE) return;
     if (complete) m->samples += samples;
     m->seconds = fmax(seconds, 1e-6);
-    if (m->pieces++) m->rate = samples / m->seconds; /* compilers slow the first down */
+    if (m->pieces++) m->rate = samples / m->seconds; /* the first piece is slowed down by compilers */
 }
 
 uint32_t ec_team_done(const ec_team *t, const slot *s)

@@ -7,7 +7,7 @@
 #include "report/names.h"
 #include "report/settings.h"
 
-/* What is said of digests, which nobody wants to read. In the order of ec_content_id. */
+/* Names of digests for messages, in the order of ec_content_id. */
 static const char *const contents[EC_CONTENT_COUNT] = {"camera", "geometry", "materials", "textures", "lights", "environment",
                                                        "settings", "kernels"};
 
@@ -22,7 +22,8 @@ __attribute__((format(printf, 3, 4))) static void add(ec_identity *identity, con
     va_end(args);
 }
 
-/* What the scene's data call for, not what was asked for: where nothing is rough, or no lights lie apart, it is all the same. */
+/* Returns a setting by what the scene's data call for, not by what was asked for: where nothing is rough, or no lights lie apart, it makes no
+ * difference. */
 static const char *name_by_content(const char *option, uint64_t called)
 {
     if (!strcmp(option, "scattering"))
@@ -66,7 +67,7 @@ static bool is_scene(const char *name)
     return false;
 }
 
-/* "the scene's camera and geometry": all that differ. */
+/* Lists all that differs in the scene: "the scene's camera and geometry". */
 static void describe_scene(const ec_identity *there, const ec_identity *here, char *text, size_t size)
 {
     snprintf(text, size, "not the same are the scene's");

@@ -1,4 +1,4 @@
-/* What makes a job the same job: all that its samples depend on, in words. */
+/* The identity of a job: all that its samples depend on, in words. */
 #ifndef EC_STORE_IDENTITY_H
 #define EC_STORE_IDENTITY_H
 
@@ -18,16 +18,16 @@ typedef struct ec_identity {
     uint32_t count;
 } ec_identity;
 
-/* content may be NULL: then what only the device's data tell is left out. */
+/* Fills in an identity. content may be NULL: then what depends on the device's data is left out. */
 void ec_identity_of(const ec_render_options *options, const ec_content *content, ec_identity *identity);
 
-/* One more; of a long value the beginning. */
+/* Adds a trait; long values are cut. */
 void ec_identity_add(ec_identity *identity, const char *name, const char *value);
 
-/* The value of a trait, or NULL. */
+/* Returns the value of a trait, or NULL. */
 const char *ec_identity_value(const ec_identity *identity, const char *name);
 
-/* The first difference that matters, such as "--seed is 1 there and 0 here"; false where there is none. */
+/* Writes the first difference that matters, such as "--seed is 1 there and 0 here"; returns false if there is none. */
 bool ec_identity_differs(const ec_identity *there, const ec_identity *here, char *text, size_t size);
 
 #endif

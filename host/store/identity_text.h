@@ -5,6 +5,6 @@
 #include "store/identity.h"
 
 char *ec_identity_write(const ec_identity *identity); /* malloc'ed; NULL when out of memory */
-bool ec_identity_read(const char *text, ec_identity *identity); /* false: it is none */
+bool ec_identity_read(const char *text, ec_identity *identity); /* false: it is not an identity */
 
 #endif

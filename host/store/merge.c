@@ -8,7 +8,7 @@
 typedef struct place {
     char *path;
     uint32_t first;
-    int given; /* which of the files it was */
+    int given; /* its place among the files as given */
 } place;
 
 static int compare_places(const void *a, const void *b)
@@ -25,7 +25,7 @@ ec_result ec_merge_sort(char **paths, int count, ec_error *err)
     for (int i = 0; i < count; i++) {
         ec_stored stored;
         places[i] = (place){.path = paths[i], .given = i};
-        (void)ec_store_peek(paths[i], &stored, &places[i].first); /* who reads it says why not */
+        (void)ec_store_peek(paths[i], &stored, &places[i].first); /* reading it will say why not */
         ec_stored_free(&stored);
     }
     qsort(places, (size_t)count, sizeof *places, compare_places);
@@ -59,7 +59,7 @@ static unsigned long long samples_before(const ec_film *film, uint64_t batch)
     return ec_schedule_samples(film->replicates, (uint32_t)batch);
 }
 
-/* From the first to the last batch that it has in common with one other file. */
+/* Fails if the film has batches that another file has; names those from the first to the last that it shares with one such file. */
 static ec_result check_ranges(const ec_merge *merge, const ec_film *film, const char *path, ec_error *err)
 {
     uint64_t from = UINT64_MAX, to = 0;
@@ -80,7 +80,7 @@ static ec_result check_ranges(const ec_merge *merge, const ec_film *film, const 
                    samples_before(film, from), samples_before(film, to));
 }
 
-/* The end of a job within a batch is the end of the picture too. */
+/* Fails if batches follow the end of a job within a batch, which is the end of the picture too. */
 static ec_result check_end(const ec_merge *merge, const ec_film *next, const char *path, ec_error *err)
 {
     const ec_film *all = &merge->all.film, *ended = all->cut ? all : next;
@@ -122,7 +122,7 @@ ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec
         result = note_ranges(merge, &next.film, path, err);
         if (result != EC_OK) goto cleanup;
         merge->first_path = path;
-        next.past.under_way = 0; /* no part of the picture */
+        next.past.under_way = 0; /* part of a batch is of no use to the picture */
         merge->all = next;
         return EC_OK;
     }
@@ -147,7 +147,7 @@ __attribute__((format(printf, 3, 4))) static void append(char *text, size_t size
     va_end(args);
 }
 
-enum { FOR_THE_REST = 80 }; /* bytes: of one range, and how many more there are */
+enum { FOR_THE_REST = 80 }; /* bytes for one range, and for how many more there are */
 
 bool ec_merge_missing(const ec_merge *merge, char *text, size_t size)
 {

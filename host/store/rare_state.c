@@ -6,7 +6,7 @@
 
 static const char list[] = "rarePaths";
 
-/* Two digits a tile. */
+/* Adds a kind; its tiles take two hexadecimal digits each. */
 static void add_kind(cJSON *array, const ec_rare_kind *kind)
 {
     char share[2 * EC_RARE_SHARES + 1];

@@ -9,7 +9,7 @@
 
 void ec_rare_state_add(cJSON *state, const ec_rare *rare); /* NULL: none */
 
-/* False where it is not as it was written. */
+/* Returns false if it is not as it was written. */
 bool ec_rare_state_read(const cJSON *state, ec_rare *rare);
 
 #endif

@@ -9,7 +9,7 @@
 
 enum { CHANNELS_MOST = EC_SUM_CHANNELS }; /* EC_BATCH_CHANNELS are fewer */
 
-/* The channels as they are written are also where they are read to: the memory is the film's own. */
+/* Reads a part. Channels describe where values are written from, and so also where they are read to: the memory is the film's own. */
 static ec_result fill(ec_exr_file *file, const char *part, const ec_channel *channels, uint32_t count, ec_error *err)
 {
     ec_exr_room rooms[CHANNELS_MOST];
@@ -23,18 +23,19 @@ static ec_result no_memory(const char *path, ec_error *err)
     return ec_fail(err, "cannot read '%s': its film does not fit into memory", path);
 }
 
-/* Sums and features are averages of finite floats (film/sums.h sees to it); tails are sums of what is 0 to 1, of so many samples. */
+/* Checks sums from a file. Sums and features are averages of finite floats (film/sums.h sees to it); tails are sums of numbers from 0 to 1, of so
+ * many samples. */
 static ec_result check_sums(const char *path, const ec_sums *sums, uint64_t pixels, ec_error *err)
 {
     bool all = true;
-    for (uint64_t i = 0; i < 3ull * sums->replicates * pixels; i++) all &= fabsf(sums->mean[i]) <= FLT_MAX; /* NaN is not */
+    for (uint64_t i = 0; i < 3ull * sums->replicates * pixels; i++) all &= fabsf(sums->mean[i]) <= FLT_MAX; /* false for NaN */
     for (uint64_t i = 0; i < EC_FILM_FEATURES * sums->sets * pixels; i++) all &= fabsf(sums->features[i]) <= FLT_MAX;
     for (uint64_t i = 0; i < 3 * pixels; i++) all &= sums->tail[i] >= 0 && sums->tail[i] <= FLT_MAX;
     if (all) return EC_OK;
     return ec_fail(err, "cannot read '%s': sums in it are none of any samples; take an older file or render it again", path);
 }
 
-/* `first`: of a film that wants features from there on they come along, if the file has them; else *features stays NULL. */
+/* Reads a batch. Features come along if the film wants them of batches from `first` on and the file has them; else *features stays NULL. */
 static ec_result read_batch(ec_exr_file *file, const char *path, const char *part, const ec_film *film, uint64_t first, float **batch, float **features,
                             ec_error *err)
 {

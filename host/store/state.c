@@ -36,7 +36,7 @@ static void add_job(cJSON *state, const ec_job *job)
     cJSON_AddBoolToObject(state, "merged", job->merged);
 }
 
-/* A deviation of 0: there is none yet. */
+/* Writes the slope. A deviation of 0 means that there is none yet. */
 static void add_slope(cJSON *state, const ec_slope *s)
 {
     cJSON_AddNumberToObject(state, "slope", s->value);
@@ -106,7 +106,7 @@ char *ec_state_write(const ec_job *job, const ec_film *film, const ec_past *past
     return text;
 }
 
-/* Reading: whatever is missing or of the wrong kind is noted, and reading goes on. */
+/* Reading notes whatever is missing or of the wrong kind, and goes on. */
 typedef struct reader {
     const cJSON *state;
     bool is_wrong;
@@ -183,7 +183,7 @@ static void read_job(reader *r, ec_job *job)
     job->merged = flag(r, "merged");
 }
 
-/* Numbers of any sign, EC_SLOPE_ROUNDS at most; how many there are. */
+/* Reads numbers of any sign, at most EC_SLOPE_ROUNDS; returns how many there are. */
 static uint32_t reals(reader *r, const char *name, double *values)
 {
     const cJSON *item, *array = cJSON_GetObjectItemCaseSensitive(r->state, name);

@@ -9,7 +9,7 @@ typedef struct sum_part {
     ec_channel channels[EC_SUM_CHANNELS];
 } sum_part;
 
-/* Sums hardly get smaller by compression, which would cost more time than the disk. */
+/* Makes the part of some sums. They hardly get smaller by compression, which would cost more time than the disk. */
 static ec_exr_part make_part(sum_part *room, uint32_t layer, uint32_t index, const ec_film *film)
 {
     uint32_t count;
@@ -22,7 +22,7 @@ static ec_exr_part make_part(sum_part *room, uint32_t layer, uint32_t index, con
 ec_result ec_store_write(const char *path, const ec_job *job, const ec_film *film, const ec_past *past,
                          const ec_exr_part *picture, ec_error *err)
 {
-    const uint32_t own = film->part_count * (1 + film->layers.count); /* layers have their batches when the picture has them */
+    const uint32_t own = film->part_count * (1 + film->layers.count); /* layers have batches whenever the picture has them */
     const uint32_t sums = own + (film->light ? film->light->part_count : 0);
     uint32_t count = 1 + sums;
     const ec_channel weight = {"weight", past->allotment.weight, 1, EC_CHANNEL_FLOAT};

@@ -29,7 +29,7 @@ EC_FN v3 blinn_phong_eval(const bsdf *b, lane_i mirrors, v3 wi)
     v3 h = v3_scale(sum, 1.0f / length);
     v3 fresnel = bsdf_fresnel(b, min(length * 0.5f, F(1.0f)), &rest);
     lane_f n = 2.0f / (HAS(ANISOTROPY) ? b->facets.alpha2 * b->facets.stretch : b->facets.alpha2) - 2.0f;
-    /* cos^n by the sine too, which has the digits in narrow lobes. */
+    /* The logarithm takes the sine too, which keeps the digits of narrow lobes. */
     lane_f log_cosine = 0.5f * log_unit(h.z * h.z, fma(h.x, h.x, h.y * h.y));
     lane_f lobe = (n + 8.0f) * (0.125f * EC_INV_PI) * exp_negative(n * log_cosine);
     lane_f diffuse = bsdf_rest_scattered(b, rest) * bsdf_scatters_back(b) * EC_INV_PI;
@@ -37,7 +37,7 @@ EC_FN v3 blinn_phong_eval(const bsdf *b, lane_i mirrors, v3 wi)
     return v3_select(above, v3_scale(f, wi.z), v3_zero());
 }
 
-/* What it makes of light that is the same from everywhere; the rest is seen by rays. */
+/* Returns the reflectance for light that is the same from all directions. Rays follow what is mirrored or passes, which is left out. */
 EC_FN v3 blinn_phong_albedo(const bsdf *b, lane_i mirrors)
 {
     if (!HAS(SPECULAR)) return b->base;

@@ -1,5 +1,5 @@
-/* One ray against eight triangles at a time, SIMD inside the ray: what every accelerator that sends one ray a work-item is made
- * of. Programs that include this are built with LANES 8, whatever width the paths have. */
+/* Tests one ray against eight triangles at a time, with SIMD inside the ray. Every accelerator that traces one ray per work-item builds on it.
+ * Programs that include this are built with LANES 8, whatever width the paths have. */
 #ifndef EC_LIB_BLOCK8_H
 #define EC_LIB_BLOCK8_H
 
@@ -13,7 +13,7 @@
 #endif
 
 typedef struct ray8 {
-    ray r;                                            /* splat */
+    ray r;                                            /* one ray in all lanes */
     uint near_x, near_y, near_z, far_x, far_y, far_z; /* where rows of ec_bvh8_node.bound begin, in bytes */
     uint octant;                                      /* for ec_bvh8_node.order */
     float8 near_offset_x, near_offset_y, near_offset_z, far_offset_x, far_offset_y, far_offset_z;
@@ -27,7 +27,7 @@ typedef struct hit8 {
     TALLIES
 } hit8;
 
-/* Where rows of nodes begin, from q->r.inverse. */
+/* Sets the row offsets and the octant from the signs of q->r.inverse. */
 EC_INLINED void ray8_rows(ray8 *q)
 {
     uint x = q->r.inverse.x.s0 < 0.0f, y = q->r.inverse.y.s0 < 0.0f, z = q->r.inverse.z.s0 < 0.0f;
@@ -40,7 +40,7 @@ EC_INLINED void ray8_rows(ray8 *q)
     q->far_z = q->near_z ^ 32u;
 }
 
-/* Fills in the rest from q->r. */
+/* Fills in the other fields of *q from q->r. */
 EC_INLINED void ray8_signs(ray8 *q)
 {
     ray8_rows(q);
@@ -66,7 +66,7 @@ EC_INLINED ray8 ray8_make(float ox, float oy, float oz, float dx, float dy, floa
     return q;
 }
 
-/* Which of eight triangles the ray passes inside and meets before h->t. *close: for edges_settle. */
+/* Returns a mask of the triangles that the ray passes inside of and meets before h->t. *close: those that edges_settle must decide. */
 EC_INLINED int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint skip1, const hit8 *h, int8 *close, float8 *t,
                            float8 *inverse)
 {
@@ -76,8 +76,8 @@ EC_INLINED int8 eight_meet(const ray8 *q, edges *e, uint8 id, uint skip0, uint s
     return edges_distance(&q->r, e, m & (id != skip0) & (id != skip1), (float8)(h->t), close, inverse, t);
 }
 
-/* Keeps the best of them, by (t, triangle id), if it is better than *h. lo, hi: the triangles' boxes. any_hit: only whether
- * there is one. */
+/* Updates *h with the best of the triangles m, by (t, triangle id), if it is better. lo, hi: the triangles' boxes. any_hit: only records that there
+ * is a hit. */
 EC_INLINED void eight_take(const ray8 *q, const hit_filter *filter, const edges *e, int8 m, uint8 id, float8 t, float8 inverse,
                            v3 lo, v3 hi, bool any_hit, hit8 *h)
 {
@@ -115,14 +115,14 @@ EC_INLINED v3 tri8_sheared(const ray8 *q, global const ec_tri8 *b, uint k)
     global const float8 *v = (global const float8 *)b->v[k];
     return ray8_shear(q, v[q->axis_x], v[q->axis_y], v[q->axis_z]);
 }
-/* Reads the corner again: nothing of it is to be kept in a register by those who seldom need it. */
+/* Reads the corner again (volatile), so that callers that seldom need it keep no registers for it. */
 EC_INLINED v3 tri8_sheared_again(const ray8 *q, global const ec_tri8 *b, uint k)
 {
     volatile global const float8 *v = (volatile global const float8 *)b->v[k];
     return ray8_shear(q, v[q->axis_x], v[q->axis_y], v[q->axis_z]);
 }
 
-/* Boxes of eight references: their own, or without those (`boxes` NULL) what the vertices span. */
+/* Returns the boxes of eight references: their own or, if `boxes` is NULL, those of the vertices. */
 EC_INLINED void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxes, v3 *lo, v3 *hi)
 {
     if (boxes) {
@@ -136,7 +136,7 @@ EC_INLINED void block8_boxes(global const ec_tri8 *b, global const ec_box8 *boxe
     *hi = v3_make(max(v0.x, max(v1.x, v2.x)), max(v0.y, max(v1.y, v2.y)), max(v0.z, max(v1.z, v2.z)));
 }
 
-/* Eight triangles by their corners in the world. flat: those of which rounding may have left nothing that has a normal. */
+/* Tests eight triangles given by their corners in the world. flat: those that rounding may have flattened, so that they have no normal. */
 EC_INLINED void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v3 p1, v3 p2, v3 lo, v3 hi, int8 flat,
                                uint8 id, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
@@ -154,7 +154,7 @@ EC_INLINED void block8_corners(const ray8 *q, const hit_filter *filter, v3 p0, v
     eight_take(q, filter, &e, m, id, t, inverse, lo, hi, any_hit, h);
 }
 
-/* Does any of them move? */
+/* Returns whether any of the triangles moves. */
 EC_INLINED bool block8_moves(const hit_filter *filter, uint8 id)
 {
     return HAS(MOTION) && filter->g.motion && mask_bits8(motion_moves(filter->g.motion, id));
@@ -169,7 +169,7 @@ EC_INLINED void block8_moving(const ray8 *q, const hit_filter *filter, v3 p0, v3
     block8_corners(q, filter, p0, p1, p2, lo, hi, moves, id, skip0, skip1, any_hit, h);
 }
 
-/* A block of up to eight triangles that lie side by side. boxes: NULL where they are whole. */
+/* Tests a block of up to eight triangles. boxes: NULL if no triangle was split. */
 EC_INLINED void block8_triangles(const ray8 *q, const hit_filter *filter, global const ec_tri8 *b, global const ec_box8 *boxes,
                                   uint skip0, uint skip1, bool any_hit, hit8 *h)
 {

@@ -1,7 +1,6 @@
-/* Bodies in bodies: a liquid in a glass, ice in it, bubbles of air. Of those that a point is in, one displaces the others, and a wall
- * bends light by the indices of what is on its two sides: nested dielectrics (Schmidt and Budge 2002, "Simple nested dielectrics in
- * ray traced images"). glTF has no priorities, so that of less volume wins: what is put in displaces what holds it
- * (host/pack/bodies.h). A wall within a body that displaces its own is not there.
+/* Bodies in bodies: a liquid in a glass, ice in it, bubbles of air. Of the bodies that contain a point, one displaces the others, and a wall refracts by the
+ * indices on its two sides: nested dielectrics (Schmidt and Budge 2002, "Simple nested dielectrics in ray traced images"). glTF has no priorities, so the
+ * body of least volume wins: contents displace their container (host/pack/bodies.h). A wall inside a body that displaces its own does not exist.
  *
  * A set of bodies is a word with a bit for each material, that of the least volume lowest. */
 #ifndef EC_LIB_BODIES_H
@@ -9,7 +8,7 @@
 
 #include "geometry.h"
 
-/* First word of the material that fills the place, EC_NO_ID for air. */
+/* Returns the first word of the material that fills the place, or EC_NO_ID for air. */
 EC_FN lane_u bodies_material(const geometry *g, lane_u bodies)
 {
     lane_i inside = bodies != 0u;

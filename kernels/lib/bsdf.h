@@ -3,14 +3,13 @@
  *
  *   f = metallic F_m D V + (1 - metallic) (F_d D V + (1 - max F_d) ((1 - transmission) diffuse / pi + transmission base T))
  *
- * diffuse: base on wo's side, on the other the colour of diffuse transmission, in the shares 1 - t and t.
- * From inside a body that is clear in part the base lies before the face that reflects: transmission (F D V + (1 - F) base T) +
- * (1 - transmission) diffuse / pi, or light that is reflected totally again and again would be scattered each time besides.
- * Under a thin film (iridescence.h) both F are the film's. D, V: of GGX microfacets (ggx.h). T passes light on: through a thin wall by the same
- * lobe mirrored, into a body by the microfacet BTDF of Walter et al. 2007, eq. 21, between basic radiances L / n^2 (Nicodemus
- * 1963), so that no factor n^2 comes and goes with each body. A smooth surface has one direction of reflection and one of
- * transmission: bsdf_eval leaves those out, since nothing but bsdf_sample finds them.
- * Directions are local (z = ns) and point away from the surface. Values include |cos wi|; pdfs are per solid angle. */
+ * diffuse: base on wo's side, on the other the colour of diffuse transmission, in the shares 1 - t and t. From inside a body that is clear in part
+ * the base lies before the face that reflects: transmission (F D V + (1 - F) base T) + (1 - transmission) diffuse / pi, otherwise light that is
+ * totally reflected again and again would also be scattered each time. Under a thin film (iridescence.h) both F are the film's. D, V: of GGX
+ * microfacets (ggx.h). T passes light on: through a thin wall by the same lobe mirrored, into a body by the microfacet BTDF of Walter et al. 2007,
+ * eq. 21, between basic radiances L / n^2 (Nicodemus 1963), so that no factor n^2 comes and goes with each body. A smooth surface has one
+ * direction of reflection and one of transmission: bsdf_eval leaves those out, since nothing but bsdf_sample finds them. Directions are local (z =
+ * ns) and point away from the surface. Values include |cos wi|; pdfs are per solid angle. */
 #ifndef EC_LIB_BSDF_H
 #define EC_LIB_BSDF_H
 
@@ -23,14 +22,14 @@ typedef struct bsdf_direction {
     lane_f pdf; /* 0: no direction; < 0: the only one of its kind, which no other strategy finds */
 } bsdf_direction;
 
-/* The mirrored or the passing direction at a sampled microfacet; u in [0, 1] chooses. The weight is a smooth surface's. */
+/* Samples the reflected or the transmitted direction at a sampled microfacet; u in [0, 1] chooses which. The weight is that of a smooth surface. */
 EC_FN bsdf_direction bsdf_sample_specular(const bsdf *b, lane_f cosine, lane_f sine, lane_f u2, lane_f u)
 {
     bsdf_direction r;
     v3 m = ggx_sample(&b->facets, b->wo, cosine, sine, u2);
     lane_f om = v3_dot(b->wo, m);
     r.wi = v3_fma(m, 2.0f * om, v3_negate(b->wo));
-    if (HAS(DIFFUSE_TRANSMISSION)) r.wi.z = max(r.wi.z, F(0.0f)); /* mirrored onto the other side: not what is transmitted diffusely */
+    if (HAS(DIFFUSE_TRANSMISSION)) r.wi.z = max(r.wi.z, F(0.0f)); /* reflected below the surface: not to be taken for diffuse transmission */
     r.pdf = F(1.0f);
     r.weight = v3_zero();
     bool any_smooth = HAS(SMOOTH) && any_lane(b->facets.smooth);
@@ -45,13 +44,13 @@ EC_FN bsdf_direction bsdf_sample_specular(const bsdf *b, lane_f cosine, lane_f s
         r.wi = v3_select(passes, below, r.wi);
         v3 passed = v3_scale(b->base, rest * b->transmission / (p_pass * b->p_specular));
         r.weight = v3_select(passes, passed, r.weight);
-        /* Off a tilted microfacet onto the wrong side: no direction, nor in the densities. */
+        /* A tilted microfacet may lead to the wrong side: no direction, and no part of the densities. */
         r.wi.z = (passes ? r.wi.z < 0.0f : r.wi.z > 0.0f) ? r.wi.z : F(0.0f);
     }
     return r;
 }
 
-/* What knows nothing of the material: uniform over the hemisphere about ns, or the sphere where light passes. */
+/* Samples without regard to the material: uniformly over the hemisphere about ns, or over the sphere where light passes. */
 EC_FN v3 blind_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f *pdf)
 {
     lane_f cosine, sine = sincos_2pi(u1, &cosine), z = u2;
@@ -65,7 +64,7 @@ EC_FN v3 blind_sample(const bsdf *b, lane_f u1, lane_f u2, lane_f *pdf)
     return v3_make(r * cosine, r * sine, z);
 }
 
-/* Probability that no single direction is sampled. */
+/* Returns the probability that no single direction is sampled. */
 EC_FN lane_f bsdf_p_spread(const bsdf *b)
 {
     if (!HAS(SMOOTH)) return F(1.0f);
@@ -77,8 +76,8 @@ EC_FN lane_f bsdf_p_spread(const bsdf *b)
     return p;
 }
 
-/* A direction from (u1, u2), where u2 chooses the lobe and goes on; u_pass: does it pass, where that is for the facet to say? blind: uniform,
- * but for what a smooth surface mirrors or lets pass. given: on these lanes the direction is wi, with the BSDF's density. */
+/* Samples a direction from u1 and `number`, which first chooses the lobe. u_pass chooses between reflection and transmission at a microfacet. blind:
+ * uniform, except for what a smooth surface mirrors or lets pass. given: on these lanes the direction is wi, with the BSDF's density. */
 EC_FN bsdf_direction bsdf_sample_or(const bsdf *b, bool blind, lane_f u1, chooser number, lane_f u_pass, lane_i given, v3 wi)
 {
     bsdf_direction r;
@@ -96,7 +95,7 @@ EC_FN bsdf_direction bsdf_sample_or(const bsdf *b, bool blind, lane_f u1, choose
         left = left & !by_##layer;                       \
     }
     LAYERS_DOWN(BSDF_CHOOSE)
-    if (may_again) { /* of smooth surfaces its p is 0 */
+    if (may_again) { /* p is 0 for smooth surfaces */
         again = choose(&number, left, b->again.p);
         if (HAS(TRANSMISSION)) again_below = choose(&number, again, b->again.p_below);
         left = left & !again;

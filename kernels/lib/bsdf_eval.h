@@ -4,7 +4,7 @@
 
 #include "bsdf_lobes.h"
 
-/* What passes, for wi below the surface of a rough one. */
+/* Evaluates the transmission of a rough surface, for wi below it. */
 EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
 {
     lane_f no = b->wo.z, ni = -wi.z;
@@ -26,7 +26,7 @@ EC_FN v3 bsdf_eval_below(const bsdf *b, v3 wi, lane_f *pdf)
     return v3_select(valid, v3_scale(b->base, f), v3_zero());
 }
 
-/* What is scattered through, for wi below the surface; as if it came to the side of wo, by the same layering. */
+/* Evaluates diffuse transmission, for wi below the surface, with the same layering as for light that comes out on wo's side. */
 EC_FN v3 bsdf_eval_diffuse_transmission(const bsdf *b, v3 wi, lane_f *pdf)
 {
     v3 sum = v3_add(b->wo, v3_make(wi.x, wi.y, -wi.z));
@@ -36,7 +36,7 @@ EC_FN v3 bsdf_eval_diffuse_transmission(const bsdf *b, v3 wi, lane_f *pdf)
     return v3_scale(b->transmission_color, bsdf_rest_scattered(b, rest) * (1.0f - b->transmission) * b->diffuse_transmission * spread);
 }
 
-/* The surface without the layers over it. */
+/* Evaluates the surface without the layers over it. */
 EC_FN v3 bsdf_eval_base(const bsdf *b, v3 wi, lane_f *pdf)
 {
     lane_f no = b->wo.z, ni = wi.z;
@@ -103,7 +103,7 @@ EC_FN v3 bsdf_eval(const bsdf *b, v3 wi, lane_f *pdf)
     return f;
 }
 
-/* What passes a smooth surface in its single direction, wi_z along ns, of light that comes along wo. */
+/* Returns what passes a smooth surface in its single direction, whose component along ns is wi_z, for light along wo. */
 EC_FN v3 bsdf_passing(const bsdf *b, lane_f wi_z)
 {
     lane_f rest;
@@ -115,7 +115,7 @@ EC_FN v3 bsdf_passing(const bsdf *b, lane_f wi_z)
     return v3_scale(b->base, rest * b->transmission);
 }
 
-/* Does it send light in single directions only? */
+/* Returns the lanes whose BSDF has single directions only. */
 EC_FN lane_i bsdf_is_single(const bsdf *b)
 {
     lane_i single = b->facets.smooth & (b->p_specular == 1.0f);

@@ -14,22 +14,22 @@ typedef struct bsdf {
     v3 base, f0;
     lane_f f90, metallic;
     ggx facets;
-    lane_f p_specular;   /* probability of sampling what mirrors or passes, not the diffuse lobe */
+    lane_f p_specular;   /* probability of sampling the specular lobe (reflection, transmission), not the diffuse one */
     lane_f transmission, eta;
     lane_i refracts;
-    lane_i base_first;   /* light gets to the base before the face that reflects */
-    lane_f diffuse_transmission;        /* share of what is scattered diffusely that comes out on the other side */
-    v3 transmission_color;           /* with this colour */
-    lane_f p_below;      /* probability of that side, for the diffuse lobe */
+    lane_i base_first;   /* light reaches the base before the face that reflects: from inside a body */
+    lane_f diffuse_transmission;        /* share of diffusely scattered light that comes out on the other side */
+    v3 transmission_color;           /* its colour */
+    lane_f p_below;      /* probability that the diffuse lobe samples the other side */
     thin_film film;
-    multiscatter again;  /* what facets scatter more than once */
+    multiscatter again;  /* light that facets scatter more than once */
 #define BSDF_LAYER(feature, layer) layer layer;
     LAYERS_UP(BSDF_LAYER)
     coat coat;
 } bsdf;
 
-/* What a microfacet does with light, for the cosine between its normal and wo: reflectance, and the share of the rest that
- * goes to the base (diffusely, or passes). */
+/* Returns the reflectance of a microfacet, for the cosine between its normal and wo. *rest: the share of light that goes on to the base, to be
+ * scattered diffusely or to pass. */
 EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *rest)
 {
     lane_f metal_rise = pow5(1.0f - cosine);
@@ -54,8 +54,8 @@ EC_FN v3 bsdf_fresnel(const bsdf *b, lane_f cosine, lane_f *rest)
     return v3_fma(v3_sub(metal, dielectric), b->metallic, dielectric);
 }
 
-/* Probabilities that a microfacet seen at this cosine is sampled for reflection and for transmission. The second is not 1 less
- * the first: little passes at grazing angles, and nothing would be left of its digits. */
+/* Returns the probability that a microfacet is sampled for reflection; *p_pass: for transmission. *p_pass is not computed as 1 minus the other:
+ * little passes at grazing angles, and nothing would be left of its digits. */
 EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest, lane_f *p_pass)
 {
     lane_f reflected = luminance(reflectance), passed = rest * b->transmission * luminance(b->base), sum = reflected + passed;
@@ -63,23 +63,24 @@ EC_FN lane_f bsdf_p_reflect(const bsdf *b, v3 reflectance, lane_f rest, lane_f *
     return sum > 0.0f ? reflected / sum : F(1.0f);
 }
 
-/* Share of the light that goes to the base which could be scattered there; rest: as bsdf_fresnel has it. */
+/* Returns the share of light that reaches the base and may be scattered there; rest: from bsdf_fresnel. */
 EC_FN lane_f bsdf_rest_scattered(const bsdf *b, lane_f rest)
 {
     return HAS(TRANSMISSION) ? (b->base_first ? 1.0f - b->metallic : rest) : rest;
 }
 
-/* Share of the base's light that it scatters back to this side. */
+/* Returns the share of the light at the base that is scattered back to wo's side. */
 EC_FN lane_f bsdf_scatters_back(const bsdf *b)
 {
     lane_f share = 1.0f - b->transmission;
     return HAS(DIFFUSE_TRANSMISSION) ? share * (1.0f - b->diffuse_transmission) : share;
 }
 
-/* A film, and a reflectance under its index's own, may lose less than glass does as such: it is given its part of that. */
+/* Makes the lobe of multiple scattering; albedo: about what single scattering reflects. Glass with a film, or with a reflectance below that of its
+ * index, may lose less than plain glass does, and is given a smaller share in proportion. */
 EC_FN multiscatter bsdf_scatter_again(const bsdf *b, lane_f albedo)
 {
-    lane_i none = b->facets.smooth; /* stretched lobes lose otherwise, by the azimuth too, and scatter once */
+    lane_i none = b->facets.smooth; /* stretched lobes lose differently, and by azimuth too: they scatter once */
     if (HAS(ANISOTROPY)) none = none | (b->facets.stretch != 1.0f);
     lane_f cosine = min(max(b->wo.z, F(0.0f)), F(1.0f)), metallic = none ? F(0.0f) : b->metallic, glass = F(0.0f);
     if (HAS(TRANSMISSION)) {
@@ -93,7 +94,7 @@ EC_FN multiscatter bsdf_scatter_again(const bsdf *b, lane_f albedo)
     return m;
 }
 
-/* multiple: do facets scatter more than once (MULTISCATTER)? */
+/* multiple: adds light that facets scatter more than once (MULTISCATTER). */
 EC_FN bsdf bsdf_make(const surface *s, v3 wo_local, bool multiple)
 {
     bsdf b;
@@ -123,8 +124,8 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local, bool multiple)
             b.p_below = under > 0.0f ? (back > 0.0f ? min(max(under / scattered, F(0.1f)), F(0.9f)) : F(1.0f)) : F(0.0f);
         }
         lane_f diffuse = bsdf_rest_scattered(&b, rest) * scattered;
-        lane_f most = (1.0f - b.metallic) * (1.0f - min(v3_max_component(b.f0), F(1.0f))) * scattered; /* diffuse, head-on */
-        lane_i filmed = HAS(IRIDESCENCE) ? b.film.weight > 0.0f : !TRUE_MASK; /* which may reflect all or nothing at any angle */
+        lane_f most = (1.0f - b.metallic) * (1.0f - min(v3_max_component(b.f0), F(1.0f))) * scattered; /* of the diffuse lobe, head-on */
+        lane_i filmed = HAS(IRIDESCENCE) ? b.film.weight > 0.0f : !TRUE_MASK; /* a film may reflect all or nothing at any angle */
         most = (filmed | b.base_first) ? (1.0f - b.metallic) * scattered : most;
         if (HAS(TRANSMISSION)) {
             specular = fma(passed, b.transmission, specular);
@@ -133,8 +134,8 @@ EC_FN bsdf bsdf_make(const surface *s, v3 wo_local, bool multiple)
         }
         sum = specular + diffuse;
         b.p_specular = sum > 0.0f ? specular / sum : F(0.0f);
-        /* A lobe that matters at other angles must not starve. What is left for the base goes by the half vector's angle: there may
-         * be some where by wo's own there is none, beyond the critical angle or for rounding. Nothing but a film reflects less than head-on. */
+        /* Keeps both lobes sampled, since each may matter at other angles. Values take Fresnel at the half vector, so the base may get light where
+         * none is left at wo's own angle, beyond the critical angle or by rounding. Only a film reflects less than head-on. */
         b.p_specular = (((b.p_specular > 0.0f) | filmed) & (most > 0.0f)) ? min(max(b.p_specular, F(0.1f)), F(0.9f)) : b.p_specular;
         if (HAS(MULTISCATTER)) b.again.p = F(0.0f);
         if (HAS(MULTISCATTER) && multiple) {

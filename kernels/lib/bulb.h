@@ -1,7 +1,7 @@
-/* Bulbs: lamps of one body that the light tree takes together where they are far away (host/pack/bulbs.c). Then the lamp is chosen by its power and by
- * whether it faces the point (lamp_pairs.h), which costs less than the way down to a leaf of many. A bulb's record, in words from a node of the tree
- * on: its first lamp's place in the table, how many they are, of each of them in turn the first of 2^32 numbers that choose it, and as
- * many guides (distribution.h). */
+/* Bulbs: groups of lamps of one body that the light tree treats as one where they are far away (host/pack/bulbs.c). A lamp of the bulb is then chosen
+ * by its power and by whether it faces the point (lamp_pairs.h), which is cheaper than a descent to a leaf of many. A bulb's record starts at a node
+ * of the tree and holds, in words: the index of its first lamp in the table of lights, the number of lamps, for each lamp the first of the 2^32
+ * numbers that choose it, and as many guides (distribution.h). */
 #ifndef EC_LIB_BULB_H
 #define EC_LIB_BULB_H
 
@@ -11,11 +11,11 @@
 typedef struct bulb {
     global const uint *words;
     lane_u at, first, count;
-    lane_u all;   /* numbers there are for it: 2^30 at least, so that each lamp has its own */
-    lane_u shift; /* 2^shift times as many as the tree had for it */
+    lane_u all;   /* how many numbers choose the bulb: at least 2^30, so that each lamp has some */
+    lane_u shift; /* log2 of `all` over the numbers that the tree gave it */
 } bulb;
 
-/* The bulb of a link, for which the tree has so many numbers. */
+/* Reads the bulb that `link` leads to; all: how many numbers the tree gives it. */
 EC_FN bulb bulb_at(global const float *tree, lane_i m, lane_u link, lane_u all)
 {
     lane_u shift = m ? max(clz(all), U(1)) - 1u : U(0);
@@ -25,10 +25,10 @@ EC_FN bulb bulb_at(global const float *tree, lane_i m, lane_u link, lane_u all)
     return b;
 }
 
-/* The share that one of its numbers is of one of the tree's. */
+/* Returns 2^-shift: one of the bulb's numbers over one of the tree's. */
 EC_FN lane_f bulb_unit(const bulb *b) { return as_lane_f((127u - b->shift) << 23u); }
 
-/* Where the numbers of its lamp k begin; those of the last one end with all. */
+/* Returns the first number of lamp k; `all` after the last lamp. */
 EC_FN lane_u bulb_edge(const bulb *b, lane_u k)
 {
     lane_i is_end = k >= b->count;
@@ -36,7 +36,8 @@ EC_FN lane_u bulb_edge(const bulb *b, lane_u k)
     return is_end ? b->all : edge;
 }
 
-/* Lamp k has the numbers from *low to *high for p: its own, its pair's, or none. Returns the lamp that has them, k or its partner. */
+/* Sets *low … *high - 1 to the numbers of lamp k for p, which are those of its pair if only one of the two faces p. Returns the lamp that they
+ * choose: k or its partner. */
 EC_FN lane_u bulb_faces(const bulb *b, const lights *l, lane_i m, v3 p, lane_u k, lane_u *low, lane_u *high)
 {
     light_record one = light_load(l, m ? b->first + k : U(0));
@@ -53,10 +54,10 @@ EC_FN lane_u bulb_faces(const bulb *b, const lights *l, lane_i m, v3 p, lane_u k
     return (alone & !own) ? partner : k;
 }
 
-/* The lamp that number `rest` chooses for p; the numbers that do so are *low … *high - 1. */
+/* Returns the lamp that number `rest` chooses for p; the numbers that do so are *low … *high - 1. */
 EC_FN lane_u bulb_choose(const bulb *b, const lights *l, lane_i m, v3 p, lane_u rest, lane_u *low, lane_u *high)
 {
-    /* The guide of the bucket that `rest` falls into bounds the bisection. Floats may miss the bucket by one, so its neighbours' guides do. */
+    /* The guides of the neighbouring buckets bound the bisection, since floats may miss the bucket of `rest` by one. */
     lane_u end = b->count - 1u, guides = b->at + 2u + b->count;
     lane_u bucket = int_to_lane_u(to_lane_i(to_lane_f(rest) / to_lane_f(b->all) * to_lane_f(b->count)));
     lane_u last = gather_u(b->words, guides + min(bucket + 1u, end));
@@ -70,7 +71,7 @@ EC_FN lane_u bulb_choose(const bulb *b, const lights *l, lane_i m, v3 p, lane_u 
     return b->first + bulb_faces(b, l, m, p, k, low, high);
 }
 
-/* How many of all numbers choose the lamp at this place for p. */
+/* Returns how many of the bulb's numbers choose, for p, the lamp at index `place` of the table. */
 EC_FN lane_u bulb_numbers(const bulb *b, const lights *l, lane_i m, v3 p, lane_u place)
 {
     lane_u low, high, k = m ? place - b->first : U(0), chosen = bulb_faces(b, l, m, p, k, &low, &high);

@@ -1,4 +1,4 @@
-/* Where in the picture a sample lies. */
+/* Places a sample in the picture. */
 #ifndef EC_LIB_CAMERA_H
 #define EC_LIB_CAMERA_H
 
@@ -6,8 +6,8 @@
 #include "pixel_filter.h"
 #include "sampler.h"
 
-/* Pixel (x, y), counted from the top left, and the sample's place in the picture: sx, sy in [-1, 1], sy up, unless
- * a screen window shows another part; a filter wider than a pixel reaches beyond the edges. filter: pixel_filter.h. */
+/* Sets the pixel (*x, *y), counted from the top left, and the sample's place in the picture: *sx, *sy in [-1, 1], *sy up, unless a screen window
+ * shows another part; a filter wider than a pixel reaches beyond the edges. Returns the sampler. filter: table of pixel_filter.h, or NULL. */
 EC_FN sampler camera_sample(constant ec_params *params, uint seed, uint first_pixel, global const uint *pixel_list,
                             global const float *filter, lane_u slot, lane_u *x, lane_u *y, lane_f *sx, lane_f *sy)
 {

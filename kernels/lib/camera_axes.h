@@ -1,4 +1,4 @@
-/* Where the camera stands and what it sees: fixed, or at the paths' time. */
+/* The camera's position and axes: fixed, or interpolated at the paths' times. */
 #ifndef EC_LIB_CAMERA_AXES_H
 #define EC_LIB_CAMERA_AXES_H
 
@@ -18,7 +18,7 @@ EC_FN camera_axes camera_axes_make(constant ec_params *params)
     return v;
 }
 
-/* keys: EC_CAMERA_VECTORS fours of words each, the keys of a vector side by side. */
+/* Interpolates a vector between its keys. keys: for each of EC_CAMERA_VECTORS vectors its keys side by side, four words each. */
 EC_FN v3 axes_between(global const float *keys, uint segments, uint vector, moment t)
 {
     lane_u at = (t.key + vector * (segments + 1u)) * 4u;

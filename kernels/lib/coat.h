@@ -3,7 +3,7 @@
  *
  *   f = (1 - s) base + s D V,   s = weight (0.04 + 0.96 (1 - n . wo)^5)
  *
- * and so of light that the surface under it gives off. Light that comes back is not dimmed again: energy is kept, but f(wo, wi) is not f(wi, wo). */
+ * The same factor dims what the surface under it emits. Light is not dimmed again on its way back: energy is kept, but f(wo, wi) is not f(wi, wo). */
 #ifndef EC_LIB_COAT_H
 #define EC_LIB_COAT_H
 
@@ -12,7 +12,7 @@
 #include "surface.h"
 
 typedef struct coat {
-    lane_f share; /* s: of the light that goes along wo, what the coat reflects */
+    lane_f share; /* s: reflectance of the coat along wo, times its weight */
     lane_f p;     /* probability of sampling it */
     ggx facets;
     v3 s, t, n;   /* its frame, local to the surface's */
@@ -30,8 +30,8 @@ EC_FN lane_f coat_reflectance(lane_f cosine)
     return fma(pow5(1.0f - min(max(cosine, F(0.0f)), F(1.0f))), F(0.96f), F(0.04f));
 }
 
-/* Light that the surface at h gives off towards wo, after its coat: the coat lies over emission too. For paths that meet a lamp and for
- * points chosen on one alike. Bodies of glass have no coat inside, also where a texture says that nothing passes. */
+/* Returns what the surface at h emits towards wo, dimmed by its coat. Paths that meet a lamp and light samples on one both go by this. Bodies of
+ * glass have no coat on the inside, even where a texture says that nothing passes. */
 EC_FN v3 coat_emission(const geometry *g, const hit_point *h, lane_i m, v3 wo, v3 emission)
 {
     if (!HAS(CLEARCOAT)) return emission;
@@ -46,7 +46,7 @@ EC_FN v3 coat_emission(const geometry *g, const hit_point *h, lane_i m, v3 wo, v
     return v3_select(m, v3_scale(emission, 1.0f - share), emission);
 }
 
-/* albedo: about what the surface under it reflects. */
+/* albedo: approximate albedo of the surface under the coat. */
 EC_FN coat coat_make(const surface *s, v3 wo, lane_f albedo)
 {
     coat c;
@@ -61,12 +61,12 @@ EC_FN coat coat_make(const surface *s, v3 wo, lane_f albedo)
     c.wo = coat_local(&c, wo);
     c.share = s->coat * coat_reflectance(c.wo.z);
     lane_f under = (1.0f - c.share) * albedo;
-    /* Never all: what the surface under it does at other angles must not be left out. */
+    /* At most 0.9: the surface under the coat may matter at other angles. */
     c.p = c.share > 0.0f ? min(c.share / (c.share + under), F(0.9f)) : F(0.0f);
     return c;
 }
 
-/* Lays the coat over f |cos wi| and the density of the surface. */
+/* Lays the coat over *f (f |cos wi|) and *pdf of the surface under it. */
 EC_FN void coat_over(const coat *c, v3 wi_local, v3 *f, lane_f *pdf)
 {
     lane_i coated = c->share > 0.0f;
@@ -80,12 +80,12 @@ EC_FN void coat_over(const coat *c, v3 wi_local, v3 *f, lane_f *pdf)
     *pdf = fma(1.0f - c->p, *pdf, density);
 }
 
-/* A direction mirrored in one of its facets, local to the surface. */
+/* Samples a direction mirrored at one of the coat's facets, local to the surface. */
 EC_FN v3 coat_sample(const coat *c, lane_f cosine, lane_f sine, lane_f u2)
 {
     v3 m = ggx_sample(&c->facets, c->wo, cosine, sine, u2), wi = v3_fma(m, 2.0f * v3_dot(c->wo, m), v3_negate(c->wo));
     v3 local_wi = v3_fma(c->n, wi.z, v3_fma(c->t, wi.y, v3_scale(c->s, wi.x)));
-    local_wi.z = wi.z > 0.0f ? max(local_wi.z, F(0.0f)) : F(0.0f); /* onto the wrong side of either: no direction */
+    local_wi.z = wi.z > 0.0f ? max(local_wi.z, F(0.0f)) : F(0.0f); /* below the coat or the surface: no direction */
     return local_wi;
 }
 

@@ -1,10 +1,10 @@
-/* Which of several faces in one plane a ray meets. Where they lie on one another their distances differ by rounding alone, ray by ray, and
- * so would the answer: a speckle. The host has found them (host/pack/coplanar.c), and the answer is therefore changed, once it is known
- * and for every accelerator alike: to the first of them that faces the ray, or else to the first that does not. The host's order is
- * that of those with a coverage, of opaque ones, of those that let light pass, and in each the file's.
+/* Decides which of several coplanar faces a ray meets. Where faces lie on one another, their distances differ by rounding alone, and the closest
+ * would change from ray to ray: a speckle. The host has found such faces (host/pack/coplanar.c). Once the closest hit is known, it is replaced, alike
+ * for every accelerator, by the first of them that faces the ray, or else by the first that does not. In the host's order come faces with a coverage,
+ * then opaque ones, then those that let light pass; within each, the file's order.
  *
- * The table has for each triangle the word where its list begins, or 0; there two numbers, and so many triangles: first all that face the
- * other way, of which a ray that meets this one from behind meets the front, then those that face as it does and come before it. */
+ * The table has, for each triangle, the word where its list begins, or 0. A list has two counts, `opposite` and `alike`, and as many triangles: first all
+ * that face the other way, which a ray that meets this one from behind meets from the front, then those that face the same way and come before it. */
 #ifndef EC_LIB_COPLANAR_H
 #define EC_LIB_COPLANAR_H
 
@@ -13,7 +13,7 @@
 
 #define HAS_COPLANAR (HAS(COPLANAR) && coplanar != 0)
 
-/* A triangle's edge functions along a ray. */
+/* Returns the edge functions of triangle prim along a ray. */
 EC_FN edges coplanar_edges(const hit_filter *f, const ray *r, lane_u prim)
 {
     lane_i placed, turned = !TRUE_MASK;
@@ -26,7 +26,7 @@ EC_FN edges coplanar_edges(const hit_filter *f, const ray *r, lane_u prim)
     return edges_make(ray_vertex(r, p0), ray_vertex(r, p1), ray_vertex(r, p2));
 }
 
-/* The triangle that a ray meets where it has met `prim` (lanes m), but for `skip`; the barycentrics become those there. */
+/* Returns the triangle, other than `skip`, that counts as met where the ray has met `prim` (lanes m); *b1, *b2 become its barycentrics. */
 EC_CALLED lane_u coplanar_first(global const uint *table, const hit_filter *f, const ray *r, lane_i m, lane_u prim, lane_u skip, lane_f *b1, lane_f *b2)
 {
     lane_u at = gather_u(table, m ? prim : U(0));
@@ -55,7 +55,7 @@ EC_CALLED lane_u coplanar_first(global const uint *table, const hit_filter *f, c
     }
 }
 
-/* Does another face hide that which a ray ends on? Off lanes may have any target. */
+/* Returns the lanes of m on which another face hides `target`, the triangle that the ray ends on. Other lanes may have any target. */
 EC_FN lane_i coplanar_hides(global const uint *table, const hit_filter *f, const ray *r, lane_i m, lane_u target, lane_u skip)
 {
     lane_f b1, b2;

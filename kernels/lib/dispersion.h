@@ -1,20 +1,20 @@
-/* Glass that parts colours (KHR_materials_dispersion). Red, green and blue have an index each, by the first two terms of Cauchy's formula
- * at the lines C, d and F (656.3, 587.6, 486.1 nm), where n_F - n_C = (n_d - 1) / V and the Abbe number V is 20 / dispersion. A path that
- * meets such glass goes on in one of them, chosen by its share of what the path carries, and stands for their sum from then on. */
+/* Dispersion in glass (KHR_materials_dispersion). Red, green and blue have an index each, by the first two terms of Cauchy's formula at the lines C,
+ * d and F (656.3, 587.6, 486.1 nm), where n_F - n_C = (n_d - 1) / V and the Abbe number V is 20 / dispersion. A path that meets such glass goes on in
+ * one channel, chosen by its share of the throughput, and carries the sum of all three in it from then on. */
 #ifndef EC_LIB_DISPERSION_H
 #define EC_LIB_DISPERSION_H
 
 #include "choice.h"
 #include "surface.h"
 
-/* channel: 0, 1, 2. (1 / l^2 - 1 / l_d^2) / (1 / l_F^2 - 1 / l_C^2) says where between the lines. */
+/* Returns the index of channel 0, 1 or 2. place: (1 / l^2 - 1 / l_d^2) / (1 / l_F^2 - 1 / l_C^2) for the channel's line l. */
 EC_FN lane_f dispersed_index(lane_f ior, lane_f dispersion, lane_i channel)
 {
     lane_f place = channel == 0 ? F(-0.300782194f) : (channel == 1 ? F(0.0f) : F(0.699217806f));
     return max(fma((ior - 1.0f) * 0.05f * dispersion, place, ior), F(1.0f));
 }
 
-/* One channel of beta, with the weight of all. Never one that is 0. *u chooses, and becomes what is left of it in that channel's share. */
+/* Chooses a channel of beta by *u, never one that is 0, and returns it. *left: that channel, with the sum of all. *u is rescaled to be reused. */
 EC_FN lane_i dispersion_choose(v3 beta, lane_f *u, v3 *left)
 {
     lane_f sum = beta.x + beta.y + beta.z, at = *u * sum;
@@ -26,7 +26,7 @@ EC_FN lane_i dispersion_choose(v3 beta, lane_f *u, v3 *left)
     return red ? I(0) : (green ? I(1) : I(2));
 }
 
-/* Gives the surface the index of one channel, and beta only that. *u chooses where there is such glass, and goes on. */
+/* Sets the surface's index to that of one channel, and *beta to that channel, where there is such glass. *u chooses there, and is rescaled to be reused. */
 EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f *u, surface *s, v3 *beta)
 {
     quad q = material_quad(g, h, EC_WORD_ior);
@@ -36,7 +36,7 @@ EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f *u, 
     lane_f rest = *u, ior = dispersed_index(q.a, q.b, dispersion_choose(*beta, &rest, &left));
     *u = m ? rest : *u;
     lane_f r = (ior - 1.0f) * (q.a + 1.0f) / ((ior + 1.0f) * (q.a - 1.0f)), eta = s->front ? ior : 1.0f / ior;
-    if (HAS(NESTED)) { /* against what is on the other side, whose index is that of all colours */
+    if (HAS(NESTED)) { /* relative to the medium on the other side, whose index is the same for all channels */
         lane_i nested = s->head_on < 1.0f;
         lane_f between = s->eta * (s->front ? ior / q.a : q.a / ior), r_between = (between - 1.0f) / (between + 1.0f);
         lane_f r_all = (s->eta - 1.0f) / (s->eta + 1.0f);
@@ -47,7 +47,7 @@ EC_FN void disperse(const geometry *g, const hit_point *h, lane_i m, lane_f *u, 
     }
     *beta = v3_select(m, left, *beta);
     s->eta = m ? eta : s->eta;
-    /* A colour of the reflectance that is cut at f90 stays cut. */
+    /* Channels of f0 that are limited to f90 stay so. */
     v3 f0 = v3_scale(s->f0, r * r);
     s->f0 = v3_select(m, v3_make(min(f0.x, s->f90), min(f0.y, s->f90), min(f0.z, s->f90)), s->f0);
     if (HAS(ANISOTROPY)) surface_widen(m, s);

@@ -1,12 +1,12 @@
-/* A discrete distribution by its inverse: neighbouring numbers pick neighbours, so that what is even in a sampler stays even. */
+/* Samples a discrete distribution by inversion: neighbouring numbers pick neighbouring entries, so that evenly spread samples stay so. */
 #ifndef EC_LIB_DISTRIBUTION_H
 #define EC_LIB_DISTRIBUTION_H
 
 #include "../shared/scene_buffers.h"
 #include "choice.h"
 
-/* Which of the n entries from table[at] on the number r picks; its share of the 32-bit numbers begins at *first, and has *share of them, or
- * all 2^32 if that is 0. The guide bounds a bisection, of few steps unless shares differ a lot. */
+/* Returns which of the n entries from table[at] on the number r picks. The entry's share of the 32-bit numbers begins at *first and has *share of
+ * them (0: all 2^32). The guide bounds a bisection, which takes few steps unless shares differ a lot. */
 EC_FN lane_u distribution_pick(global const uint *table, lane_u at, uint n, lane_u r, lane_u *first, lane_u *share)
 {
     lane_u bucket = mul_hi(r, U(n));
@@ -26,7 +26,7 @@ EC_FN lane_u distribution_pick(global const uint *table, lane_u at, uint n, lane
     return low;
 }
 
-/* distribution_pick for a short table without empty entries: looks at one after the other, without a gather. */
+/* Like distribution_pick, for a short table without empty entries: searches it in order, without gathers. */
 EC_FN lane_u distribution_pick_few(global const uint *table, uint n, lane_u r, lane_u *first, lane_u *share)
 {
     lane_u entry = U(0), next = U(n > 1u ? table[2] : 0u);
@@ -42,7 +42,7 @@ EC_FN lane_u distribution_pick_few(global const uint *table, uint n, lane_u r, l
     return entry;
 }
 
-/* Likewise, and what is left of r: where in that share it lies, in [0, 1). */
+/* Like distribution_pick; *left: where r lies in the entry's share, in [0, 1). */
 EC_FN lane_u distribution_sample(global const uint *table, lane_u at, uint n, lane_u r, lane_f *left)
 {
     lane_u first, share, entry = distribution_pick(table, at, n, r, &first, &share);

@@ -47,11 +47,11 @@ EC_FN lane_f exp_negative(lane_f x)
     return n < -126.0f ? F(0.0f) : p * scale;
 }
 
-/* ln x for x in (0, 1], whose complement y = 1 - x is known too, and has the digits where x is near 1: exponent and mantissa m in
- * [sqrt 1/2, sqrt 2), of which ln m = 2 atanh((m - 1) / (m + 1)) by its series; error below 4 ulps. Denormals count as 2^-126. */
+/* Returns ln x for x in (0, 1]. Its complement y = 1 - x has the digits where x is near 1. Splits x into exponent and mantissa m in [sqrt 1/2,
+ * sqrt 2), with ln m = 2 atanh((m - 1) / (m + 1)) by its series; error below 4 ulps. Denormals count as 2^-126. */
 EC_FN lane_f log_unit(lane_f x, lane_f y)
 {
-    lane_u bits = as_lane_u(max(x, F(1.17549435e-38f))) - 0x3f3504f3u; /* sqrt 1/2: what is under it goes to the exponent */
+    lane_u bits = as_lane_u(max(x, F(1.17549435e-38f))) - 0x3f3504f3u; /* less the bits of sqrt 1/2, where m begins */
     lane_i power = uint_to_lane_i(bits) >> 23;
     lane_f m = as_lane_f((bits & 0x007fffffu) + 0x3f3504f3u);
     lane_f s = (power == 0 ? -y : m - 1.0f) / (m + 1.0f), s2 = s * s;
@@ -61,8 +61,8 @@ EC_FN lane_f log_unit(lane_f x, lane_f y)
     return fma(int_to_lane_f(power), F(0.693147181f), fma(p * s2, s, 2.0f * s));
 }
 
-/* atan2 / (2 pi) in [-0.5, 0.5]; (0, 0) gives 0. atan t on [0, 1] as t + t^3 q(t^2), error below 2.5e-8 of it before rounding; turns,
- * since quarters and halves of them are exact. */
+/* Returns atan2(y, x) / (2 pi) in [-0.5, 0.5]; 0 for (0, 0). atan t on [0, 1] is t + t^3 q(t^2), with a relative error below 2.5e-8 before rounding.
+ * The unit is a turn, since quarters and halves of it are exact. */
 EC_FN lane_f atan2_over_2pi(lane_f y, lane_f x)
 {
     lane_f ax = fabs(x), ay = fabs(y);

@@ -13,7 +13,7 @@ typedef struct environment {
     global const uint *table;   /* ec_distribution_entry by word: of the rows of patches, then of each row's patches */
 } environment;
 
-/* The map may stand turned: directions of the scene in its own frame, and back. */
+/* Turns a direction of the scene into the frame of the map, which may be rotated; environment_from_map turns it back. */
 EC_FN v3 environment_to_map(const environment *e, v3 d)
 {
     constant float *r = e->params->environment_turn;
@@ -29,22 +29,22 @@ EC_FN v3 environment_from_map(const environment *e, v3 d)
                    fma(d.x, F(r[8]), fma(d.y, F(r[9]), d.z * r[10])));
 }
 
-/* v by both sides of the angle: acos(y) would have lost half the digits at the poles. */
+/* v comes from atan2: acos(y) would lose half the digits at the poles. */
 EC_FN void environment_uv(v3 d, lane_f *u, lane_f *v)
 {
     *u = 0.5f + atan2_over_2pi(d.z, d.x);
     *v = 2.0f * fabs(atan2_over_2pi(sqrt(fma(d.x, d.x, d.z * d.z)), d.y));
 }
 
-/* A rectangle between four texels' middles, or half of one between those of a first or last row and the pole. Its upper and lower edge are
- * told by the pole that is nearer: south of the equator the near one is the lower one, and small distances keep their digits. */
+/* A rectangle between the centres of four texels, or half of one between the centres of the first or last row and the pole. Its edges are named by
+ * the nearer pole: south of the equator the near edge is the lower one, and small distances keep their digits. */
 typedef struct environment_patch {
     v3 near_left, near_right, far_left, far_right;
-    lane_f scale;            /* of the density: chance of the patch over the integral of luminance times sine */
-    lane_f sin_near, sin_far; /* of the polar angle */
+    lane_f scale;            /* scale of the density: probability of the patch over the integral of luminance times sine */
+    lane_f sin_near, sin_far; /* sines of the polar angle at both edges */
 } environment_patch;
 
-/* near: how many rows its near edge lies from the pole, 0 for the row of patches at it. */
+/* near: number of rows between the pole and the near edge, 0 for patches at the pole. */
 EC_FN environment_patch environment_patch_load(const environment *e, lane_i near, lane_i south, lane_i x)
 {
     int width = (int)e->params->environment_width, height = (int)e->params->environment_height;
@@ -65,15 +65,15 @@ EC_FN environment_patch environment_patch_load(const environment *e, lane_i near
     return p;
 }
 
-/* Radiance at s from left to right and t from the near to the far edge, but for the map's factor. */
+/* Returns the radiance at s (from left to right) and t (from the near to the far edge), without the map's factor. */
 EC_FN v3 environment_patch_value(const environment_patch *p, lane_f s, lane_f t)
 {
     v3 near = v3_fma(p->near_right, s, v3_scale(p->near_left, 1.0f - s)), far = v3_fma(p->far_right, s, v3_scale(p->far_left, 1.0f - s));
     return v3_fma(far, t, v3_scale(near, 1.0f - t));
 }
 
-/* The density per solid angle with which light sampling picks a direction of the patch, the choice of this light included: that of its
- * radiance's luminance, times a sine that is linear over the patch, over the sine itself. sin_theta: 0 at the pole. */
+/* Returns the pdf per solid angle with which light sampling picks a direction of the patch, the choice of this light included. Samples are
+ * distributed by luminance times a sine that is linear over the patch, hence the quotient of that and the sine itself. sin_theta: 0 at the pole. */
 EC_FN lane_f environment_patch_pdf(const environment *e, const environment_patch *p, v3 radiance, lane_f t, lane_f sin_theta)
 {
     lane_f sine = fma(p->sin_far, t, p->sin_near * (1.0f - t)), at_pole = p->sin_far * ((float)e->params->environment_height * 2.0f * EC_INV_PI);
@@ -81,7 +81,7 @@ EC_FN lane_f environment_patch_pdf(const environment *e, const environment_patch
     return luminance(radiance) * p->scale * share * e->params->environment_pmf;
 }
 
-/* Radiance from direction d (unit) and the light sampling's density for it. */
+/* Returns the radiance from direction d (unit); *pdf: the density of light sampling for it. */
 EC_FN v3 environment_look_up(const environment *e, v3 d, lane_f *pdf)
 {
     constant float *constant_radiance = e->params->environment;
@@ -105,7 +105,7 @@ EC_FN v3 environment_look_up(const environment *e, v3 d, lane_f *pdf)
     return v3_mul(radiance, factor);
 }
 
-/* A direction by importance: a row of patches by r2, one of it by r1, and in it by what is left of them. */
+/* Samples a direction by importance: r2 chooses a row of patches and r1 a patch of it; what is left of both chooses the point in the patch. */
 EC_FN v3 environment_sample(const environment *e, lane_u r1, lane_u r2, lane_f *pdf, v3 *radiance)
 {
     constant float *constant_radiance = e->params->environment;
@@ -131,7 +131,7 @@ EC_FN v3 environment_sample(const environment *e, lane_u r1, lane_u r2, lane_f *
     lane_f s = patch_across(fma(far_left, t, near_left * (1.0f - t)), fma(far_right, t, near_right * (1.0f - t)), in_x);
     lane_f u = (to_lane_f(x) + 0.5f + s) / (float)width, rows = near == 0 ? 0.5f * t : int_to_lane_f(near) - 0.5f + t;
     lane_f cos_theta, sin_theta = sincos_2pi(rows * (0.5f / (float)height), &cos_theta);
-    lane_f sin_phi = sincos_2pi(u > 1.0f ? u - 1.0f : u, &cosine); /* u = 0.5 + phi / 2pi: both signs turn */
+    lane_f sin_phi = sincos_2pi(u > 1.0f ? u - 1.0f : u, &cosine); /* u = 0.5 + phi / 2pi, which changes both signs */
     v3 value = environment_patch_value(&p, s, t);
     *pdf = environment_patch_pdf(e, &p, value, t, sin_theta);
     *radiance = v3_mul(value, factor);

@@ -1,4 +1,4 @@
-/* First-hit features and layers of the first surface into the slots of a wave. */
+/* Stores first-hit features, and layers of the first surface, in the slots of a wave. */
 #ifndef EC_LIB_FEATURES_H
 #define EC_LIB_FEATURES_H
 
@@ -17,8 +17,8 @@ EC_FN void store_features(global float *aov, uint wave, lane_u slot, v3 albedo, 
     scatter_f(aov + 7 * wave, slot, alpha, bits);
 }
 
-/* The number of the node that a triangle is of, and 1; 0: of none. parts: how many they are, the step that looking begins with, the first triangle
- * of each, the node of each. */
+/* Returns 1 + the number of the node that a triangle belongs to, or 0 if none. parts: their count, the first step of the binary search, the first
+ * triangle of each, the node of each. */
 EC_FN lane_u part_node(global const uint *parts, lane_u prim)
 {
     uint count = parts[0], step = parts[1];
@@ -32,7 +32,7 @@ EC_FN lane_u part_node(global const uint *parts, lane_u prim)
     return gather_u(parts + 2 + count, k);
 }
 
-/* Stores the layers that the first surface has, on the lanes of `found`. */
+/* Stores the layers of the first surface on the lanes `found`. */
 EC_FN void store_surface_layers(constant ec_params *params, global float *radiance, global const uint *parts, lane_u slot, lane_u prim, const hit_point *h,
                                 const surface *s, lane_i found)
 {

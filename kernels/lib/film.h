@@ -1,5 +1,5 @@
-/* Where a slot's sample lands. Pixels are numbered in tiles of 8 x 8, so that a wave looks at a compact part of the
- * picture; numbers past the picture's edge inside a tile do not exist: a tile at the edge is narrower or lower. */
+/* Maps slots to pixels. Pixels are numbered in tiles of 8 x 8, so that a wave covers a compact part of the picture. Tiles at the picture's edge are
+ * narrower or lower, so that every number is a pixel. */
 #ifndef EC_LIB_FILM_H
 #define EC_LIB_FILM_H
 
@@ -8,8 +8,8 @@
 
 #define EC_TILE 8u
 
-/* The pixel's number and the sample's, which random numbers are a function of. Numbers of replicate r are those of the picture's pixels
- * plus r times as many. pixel_list: EC_LIST_WORDS for each of the pass's pixels, or NULL where these are all there are. */
+/* Sets the numbers of the slot's pixel and sample, of which random numbers are a function. Pixel numbers of replicate r are those of the picture's
+ * pixels plus r times their count. pixel_list: EC_LIST_WORDS for each pixel of the pass, or NULL for all pixels. */
 EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, global const uint *pixel_list, lane_u slot, lane_u *pixel,
                          lane_u *sample)
 {
@@ -23,8 +23,7 @@ EC_FN void slot_to_pixel(constant ec_params *params, uint first_pixel, global co
     }
 }
 
-/* Rows of tiles first: a row of tiles holds width * 8 pixels (fewer rows at the bottom), a tile 8 * rows (narrower at the
- * right). */
+/* Turns a pixel number into coordinates. A row of tiles holds width * 8 pixels (fewer rows at the bottom), a tile 8 * rows (narrower at the right). */
 EC_FN void pixel_to_xy(constant ec_params *params, lane_u pixel, lane_u *x, lane_u *y)
 {
     uint width = params->width, height = params->height, low = height % EC_TILE, narrow = width % EC_TILE;
@@ -40,7 +39,7 @@ EC_FN void pixel_to_xy(constant ec_params *params, lane_u pixel, lane_u *x, lane
     *y = tile_row * EC_TILE + line;
 }
 
-/* Where pixels stand in a film in row order from film_row on. */
+/* Sets the pixels' indices in a film in row order whose first row is film_row. */
 EC_FN void pixel_to_places(constant ec_params *params, lane_u pixel, uint places[LANES])
 {
     lane_u x, y;

@@ -1,4 +1,4 @@
-/* Where the camera sees a point, for light paths: camera_sample, lens_shift and ec_generate the other way round. */
+/* Finds where the camera sees a point, for light paths: the inverse of camera_sample, lens_shift and ec_generate. */
 #ifndef EC_LIB_FILM_POINT_H
 #define EC_LIB_FILM_POINT_H
 
@@ -9,15 +9,15 @@
 #include "sampler.h"
 
 typedef struct film_point {
-    v3 o, to_camera; /* where the camera's ray starts; from the point, unit */
-    lane_f way2;     /* squared length of the way between */
-    lane_f area;     /* M of light_path.h for one light path a camera path: across the ray, of which a camera path has 1 / area */
-    lane_f weight;   /* sum of the pixel filters there */
-    lane_u place;    /* of a pixel that it counts for, in the films */
-    lane_i seen;     /* is there one? */
+    v3 o, to_camera; /* origin of the camera ray; unit direction from the point to it */
+    lane_f way2;     /* squared distance of the two */
+    lane_f area;     /* M of light_path.h for one light path per camera path: at the point, across the ray, a camera path has density 1 / area */
+    lane_f weight;   /* sum of all pixels' filters there */
+    lane_u place;    /* index in the film of the pixel that it counts for */
+    lane_i seen;     /* lanes that have such a pixel */
 } film_point;
 
-/* u1, u2: choose the point of the lens; u_x, u_y: the pixel. */
+/* Projects p onto the film. u1, u2 choose the point of the lens; u_x, u_y the pixel. */
 EC_FN film_point film_point_of(constant ec_params *params, const camera_axes *v, global const float *filter, v3 p, lane_f u1, lane_f u2, lane_f u_x,
                                lane_f u_y)
 {

@@ -1,11 +1,11 @@
-/* What dims light on its way to where it is not scattered: bodies, and fog, which fills the ball about the scene but for its bodies. */
+/* Attenuation of unscattered light by bodies, and by fog, which fills the ball about the scene except for its bodies. */
 #ifndef EC_LIB_FOG_H
 #define EC_LIB_FOG_H
 
 #include "../shared/params.h"
 #include "medium.h"
 
-/* How many of `length` metres from o along d are in the fog, which fills the ball about the scene; *from: where they begin. */
+/* Returns how many of `length` metres from o along d lie in the fog, which fills the ball about the scene; *from: where they begin. */
 EC_FN lane_f fog_span(constant ec_params *params, v3 o, v3 d, lane_f length, lane_f *from)
 {
     const float radius = params->scene_radius;
@@ -16,15 +16,15 @@ EC_FN lane_f fog_span(constant ec_params *params, v3 o, v3 d, lane_f length, lan
     return max(min(middle + reach, length) - *from, F(0.0f));
 }
 
-/* What fog leaves of light along wi over `length` metres from p, on lanes m. */
+/* Returns the transmittance of fog over `length` metres from p along wi, on the lanes m; elsewhere 1. */
 EC_FN lane_f fog_leaves(constant ec_params *params, lane_i m, v3 p, v3 wi, lane_f length)
 {
     lane_f from, span = fog_span(params, p, wi, length, &from);
     return m ? exp_negative(-params->fog[0] * span) : F(1.0f);
 }
 
-/* What a medium leaves of light on `length` metres from p along wi. Infinitely far (lanes is_far) no body reaches: what path tracing misses is
- * not dimmed either. */
+/* Returns the transmittance of a medium over `length` metres from p along wi. Towards infinity (lanes is_far) bodies absorb nothing, as for paths
+ * that miss the scene. */
 EC_FN v3 medium_leaves(constant ec_params *params, const geometry *g, lane_u medium, bool nested, lane_i is_far, v3 p, v3 wi, lane_f length)
 {
     v3 left = v3_splat(F(1.0f));

@@ -1,4 +1,4 @@
-/* How much an interface reflects. */
+/* Fresnel reflectance of an interface. */
 #ifndef EC_LIB_FRESNEL_H
 #define EC_LIB_FRESNEL_H
 
@@ -10,8 +10,8 @@ EC_FN lane_f pow5(lane_f x)
     return x2 * x2 * x;
 }
 
-/* eta times the cosine beyond, (eta cos_t)^2 = cos^2 + eta^2 - 1 (Snell); not above 0 beyond the critical angle. What the square
- * and the difference round off is kept (Dekker 1971): at the critical angle nothing else is left. */
+/* Returns (eta cos_t)^2 = cos^2 + eta^2 - 1 (Snell), which is not above 0 beyond the critical angle. Adds what the square and the difference round
+ * off (Dekker 1971): near the critical angle nothing else is left. */
 EC_FN lane_f refracted_cosine2(lane_f cosine, lane_f eta)
 {
     lane_f square = eta * eta, less = square - 1.0f;
@@ -19,7 +19,7 @@ EC_FN lane_f refracted_cosine2(lane_f cosine, lane_f eta)
     return fma(cosine, cosine, less) + lost;
 }
 
-/* Unpolarised reflectance between two dielectrics (Fresnel 1823), for the cosine c of incidence and the index beyond over the
+/* Returns the unpolarised reflectance between two dielectrics (Fresnel 1823), for the cosine c of incidence and the index beyond over the
  * index here; exactly 1 beyond the critical angle, exactly 0 where the index stays the same. With g of Snell's law above, c - g
  * and eta^2 c - g cancel between media that are nearly alike, so eta^2 - 1 is taken out of both:
  * c - g = -(eta^2 - 1) / (c + g), and eta^2 c - g = (eta^2 - 1) c + (c - g). */
@@ -32,9 +32,9 @@ EC_FN lane_f fresnel_dielectric(lane_f cosine, lane_f eta)
     return ((g2 > 0.0f) & (cosine > 0.0f)) ? f : F(1.0f);
 }
 
-/* Where between its values head-on and at grazing angles is the reflectance? Schlick's (1-c)^5 between unlike media in
- * general, as glTF asks; exact where light is refracted, so that total reflection sets in where refraction ends. (Above an
- * index of 2 + sqrt(3) the exact one dips under its value head-on before it rises; here it stays there.) */
+/* Returns where the reflectance lies between its values head-on (0) and at grazing angles (1): Schlick's (1-c)^5 in general, as glTF asks; exact
+ * where light is refracted, so that total reflection sets in where refraction ends. (Above an index of 2 + sqrt(3) the exact one dips under its
+ * value head-on before it rises; here it stays there.) */
 EC_FN lane_f fresnel_rise(lane_f cosine, lane_f eta, lane_i refracts)
 {
     lane_f rise = pow5(1.0f - cosine);
@@ -44,8 +44,7 @@ EC_FN lane_f fresnel_rise(lane_f cosine, lane_f eta, lane_i refracts)
     return refracts ? exact : rise;
 }
 
-/* Direction of w, a unit vector away from the surface, refracted about the unit normal m on its side (Snell's law). Call it
- * only under the critical angle. */
+/* Refracts w, a unit vector away from the surface, about the unit normal m on its side (Snell's law). Valid only below the critical angle. */
 EC_FN v3 refract(v3 w, v3 m, lane_f eta)
 {
     lane_f cosine = v3_dot(w, m), g = sqrt(max(refracted_cosine2(cosine, eta), F(0.0f)));

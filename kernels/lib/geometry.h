@@ -18,7 +18,7 @@ typedef struct geometry {
     textures tex;
     global const float *places;    /* of instances, or 0 */
     global const float *motion;    /* what moves, or 0 */
-    lane_f time;                   /* with MOTION: of the paths */
+    lane_f time;                   /* with MOTION: times of the paths */
     global const float *parts;     /* ec_lamp_node by word, or 0 */
 } geometry;
 
@@ -29,10 +29,10 @@ typedef struct hit_point {
     lane_u i0, i1, i2;   /* vertex indices; set when any attribute is needed */
     quad uv, uv0, uv1, uv2; /* both uv sets: at the hit, at the vertices */
     lane_u material;     /* first word of its material */
-    bool is_one_material; /* with textures, which read much of it: is it the same on all lanes? */
+    bool is_one_material; /* with textures: all lanes have the same material, so one load serves them */
     lane_f light_pdf_a;
     lane_u parts;        /* with LAMP_PARTS: the first node of its parts, or 0 */
-    lane_i placed;       /* with INSTANCES: on one of them, … */
+    lane_i placed;       /* with INSTANCES: the triangle belongs to an instance, … */
     lane_u place;        /* … whose ec_place is at this word */
     lane_i turned;       /* … which is mirrored */
 } hit_point;
@@ -49,14 +49,14 @@ EC_FN quad interpolate_quad(const hit_point *h, quad v0, quad v1, quad v2)
     return q;
 }
 
-/* A stream of `width` words a vertex, its first four interpolated. */
+/* Interpolates the first four words of a stream of `width` words a vertex. */
 EC_FN quad interpolate_stream(global const float *stream, uint width, const hit_point *h)
 {
     return interpolate_quad(h, gather_quad(stream, h->i0 * width), gather_quad(stream, h->i1 * width),
                             gather_quad(stream, h->i2 * width));
 }
 
-/* The ec_prim of a triangle. */
+/* Returns the index of a triangle's ec_prim. */
 EC_FN lane_u geometry_prim(const geometry *g, lane_u prim)
 {
     lane_i placed, turned;
@@ -64,7 +64,7 @@ EC_FN lane_u geometry_prim(const geometry *g, lane_u prim)
     return HAS(INSTANCES) && g->places ? instance_find(g->places, prim, &placed, &place, &turned) : prim;
 }
 
-/* A vertex' direction, taken to the world. word: as of instance_direction. */
+/* Transforms a vertex's direction d to the world. word: as in instance_direction. */
 EC_FN v3 hit_direction(const geometry *g, const hit_point *h, uint word, v3 d)
 {
     if (!HAS(INSTANCES) || !g->places || !any_lane(h->placed)) return d;
@@ -150,7 +150,7 @@ EC_FN v3 vertex_tangent(const geometry *g, const hit_point *h, lane_u vertex, la
     return hit_direction(g, h, 0u, t);
 }
 
-/* hand: the sign says which way the bitangent goes; a mirrored mesh's is mirrored, n x t is not. */
+/* *hand: its sign gives the direction of the bitangent. A mirrored mesh's changes sign, since n x t is not mirrored. */
 EC_FN v3 interpolate_tangent(const geometry *g, const hit_point *h, lane_f *hand)
 {
     lane_f hand0, hand1, hand2;
@@ -165,13 +165,13 @@ EC_FN quad material_quad(const geometry *g, const hit_point *h, uint word)
     return gather_quad_if(h->is_one_material, g->materials, h->material + word);
 }
 
-/* The entry in the table of textures of id, valid on the lanes of m. */
+/* Returns the entry of texture `id` in the table, valid on the lanes m. */
 EC_FN quad texture_entry(const geometry *g, const hit_point *h, lane_i m, lane_i id)
 {
     return gather_quad_if(h->is_one_material, g->tex.table, int_to_lane_u(h->is_one_material ? id : m ? id : I(0)) * 4u);
 }
 
-/* A material's texture at the hit; white where it has none. */
+/* Samples a material's texture at the hit; white where it has none. */
 EC_CALLED rgba material_texture(const geometry *g, const hit_point *h, lane_i m, uint slot, bool is_srgb)
 {
     quad head = material_quad(g, h, EC_WORD_slots + slot * 8u);
@@ -204,7 +204,7 @@ EC_FN rgba surface_base_color(const geometry *g, const hit_point *h, lane_i m)
     return r;
 }
 
-/* Share of rays that meet the point, where coverage is looked up: alpha, or by a cutoff all or none. */
+/* Returns the share of rays that the point stops: alpha, or 0 or 1 by a cutoff. */
 EC_FN lane_f surface_coverage(const geometry *g, const hit_point *h, lane_i m)
 {
     lane_f alpha = surface_base_color(g, h, m).a;
@@ -213,7 +213,7 @@ EC_FN lane_f surface_coverage(const geometry *g, const hit_point *h, lane_i m)
     return is_mask ? (alpha >= cutoff ? F(1.0f) : F(0.0f)) : alpha;
 }
 
-/* Radiance leaving the front (a double-sided material: both sides) and the material's flags. */
+/* Returns the radiance that leaves the front (of a double-sided material: both sides). emission: the material's words from EC_WORD_emission on. */
 EC_FN v3 surface_emission(const geometry *g, const hit_point *h, lane_i m, quad emission)
 {
     v3 e = v3_make(emission.a, emission.b, emission.c);

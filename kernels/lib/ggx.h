@@ -8,7 +8,7 @@
 
 typedef struct ggx {
     lane_f alpha, alpha2;
-    lane_i smooth;  /* all normals are the surface's */
+    lane_i smooth;  /* all facets' normals are the surface's */
     lane_f stretch; /* of the lobe along x: alpha there is alpha stretch (ANISOTROPY); 1 else */
 } ggx;
 
@@ -38,7 +38,7 @@ EC_FN lane_f ggx_lambda(const ggx *g, v3 w)
     return sqrt(square);
 }
 
-/* A visible normal by spherical caps (Dupuy, Benyoub 2023) from an angle and u2; of smooth surfaces the only one. */
+/* Samples a visible normal by spherical caps (Dupuy, Benyoub 2023) from an angle, given by cosine and sine, and u2. Smooth surfaces have only one. */
 EC_FN v3 ggx_sample(const ggx *g, v3 wo, lane_f cosine, lane_f sine, lane_f u2)
 {
     lane_f alpha_x = HAS(ANISOTROPY) ? g->alpha * g->stretch : g->alpha;

@@ -1,9 +1,9 @@
-/* Path guiding: directions sampled where light is known to come from (Vorba et al. 2014; Mueller, Gross and Novak 2017). Light paths that are
- * traced before the picture say from where light reaches which part of the scene, other than straight from lights. host/device/guide.c
- * makes of them a tree of boxes, and in each box a quadtree of directions, equal-area: x = (z + 1) / 2, y = the angle about z over 2 pi.
+/* Path guiding: samples directions where light is known to come from (Vorba et al. 2014; Mueller, Gross and Novak 2017). Light paths that are traced
+ * before the picture record from where indirect light reaches which part of the scene. host/device/guide.c builds from them a tree of boxes, with an
+ * equal-area quadtree of directions in each: x = (z + 1) / 2, y = the angle about z over 2 pi.
  *
- * At a surface a direction comes from the tree in a share of cases and from the BSDF in the others, and has the density of the mixture,
- * which weights against light sampling go by. So whatever the tree holds, the picture converges to the same. */
+ * At a surface a direction comes from the tree with some probability and from the BSDF otherwise, and has the density of the mixture, which MIS
+ * weights use too. So the picture converges to the same result whatever the tree holds. */
 #ifndef EC_LIB_GUIDE_H
 #define EC_LIB_GUIDE_H
 
@@ -19,7 +19,7 @@ typedef struct guide {
     lane_f share;  /* probability that a direction comes from it, on lanes that are guided; else 0 */
 } guide;
 
-/* What guides directions at p, on the lanes m. */
+/* Finds the quadtree that guides directions at p, on the lanes m. */
 EC_FN guide guide_find(global const float *table, lane_i m, v3 p)
 {
     guide g = {table, U(0), F(0.0f)};
@@ -37,7 +37,7 @@ EC_FN guide guide_find(global const float *table, lane_i m, v3 p)
     return g;
 }
 
-/* ... and from surface b there. Narrow lobes are left to the BSDF. */
+/* Likewise for surface b at p. Narrow lobes are left to the BSDF. */
 EC_FN guide guide_at(global const float *table, lane_i m, v3 p, const bsdf *b)
 {
     guide g = guide_find(table, m & !bsdf_is_single(b), p);
@@ -48,7 +48,7 @@ EC_FN guide guide_at(global const float *table, lane_i m, v3 p, const bsdf *b)
     return g;
 }
 
-/* Density per solid angle. */
+/* Returns the pdf per solid angle of the guide for w; 0 on lanes that are not guided. */
 EC_FN lane_f guide_pdf(const guide *g, v3 w)
 {
     lane_f pdf = F(0.25f * EC_INV_PI);
@@ -71,7 +71,7 @@ EC_FN lane_f guide_pdf(const guide *g, v3 w)
     return g->share > 0.0f ? pdf : F(0.0f);
 }
 
-/* A direction; u1, u2 in [0, 1). */
+/* Samples a direction on the lanes m; u1, u2 in [0, 1). */
 EC_FN v3 guide_sample(const guide *g, lane_i m, lane_f u1, lane_f u2)
 {
     lane_f x = F(0.0f), y = F(0.0f), size = F(1.0f);
@@ -99,13 +99,14 @@ EC_FN v3 guide_sample(const guide *g, lane_i m, lane_f u1, lane_f u2)
     return v3_make(r * cosine, r * sine, z);
 }
 
-/* Of the BSDF's density and the guide's, that of both together. */
+/* Returns the density of the mixture of BSDF and guide. */
 EC_FN lane_f guide_mix(const guide *g, lane_f pdf_bsdf, v3 w) 
 {
     return fma(g->share, guide_pdf(g, w), (1.0f - g->share) * pdf_bsdf);
 }
 
-/* bsdf_sample by both; wi: in the world. *without: what the weight would be without the guide, over what it is. */
+/* Samples the mixture of BSDF and guide as bsdf_sample does the BSDF. *wi: the direction in the world. *without: the weight that the sample would
+ * have without the guide, over the one that it has. */
 EC_FN bsdf_direction guide_sample_or(const guide *g, const surface *s, const bsdf *b, lane_f u1, chooser number, lane_f u_pass, v3 *wi, lane_f *without)
 {
     lane_i by_guide = choose(&number, g->share > 0.0f, g->share);

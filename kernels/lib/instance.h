@@ -1,25 +1,24 @@
-/* Where a mesh that is kept once stands. A corner is taken to the world by fma in one fixed order, and everything else (watertight
- * edges, error bounds, ties) begins there: a triangle that two instances or a hundred share is, at each place, the one that
- * host/scene/write_out.c would have written there, bit for bit. */
+/* Instances of meshes that are stored once. A corner is transformed to the world by fma in one fixed order, and everything else (watertight edges,
+ * error bounds, ties) begins there: at each place, a shared triangle is, bit for bit, the one that host/scene/write_out.c would have written. */
 #ifndef EC_LIB_INSTANCE_H
 #define EC_LIB_INSTANCE_H
 
 #include "../shared/scene_buffers.h"
 #include "math.h"
 
-/* A row of a matrix in a, b, c, d, for each lane its own or the same for all. */
+/* Applies a matrix row (a, b, c, d) to a point; lanes may have different rows. */
 EC_FN lane_f place_row(quad m, v3 p) { return fma(m.a, p.x, fma(m.b, p.y, fma(m.c, p.z, m.d))); }
 EC_FN lane_f place_row_direction(quad m, v3 p) { return fma(m.a, p.x, fma(m.b, p.y, m.c * p.z)); }
 
-/* Has a triangle in the world nothing left that has a normal? Its corners may have been rounded into a line. */
+/* Returns the lanes whose triangle has no normal in the world: its corners may have been rounded into a line. */
 EC_FN lane_i place_leaves_flat(v3 p0, v3 p1, v3 p2)
 {
     v3 n = v3_abs(v3_cross(v3_sub(p1, p0), v3_sub(p2, p0)));
     return !(v3_max_component(n) >= 1.17549435e-38f);
 }
 
-/* Which lanes' triangles are an instance's, and where it stands: its ec_place at word *at of `places`. Returns the triangle's ec_prim.
- * turned: corners 1 and 2 change places. */
+/* Sets *placed on lanes whose triangle belongs to an instance, *at to the word of its ec_place in `places`, *turned where corners 1 and 2 change
+ * places. Returns the index of the triangle's ec_prim. */
 EC_FN lane_u instance_find(global const float *places, lane_u prim, lane_i *placed, lane_u *at, lane_i *turned)
 {
     global const uint *words = (global const uint *)places;
@@ -41,14 +40,14 @@ EC_FN lane_u instance_find(global const float *places, lane_u prim, lane_i *plac
     return *placed ? prim - as_lane_u(q.a) + as_lane_u(q.b) : prim;
 }
 
-/* A mesh's point in the world. */
+/* Transforms a point of a mesh to the world. */
 EC_FN v3 instance_point(global const float *places, lane_u at, v3 p)
 {
     return v3_make(place_row(gather_quad(places, at), p), place_row(gather_quad(places, at + 4u), p),
                    place_row(gather_quad(places, at + 8u), p));
 }
 
-/* A mesh's triangle in the world, on lanes `placed`; turned, at: as instance_find has them. */
+/* Transforms a triangle of a mesh to the world, on the lanes `placed`; turned, at: from instance_find. */
 EC_FN void instance_corners(global const float *places, lane_i placed, lane_i turned, lane_u at, v3 *p0, v3 *p1, v3 *p2)
 {
     v3 second = v3_select(turned, *p2, *p1), third = v3_select(turned, *p1, *p2);
@@ -57,7 +56,7 @@ EC_FN void instance_corners(global const float *places, lane_i placed, lane_i tu
     *p2 = v3_select(placed, instance_point(places, at, third), *p2);
 }
 
-/* Unit length, or 0 where it was. word: 0 turns tangents, EC_PLACE_NORMAL normals. */
+/* Transforms a direction to the world; unit length, or 0 where d is. word: 0 for tangents, EC_PLACE_NORMAL for normals. */
 EC_FN v3 instance_direction(global const float *places, lane_u at, uint word, v3 d)
 {
     v3 r = v3_make(place_row_direction(gather_quad(places, at + word), d),

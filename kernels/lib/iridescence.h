@@ -1,25 +1,24 @@
-/* A thin film on a surface (KHR_materials_iridescence): reflectance by Belcour and Barla 2017, "A practical extension to microfacet
- * theory for the modeling of varying iridescence", with the constants of the extension's text. Light that went to and fro in the film
- * m = 0, 1, 2 times arrives late; what is seen of it in each of X, Y, Z is a cosine that fades with the way. At
- * the outer face Fresnel's own formula, not Schlick's as in that text, which does not vanish with the film; at the inner one Schlick's,
- * but Fresnel's where the surface refracts, so that light from inside finds the same film. */
+/* A thin film on a surface (KHR_materials_iridescence): reflectance by Belcour and Barla 2017, "A practical extension to microfacet theory for the modeling
+ * of varying iridescence", with the constants of the extension's text. Light that has crossed the film to and fro m = 0, 1, 2 times is delayed; each of X,
+ * Y, Z gets a cosine of the delay that fades with it. The outer face has Fresnel's own formula, not Schlick's as in that text, which does not vanish with
+ * the film; the inner one has Schlick's, but Fresnel's where the surface refracts, so that light from inside finds the same film. */
 #ifndef EC_LIB_IRIDESCENCE_H
 #define EC_LIB_IRIDESCENCE_H
 
 #include "fresnel.h"
 
 typedef struct thin_film {
-    lane_f weight;    /* of the surface, how much has it; 0: none */
-    lane_f ior;       /* 1 at least */
+    lane_f weight;    /* share of the surface that has the film; 0: none */
+    lane_f ior;       /* at least 1 */
     lane_f thickness; /* nanometres */
 } thin_film;
 
-/* What does not depend on the surface under it. */
+/* Terms of the film that do not depend on the surface under it. */
 typedef struct film_light {
-    lane_f ior, inside;  /* cosine in the film */
+    lane_f ior, inside;  /* its index, and the cosine inside it */
     lane_f outer;        /* reflectance of its outer face */
-    v3 once, twice;      /* X, Y, Z of light late by a way to and fro, and by two */
-    lane_i exact, total; /* total: no light gets here from outside */
+    v3 once, twice;      /* X, Y, Z of light delayed by one crossing to and fro; Rec. 709 of light delayed by two */
+    lane_i exact, total; /* exact: the surface refracts; total: total reflection, no light gets here from outside */
 } film_light;
 
 /* One Gaussian of the eye's sensitivity: peak is sqrt(2 pi variance) over 1.0685e-7 times that of the text. */
@@ -45,11 +44,11 @@ EC_FN v3 film_rec709(v3 xyz)
                    fma(xyz.x, F(0.0556434f), fma(xyz.y, F(-0.2040259f), xyz.z * 1.0572252f)));
 }
 
-/* Light at this cosine; eta: the index beyond the surface over that on this side, under 1 where the light comes from inside. */
+/* Makes the film's terms for this cosine. eta: the index beyond the surface over that on this side, under 1 where the light comes from inside. */
 EC_FN film_light film_light_make(const thin_film *m, lane_f cosine, lane_f eta, lane_i exact)
 {
     film_light l;
-    /* A film of no thickness is none: its index goes to the air's over the first 0.03 nm. */
+    /* The film vanishes with its thickness: its index goes to that of air over the first 0.03 nm. */
     lane_f t = min(m->thickness * (1.0f / 0.03f), F(1.0f));
     l.ior = fma(m->ior - 1.0f, t * t * fma(t, F(-2.0f), F(3.0f)), F(1.0f));
     l.exact = exact;
@@ -65,7 +64,7 @@ EC_FN film_light film_light_make(const thin_film *m, lane_f cosine, lane_f eta, 
     return l;
 }
 
-/* Reflectance of the inner face, over a surface that without a film would reflect f0 head-on. */
+/* Returns the reflectance of the inner face, over a surface that would reflect f0 head-on without a film. *sparser: its index is below the film's. */
 EC_FN lane_f film_inner(const film_light *l, lane_f f0, lane_f f90, lane_i *sparser)
 {
     lane_f root = sqrt(min(f0, F(0.9999f))), base = (1.0f + root) / (1.0f - root),
@@ -79,11 +78,11 @@ EC_FN lane_f film_sum(const film_light *l, lane_f inner, lane_f once, lane_f twi
     lane_f both = min(l->outer * inner, F(0.9999f)), through = 1.0f - l->outer;
     lane_f settled = through * through * inner / (1.0f - both), c = 2.0f * (settled - through);
     lane_f sum = fma(c * sqrt(both), once, l->outer + settled);
-    sum = min(max(fma(c * both, twice, sum), F(0.0f)), F(1.0f)); /* a series cut short, colours off the gamut */
+    sum = min(max(fma(c * both, twice, sum), F(0.0f)), F(1.0f)); /* the series is truncated, and colours may leave the gamut */
     return l->total ? F(1.0f) : sum;
 }
 
-/* Reflectance of film and surface. A channel's sign in X, Y, Z, as the text has it: half a turn at a face to what is denser. */
+/* Returns the reflectance of film and surface. A channel's sign in X, Y, Z is that of the text: reflection at a denser medium shifts by half a turn. */
 EC_FN v3 film_reflectance(const film_light *l, v3 f0, lane_f f90)
 {
     lane_i x, y, z;

@@ -1,18 +1,17 @@
-/* Pairs of lamp triangles that face opposite ways (host/pack/lamp_pairs.c): of a bulb one of both looks at a point outside of it, and that one is
- * chosen. */
+/* Pairs of lamp triangles that face opposite ways (host/pack/lamp_pairs.c). On a bulb one of the two faces a point outside, and that one is chosen. */
 #ifndef EC_LIB_LAMP_PAIRS_H
 #define EC_LIB_LAMP_PAIRS_H
 
 #include "light_record.h"
 
-/* Does a triangle's front look at p? By a point in its middle, so that all who ask get one answer. */
+/* Returns whether the triangle's front faces p, judged from its centroid, so that all callers get the same answer. */
 EC_FN lane_i pair_faces(v3 a, v3 b, v3 c, v3 p)
 {
     v3 way = v3_sub(p, v3_scale(v3_add(a, v3_add(b, c)), F(1.0f / 3.0f)));
     return v3_dot(v3_cross(v3_sub(b, a), v3_sub(c, a)), way) > 0.0f;
 }
 
-/* How often a triangle is chosen for p, over how often by power: where one of a pair looks at p and the other does not, it has both's chances. */
+/* Returns the probability with which a triangle is chosen for p over that by power: where only one of a pair faces p, it has the probability of both. */
 EC_FN lane_f pair_chance(v3 a, v3 b, v3 c, lane_f pmf, const light_record *other, v3 p)
 {
     lane_i own = pair_faces(a, b, c, p), their = pair_faces(other->a, other->b, other->c, p);
@@ -22,7 +21,7 @@ EC_FN lane_f pair_chance(v3 a, v3 b, v3 c, lane_f pmf, const light_record *other
 EC_FN lane_u pair_partner(lane_u kind, lane_u id) { return (kind & EC_LIGHT_PAIR_FIRST) != 0u ? id + 1u : id - 1u; }
 #define EC_LIGHT_PAIRED (EC_LIGHT_PAIR_FIRST | EC_LIGHT_PAIR_SECOND)
 
-/* The chance of triangle h, met from p, over that by power; pairs: its partner's place in the table, by triangle. */
+/* Likewise for triangle prim, which a path from p has met at h. pairs: for each triangle the index of its partner in the table of lights. */
 EC_FN lane_f pair_found_chance(const lights *l, global const uint *pairs, const hit_point *h, lane_i m, lane_u prim, v3 p)
 {
     lane_u partner = gather_u(pairs, m ? prim : U(0));
@@ -41,7 +40,7 @@ EC_FN light_record light_record_select(lane_i m, light_record a, light_record b)
     return r;
 }
 
-/* Takes of a pair the one that looks at p; where both do or none does, the one that was chosen. The number goes on across the whole pair. */
+/* Replaces *one by its partner where only the partner faces p. Where only one of the pair does, *u1 is rescaled over the numbers of both. */
 EC_FN void light_choose_of_pair(const lights *l, lane_i m, v3 p, light_record *one, lane_u *id, lane_f *u1)
 {
     lane_i paired = m & ((one->kind & EC_LIGHT_PAIRED) != 0u), second = (one->kind & EC_LIGHT_PAIR_SECOND) != 0u;

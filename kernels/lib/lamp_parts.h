@@ -1,6 +1,6 @@
-/* Parts of lamps whose textures vary: small triangles where they do, large ones elsewhere, each chosen by the light it has (host/pack/lamp_parts.c).
- * An eighth of the samples goes to the lamp as a whole: a part's share leaves out of account how near it is, what its texture's filter takes from
- * beside it, and alpha; with that eighth the second moment is at most eight times that of a lamp in one piece, and no point's density is 0. */
+/* Parts of lamps whose textures vary: small triangles where they do, large ones elsewhere, each chosen by the light it emits (host/pack/lamp_parts.c). An
+ * eighth of the samples goes to the lamp as a whole, since a part's share ignores how near it is, what its texture's filter takes from beside it, and alpha.
+ * With that eighth the second moment is at most eight times that of a lamp in one piece, and no point's density is 0. */
 #ifndef EC_LIB_LAMP_PARTS_H
 #define EC_LIB_LAMP_PARTS_H
 
@@ -13,8 +13,8 @@
 
 typedef struct lamp_part {
     lane_f b1, b2; /* barycentrics of its first corner on the lamp */
-    lane_f size;   /* of its edges over the lamp's; below 0 for those that are turned */
-    lane_u first, share; /* numbers that choose it */
+    lane_f size;   /* its edges over the lamp's; below 0 for parts that are turned */
+    lane_u first, share; /* numbers that choose it: the first, and how many */
 } lamp_part;
 
 EC_FN lamp_part lamp_part_all(void)
@@ -23,7 +23,7 @@ EC_FN lamp_part lamp_part_all(void)
     return all;
 }
 
-/* To one of four, on the lanes m. */
+/* Narrows *part to one of its four children, on the lanes m. */
 EC_FN void lamp_part_enter(lamp_part *part, lane_i m, quad node, lane_u child)
 {
     lane_u second = as_lane_u(node.a), third = as_lane_u(node.b), fourth = as_lane_u(node.c), end = part->first + part->share;
@@ -37,7 +37,7 @@ EC_FN void lamp_part_enter(lamp_part *part, lane_i m, quad node, lane_u child)
     part->first = m ? first : part->first;
 }
 
-/* From a lamp's first node, on the lanes m, to the part that number r chooses, or, if not by number, to that of a point. */
+/* Descends from a lamp's first node, on the lanes m, to the part that number r chooses (by_number), or to that of the point (b1, b2). */
 EC_FN lamp_part lamp_part_descend(global const float *nodes, lane_i m, lane_u node, bool by_number, lane_u r, lane_f b1, lane_f b2)
 {
     lamp_part part = lamp_part_all();
@@ -59,13 +59,13 @@ EC_FN lamp_part lamp_part_descend(global const float *nodes, lane_i m, lane_u no
     return part;
 }
 
-/* Density by area of samples of the part, over that of samples of the whole. */
+/* Returns the density by area of samples of the part, over that of samples of the whole. */
 EC_FN lane_f lamp_part_density(const lamp_part *part)
 {
     return to_lane_f(part->share) * (1.0f / 4294967296.0f) / (part->size * part->size);
 }
 
-/* Makes the part's corners of those of the lamp; the whole has the lamp's. */
+/* Replaces the lamp's corners by the part's; for the whole they stay, bit for bit. */
 EC_FN void lamp_part_corners(const lamp_part *part, v3 *a, v3 *b, v3 *c)
 {
     lane_i is_all = part->size == 1.0f;
@@ -75,7 +75,7 @@ EC_FN void lamp_part_corners(const lamp_part *part, v3 *a, v3 *b, v3 *c)
     *c = v3_select(is_all, *c, v3_fma(f, part->size, corner));
 }
 
-/* By a 32-bit number, on the lanes m a part, or all of the lamp; *left: where the number lies among those that choose it, in [0, 1). */
+/* Chooses by the 32-bit number r, on the lanes m, a part or the whole of the lamp. *left: where r lies among the numbers that choose it, in [0, 1). */
 EC_FN lamp_part lamp_part_choose(global const float *nodes, lane_i m, lane_u node, lane_u r, lane_f *left)
 {
     lane_i parted = m & (r < EC_LAMP_PARTS_NUMBERS);

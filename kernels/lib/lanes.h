@@ -50,7 +50,7 @@ typedef EC_CAT(uint, LANES) lane_u;
 #endif
 #endif
 
-/* As they stand in memory, at the address of any word. To PoCL's compiler a vload is a call until late: kernels with hundreds of them ran up to 4 % longer
+/* Vectors in memory with the alignment of a word. To PoCL's compiler a vload is a call until late: kernels with hundreds of them ran up to 4 % longer
  * and compiled up to 15 % longer. */
 typedef lane_f lane_f_words __attribute__((aligned(4)));
 typedef float4 float4_words __attribute__((aligned(4)));
@@ -69,7 +69,7 @@ EC_FN lane_i to_lane_i(lane_f v) { return LANE_CONVERT(int, v); } /* towards zer
 EC_FN lane_u int_to_lane_u(lane_i v) { return LANE_AS(uint, v); }
 EC_FN lane_i uint_to_lane_i(lane_u v) { return LANE_AS(int, v); }
 
-/* One bit a lane. The sign-bit instruction is worth a name: everything that branches goes through it. */
+/* Returns one bit per lane, by the sign-bit instruction where there is one: every branch goes through this. */
 EC_FN uint mask_bits8(int8 m)
 {
 #if defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
@@ -109,7 +109,7 @@ EC_FN bool any_lane(lane_i m) { return mask_bits(m) != 0u; }
 EC_FN bool all_lanes(lane_i m) { return mask_bits(m) == (uint)((1ul << LANES) - 1ul); }
 EC_FN uint count_lanes(lane_i m) { return popcount(mask_bits(m)); }
 
-/* n / d, d the same of all lanes: by a product (Granlund and Montgomery 1994, figure 4.1), since CPUs have no division of integer vectors. */
+/* Returns n / d for a d that all lanes share, by a product (Granlund and Montgomery 1994, figure 4.1), since CPUs have no division of integer vectors. */
 EC_FN lane_u divide(lane_u n, uint d)
 {
 #if LANES == 1
@@ -187,7 +187,7 @@ EC_FN quad gather_quad(global const float *restrict p, lane_u i)
 }
 #endif
 
-/* Is it the same on all lanes? Then one load will do for them. */
+/* Returns whether v is the same on all lanes, so that one load serves them; false with one lane. */
 EC_FN bool all_same(lane_u v) { return LANES > 1 && all_lanes(v == LANE(v, 0)); }
 EC_FN quad gather_quad_if(bool is_same, global const float *restrict p, lane_u i)
 {
@@ -229,8 +229,8 @@ EC_FN pair gather_pair(global const uint *restrict p, lane_u i)
 }
 #endif
 
-/* p[i], p[i + stride], p[i + 2 stride] += x, y, z on the lanes of `bits`; no two lanes share an index. Through memory, as a
- * loop over the lanes that are on: a branch a lane would be mispredicted half the time. */
+/* Adds x, y, z to p[i], p[i + stride], p[i + 2 stride] on the lanes of `bits`, of which no two may share an index. Goes through memory in a loop over
+ * the lanes that are on: a branch per lane would be mispredicted half the time. */
 EC_FN void scatter_add_3(global float *restrict p, uint stride, lane_u i, lane_f x, lane_f y, lane_f z, uint bits)
 {
     uint at[LANES];
@@ -259,7 +259,7 @@ EC_INLINED void scatter_f(global float *restrict p, lane_u i, lane_f v, uint bit
 #undef SCATTER_ONE
 }
 
-/* The lanes of m, close together, to p[0], p[1], … (count_lanes(m) values). */
+/* Stores the lanes of `bits`, packed, at p[0], p[1], … */
 EC_FN void store_compact(global float *restrict p, lane_f v, uint bits)
 {
 #if LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssf512_mask) &&     \

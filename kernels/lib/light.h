@@ -1,5 +1,5 @@
-/* Direct light: one light by its power, one point or direction on it. Every emissive triangle is a light, and so are the
- * punctual ones and the environment. One number chooses the light and goes on to the point (choice.h). */
+/* Direct light: chooses one light by its power, and one point or direction on it. Every emissive triangle is a light, and so are the punctual ones
+ * and the environment. The number that chooses the light is reused for the point (choice.h). */
 #ifndef EC_LIB_LIGHT_H
 #define EC_LIB_LIGHT_H
 
@@ -11,8 +11,8 @@
 #include "spherical_triangle.h"
 #include "surface.h"
 
-#define EC_LIGHTS_FEW 8u     /* so many entries are looked through */
-#define EC_LIGHT_NEAR 0.25f /* squares of two edges over that of the distance */
+#define EC_LIGHTS_FEW 8u     /* tables of so many entries are searched in order */
+#define EC_LIGHT_NEAR 0.25f /* squares of two edges over that of the distance to the centroid */
 
 typedef struct light_sample {
     v3 wi;           /* unit, towards the light */
@@ -25,13 +25,13 @@ typedef struct light_sample {
     v3 end_error;    /* error bound of the end point */
     v3 end_normal;   /* unit; zero where there is no surface */
     lane_i valid;
-    lane_u id;       /* with LIGHT_PATHS or LAYERS: which light; with the first, of a triangle 1 / area */
+    lane_u id;       /* id: which light, with LIGHT_PATHS or LAYERS; per_area: 1 / area of a triangle, with LIGHT_PATHS */
     lane_f per_area;
 } light_sample;
 
-/* By how much a traversal may misplace, along each axis, the point that a ray meets on a triangle: u of `reach`, the vertices' ways from
- * the ray's origin, weighted as the point, for each rounding of an edge function and what goes into it, and along the ray those of the
- * shear, of t and of the ray itself (ray.h). What lies in the plane of a lamp is met no sooner than that before it. */
+/* Returns by how much, along each axis, a traversal may misplace the point that a ray meets on a triangle. For each rounding of an edge function and
+ * of its inputs it is u times `reach`, the mean of the vertices' distances from the ray's origin with the point's weights; along the ray, those of
+ * the shear, of t and of the ray itself are added (ray.h). A face in the plane of a lamp is met no farther before the lamp than this. */
 EC_FN v3 light_met_error(v3 reach, v3 towards)
 {
     v3 way = v3_abs(towards);
@@ -40,7 +40,7 @@ EC_FN v3 light_met_error(v3 reach, v3 towards)
     return v3_fma(way, beyond * EC_GAMMA(13), v3_scale(reach, F(EC_GAMMA(4))));
 }
 
-/* What the point at these barycentrics of a triangle sends along -wi, in the mean over rays that meet it or go through. */
+/* Returns the radiance that the triangle's point at these barycentrics sends along -wi, in the mean over rays that meet it or pass its coverage. */
 EC_FN v3 light_radiance(const light_record *l, const geometry *g, lane_i m, lane_f b1, lane_f b2, v3 wi)
 {
     v3 radiance = l->emission;
@@ -56,7 +56,7 @@ EC_FN v3 light_radiance(const light_record *l, const geometry *g, lane_i m, lane
     return coat_emission(g, &h, coated, v3_negate(wi), radiance);
 }
 
-/* A point of a triangle by its barycentrics, seen from p. Its density is that of uniform points; its radiance is still to come. */
+/* Makes the light sample of a triangle's point, given by its barycentrics, for p. Its pdf is that of uniform points; the caller sets its radiance. */
 EC_FN light_sample light_point_of_triangle(const light_record *l, lane_i m, v3 p, lane_f b1, lane_f b2)
 {
     light_sample s;
@@ -80,24 +80,23 @@ EC_FN light_sample light_point_of_triangle(const light_record *l, lane_i m, v3 p
     return s;
 }
 
-/* Is a triangle seen from p so near that densities of its points differ much? Then it is sampled by solid angle. By area they
- * differ as the third power of distances: with edges of half the distance that adds a relative standard deviation of 0.2, at
- * most 0.5, and costs less. */
+/* Returns whether a triangle is so near to p that it is sampled by solid angle. Sampling by area is cheaper, but its densities differ as the third
+ * power of distances: with edges of half the distance that adds a relative standard deviation of 0.2, at most 0.5. */
 EC_FN lane_i light_is_near(v3 v0, v3 v1, v3 v2, v3 p)
 {
     v3 e1 = v3_sub(v1, v0), e2 = v3_sub(v2, v0);
-    v3 sum = v3_fma(p, F(-3.0f), v3_add(v0, v3_add(v1, v2))); /* three times the way to the middle */
+    v3 sum = v3_fma(p, F(-3.0f), v3_add(v0, v3_add(v1, v2))); /* three times the way to the centroid */
     return v3_dot(e1, e1) + v3_dot(e2, e2) > (EC_LIGHT_NEAR / 9.0f) * v3_dot(sum, sum);
 }
 
-/* Density of uniform directions to a triangle that is chosen so often, 0 where it has no solid angle. */
+/* Returns the pdf of uniform directions to a triangle that is chosen with probability pmf; 0 where it has no solid angle. */
 EC_FN lane_f light_near_pdf(const spherical_triangle *t, lane_f pmf)
 {
     return t->turns > 0.0f ? pmf * (0.25f * EC_INV_PI) / t->turns : F(0.0f);
 }
 
-/* The density at p of points of a triangle, one of them d2 away, seen under this cosine. Near or far is decided from the same numbers
- * wherever it is asked for. */
+/* Returns the pdf at p of a point of a triangle, at squared distance d2 and seen under this cosine. Sampling and this decide between near and far by
+ * the same numbers. */
 EC_FN lane_f light_triangle_pdf(v3 v0, v3 v1, v3 v2, lane_f pdf_a, lane_i m, v3 p, lane_f d2, lane_f cosine)
 {
     lane_f pdf = pdf_a * d2 / cosine;
@@ -112,7 +111,7 @@ EC_FN lane_f light_triangle_pdf(v3 v0, v3 v1, v3 v2, lane_f pdf_a, lane_i m, v3 
     return pdf;
 }
 
-/* And of a lamp in parts: that of the whole, an eighth of the time, and that of the part which the point lies in. */
+/* Returns the pdf for a lamp in parts: an eighth of `whole`, that of the lamp as a whole, plus that of the part in which the point lies. */
 EC_FN lane_f light_parted_pdf(lane_f whole, const lamp_part *part, v3 v0, v3 v1, v3 v2, lane_f pdf_a, lane_i m, v3 p, lane_f d2, lane_f cosine)
 {
     lamp_part_corners(part, &v0, &v1, &v2);
@@ -120,7 +119,7 @@ EC_FN lane_f light_parted_pdf(lane_f whole, const lamp_part *part, v3 v0, v3 v1,
     return fma(whole, F(EC_LAMP_WHOLE), own);
 }
 
-/* The density that light_sample_lamp has at p for the point of triangle h that a path from p has met. */
+/* Returns the pdf with which light_sample_lamp samples, for p, the point of triangle h that a path from p has met. */
 EC_FN lane_f light_found_pdf(const geometry *g, const hit_point *h, lane_i m, v3 p, lane_f d2, lane_f cosine)
 {
     lane_f pdf = light_triangle_pdf(h->p0, h->p1, h->p2, h->light_pdf_a, m, p, d2, cosine);
@@ -130,7 +129,7 @@ EC_FN lane_f light_found_pdf(const geometry *g, const hit_point *h, lane_i m, v3
     return parted ? light_parted_pdf(pdf, &part, h->p0, h->p1, h->p2, h->light_pdf_a, parted, p, d2, cosine) : pdf;
 }
 
-/* What a sample of the lamp, by its part or as a whole, has for a density. */
+/* Sets the pdf of a sample of a lamp in parts, which may come from a part or from the whole. */
 EC_FN void light_mix_parts(const light_record *l, const geometry *g, const lamp_part *part, lane_i m, v3 p, lane_f b1, lane_f b2, light_sample *s)
 {
     lane_i parted = m & ((l->kind >> EC_LIGHT_PARTS) != 0u), whole = parted & (part->size == 1.0f);
@@ -149,7 +148,7 @@ EC_FN void light_mix_parts(const light_record *l, const geometry *g, const lamp_
     s->valid = s->valid & (!parted | (s->pdf > 0.0f));
 }
 
-/* A point of a triangle or, with LAMP_PARTS, of its part, seen from p. */
+/* Samples a point of a triangle or, with LAMP_PARTS, of its part, for p. */
 EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *g, const lamp_part *part, lane_i m, v3 p, lane_f u1, lane_f u2)
 {
     lane_f root = sqrt(u1), b1 = u2 * root, b2 = root - b1, pdf = F(0.0f);
@@ -173,7 +172,7 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
         b2 = fma(part->size, b2, part->b2);
     }
     light_sample s = light_point_of_triangle(l, m, p, b1, b2);
-    /* The direction itself: right above the lamp the way to its point, whose place is rounded, leads anywhere. */
+    /* Keeps the sampled direction: right above the lamp the way to its point, which is rounded, leads anywhere. */
     s.wi = v3_select(near, wi, s.wi);
     s.radiance = light_radiance(l, g, m, b1, b2, s.wi);
     s.pdf = near ? pdf : s.pdf;
@@ -182,7 +181,7 @@ EC_FN light_sample light_sample_triangle(const light_record *l, const geometry *
     return s;
 }
 
-/* By a part of it, where it is in parts. */
+/* Samples a point of a lamp for p, by one of its parts if it has some. */
 EC_FN light_sample light_sample_lamp(const light_record *l, const geometry *g, lane_i m, v3 p, lane_f u1, lane_u r2)
 {
     lamp_part part = lamp_part_all();
@@ -195,14 +194,14 @@ EC_FN light_sample light_sample_lamp(const light_record *l, const geometry *g, l
     return light_sample_triangle(l, g, &part, m, p, u1, u2);
 }
 
-/* What a spot sends along a direction, of what it sends along its axis; of a point all. cosine: between both. */
+/* Returns what a spot sends along a direction over what it sends along its axis; 1 for point lights. cosine: between the two. */
 EC_FN lane_f light_falloff(const light_record *l, lane_f cosine)
 {
     lane_f cone = min(max((cosine - l->c.y) * l->c.x, F(0.0f)), F(1.0f));
     return (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT ? cone * cone : F(1.0f);
 }
 
-/* The factor by which a range dims its light at a squared distance: 1 near the light, 0 from the range on. */
+/* Returns the factor by which a light's range dims it at a squared distance: 1 near the light, 0 from the range on. */
 EC_FN lane_f light_range_window(const light_record *l, lane_f d2)
 {
     lane_f inverse_range = l->c.z;
@@ -261,7 +260,7 @@ EC_FN light_sample light_sample_select(lane_i m, light_sample a, light_sample b)
     return s;
 }
 
-/* One light for a point p, and a point or direction on it, by r1 and r2: random 32-bit numbers. */
+/* Samples one light for a point p, and a point or direction on it. r1, r2: random 32-bit numbers. */
 EC_FN light_sample light_sample_one(const lights *l, const geometry *g, lane_i m, v3 p, lane_u r1, lane_u r2)
 {
     constant ec_params *params = l->env.params;

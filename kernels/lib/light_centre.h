@@ -5,7 +5,8 @@
 
 #include "light.h"
 
-/* One light, the same for every lane. radiance: irradiance of a plane at p that faces it. Not valid for the environment. */
+/* Makes the sample of light `id`, the same for every lane, by its centre. radiance: irradiance of a plane at p that faces it. Not valid for the
+ * environment. */
 EC_FN light_sample light_from_centre(global const float *table, uint id, const geometry *g, lane_i m, v3 p, float scene_radius)
 {
     light_record l = light_load_one(table, id);
@@ -24,7 +25,7 @@ EC_FN light_sample light_from_centre(global const float *table, uint id, const g
     if (HAS(PUNCTUAL_LIGHTS) || HAS(AREA_LIGHTS)) { /* curved lamps count as points */
         lane_i is = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
         light_sample other = light_sample_punctual(&l, m & is, p, scene_radius);
-        /* A body's surface is not in the way to its centre. */
+        /* A body's surface must not shadow its own centre. */
         lane_f way = sqrt(v3_dot(other.towards, other.towards)), outside = max(way - l.pdf_a, F(0.0f));
         other.towards = v3_scale(other.towards, l.pdf_a > 0.0f ? outside / way : F(1.0f));
         s = HAS(AREA_LIGHTS) ? light_sample_select(is, other, s) : other;
@@ -32,7 +33,7 @@ EC_FN light_sample light_from_centre(global const float *table, uint id, const g
     return s;
 }
 
-/* What the environment's mean adds to a surface of this albedo. */
+/* Returns what a surface of this albedo reflects of the environment's mean. */
 EC_FN v3 light_ambient(constant ec_params *params, v3 albedo)
 {
     constant float *mean = params->environment_mean;

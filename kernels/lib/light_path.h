@@ -1,16 +1,17 @@
-/* Light paths: paths that start at lights and are joined to the camera at each of their vertices but the first, a third way in which path tracing finds
- * light (Veach 1997, chapter 10, with t = 1 and s > 2; --integrator light has s = 2, too). They start towards spheres about what bends or mirrors light sharply, the casters.
+/* Light paths: paths that start at lights and are joined to the camera at each of their vertices but the first, a third way in which path tracing
+ * finds light (Veach 1997, chapter 10, with t = 1 and s > 2; --integrator light has s = 2, too). They start towards the casters, spheres about what
+ * bends or mirrors light sharply.
  *
- * For one and the same path x_1 (seen by the camera) … x_k (on a light), let P, N and T be the densities with which directions sampled at
- * x_k-1 find it, light sampling there, and light paths. Each way's light is weighed by the power heuristic over the three. With c and a
- * directions at a vertex towards the camera and the light, Q the density of c where light paths sample it and P that of a,
+ * For one and the same path x_1 (seen by the camera) … x_k (on a light), let P, N and T be the densities with which directions sampled at x_k-1 find
+ * it, light sampling there, and light paths. The contribution of each is weighted by the power heuristic over the three. With c and a directions at a
+ * vertex towards the camera and the light, Q the density of c where light paths sample it and P that of a,
  *
  *     T / P = E K,   K = M |ng a_1| / (|ng c_1| P_1) * product over i = 2 … k-1 of |ng a_i| Q_i / (|ng c_i| P_i)
  *
- * where M is camera paths' area at x_1 times light paths a camera path, and E light's density (emission_*). Weights need not know densities
- * to the digit as long as all three strategies take the same ones: a BSDF that is sampled by its value has |ns a| Q = |ns c| P, times 1 /
- * eta^2 where light is bent, since values are of basic radiance. So K stays what it is behind x_1, but for light_path_turn. It is 0 where no light path
- * comes by: where c is the only direction that leads to a at x_1, where rays start above their facet (terminator.h), and where the shading
+ * where M is the area of camera paths at x_1 times the number of light paths per camera path, and E the density of emission (emission_*). Weights may
+ * be of approximate densities as long as all three strategies use the same ones. A BSDF that is sampled by its value has |ns a| Q = |ns c| P, times 1
+ * / eta^2 where light is bent, since values are of basic radiance; so behind x_1 a vertex only multiplies K by light_path_turn. K is 0 where no light
+ * path comes by: where c is the only direction that leads to a at x_1, where rays start above their facet (terminator.h), and where the shading
  * normal is bent for one of both (surface_seen_normal). */
 #ifndef EC_LIB_LIGHT_PATH_H
 #define EC_LIB_LIGHT_PATH_H
@@ -19,9 +20,9 @@
 #include "light.h"
 
 #define EC_K_MOST 1e30f
-#define EC_K_LOW 1e-4f /* cosines to ns, under which few digits are left */
+#define EC_K_LOW 1e-4f /* cosines to ns below this have few digits left */
 
-/* Numbers of a light path: of number `path` of all those of one round of samples. seed: of the replicate's light paths. */
+/* Returns the sampler of light path number `path` in round `sample`. seed: that of the replicate's light paths. */
 EC_FN sampler light_path_sampler(uint seed, lane_u path, lane_u sample) { return sampler_make(seed, sample, path); }
 #define EC_PAIR_CASTER 0x80000001u
 
@@ -31,7 +32,7 @@ EC_FN v3 caster_centre(constant ec_params *params, uint j)
     return v3_make(F(c[0]), F(c[1]), F(c[2]));
 }
 
-/* Density per solid angle, over all casters, of directions d from point q of a lamp: uniform in the cone about a sphere. */
+/* Returns the pdf per solid angle, over all casters, of direction d from point q of a lamp: uniform in the cone about a sphere. */
 EC_FN lane_f aim_pdf(constant ec_params *params, v3 q, v3 d)
 {
     lane_f sum = F(0.0f);
@@ -46,7 +47,7 @@ EC_FN lane_f aim_pdf(constant ec_params *params, v3 q, v3 d)
     return sum;
 }
 
-/* The direction that is off the axis by an angle of cosine 1 - rise, turned by u1 about it. */
+/* Returns the direction at an angle of cosine 1 - rise to the axis; u1: its azimuth, in turns. */
 EC_FN v3 direction_about(v3 axis, lane_f rise, lane_f u1)
 {
     v3 s, t;
@@ -55,7 +56,7 @@ EC_FN v3 direction_about(v3 axis, lane_f rise, lane_f u1)
     return v3_normalize(v3_fma(axis, 1.0f - rise, v3_fma(s, sine * cos_phi, v3_scale(t, sine * sin_phi))));
 }
 
-/* A direction so, to the caster about `centre`; u1, u2 in [0, 1). */
+/* Samples a direction from q in the cone to the caster about `centre`; u1, u2 in [0, 1). */
 EC_FN v3 aim_sample(v3 centre, lane_f radius, v3 q, lane_f u1, lane_f u2)
 {
     v3 way = v3_sub(centre, q);
@@ -65,7 +66,8 @@ EC_FN v3 aim_sample(v3 centre, lane_f radius, v3 q, lane_f u1, lane_f u2)
     return direction_about(axis, rise, u1);
 }
 
-/* A direction in which a lamp shines, in proportion to its cosine, and the density over that. Both sides: u2's first half is behind n. */
+/* Samples a direction of a lamp's emission in proportion to its cosine; *pdf_per_cosine: the pdf over the cosine. With both_sides, the first half of
+ * u2 is behind n. */
 EC_FN v3 lamp_direction(v3 n, lane_i both_sides, lane_f u1, lane_f u2, lane_f *pdf_per_cosine)
 {
     lane_i behind = both_sides & (u2 < 0.5f);
@@ -74,7 +76,7 @@ EC_FN v3 lamp_direction(v3 n, lane_i both_sides, lane_f u1, lane_f u2, lane_f *p
     return direction_about(v3_select(behind, v3_negate(n), n), 1.0f - sqrt(1.0f - rest), u1);
 }
 
-/* A direction in which a point shines, uniform over its cone, or all around. */
+/* Samples a direction of a punctual light's emission, uniform over a spot's cone or all around. */
 EC_FN v3 punctual_direction(const light_record *l, lane_f u1, lane_f u2, lane_f *pdf)
 {
     lane_i is_spot = (l->kind & EC_LIGHT_KIND_MASK) == EC_KIND_SPOT;
@@ -83,7 +85,7 @@ EC_FN v3 punctual_direction(const light_record *l, lane_f u1, lane_f u2, lane_f 
     return direction_about(v3_select(is_spot, l->b, v3_make(F(0.0f), F(0.0f), F(1.0f))), most * u2, u1);
 }
 
-/* Density per area across d of the line through p along d: uniform over the casters' disks. */
+/* Returns the density, per area across d, of the line through p along d: uniform over the casters' disks. */
 EC_FN lane_f aim_far_pdf(constant ec_params *params, v3 p, v3 d)
 {
     lane_f sum = F(0.0f);
@@ -96,7 +98,7 @@ EC_FN lane_f aim_far_pdf(constant ec_params *params, v3 p, v3 d)
     return sum;
 }
 
-/* Where such a line to the caster enters the scene. */
+/* Samples such a line to the caster about `centre`; returns a point on it before the scene. */
 EC_FN v3 aim_far_origin(constant ec_params *params, v3 centre, lane_f radius, v3 d, lane_f u1, lane_f u2)
 {
     v3 s, t;
@@ -106,8 +108,8 @@ EC_FN v3 aim_far_origin(constant ec_params *params, v3 centre, lane_f radius, v3
     return v3_fma(d, F(-2.0f * params->scene_radius) - radius, on_disk);
 }
 
-/* Light's density E for light paths. The table `emission`, in words: ec_distribution_entry of each light, then their probabilities, then their
- * trails where there is a light tree, and the lights of triangles. */
+/* Returns the probability with which light paths start from light id. The table `emission` has, in words: ec_distribution_entry of each light, then
+ * their probabilities, then their trails where there is a light tree, and the lights of triangles. */
 EC_FN lane_f emission_pmf(const lights *l, lane_u id)
 {
     return as_lane_f(gather_u(l->emission, id + 2u * l->env.params->light_count));
@@ -115,25 +117,25 @@ EC_FN lane_f emission_pmf(const lights *l, lane_u id)
 /* The light of a triangle, or EC_NO_ID. */
 EC_FN lane_u emission_light(const lights *l, lane_u prim) { return gather_u(l->emission, prim + 4u * l->env.params->light_count); }
 
-/* E of point q of a lamp whose area is 1 / per_area, along d with this cosine to its normal. */
+/* Returns E of point q of a lamp whose area is 1 / per_area, along d with this cosine to its normal. */
 EC_FN lane_f emission_lamp(const lights *l, lane_i m, lane_u id, lane_f per_area, v3 q, v3 d, lane_f cosine)
 {
     lane_f pdf = emission_pmf(l, m ? id : U(0)) * per_area * aim_pdf(l->env.params, q, d) / cosine;
     return (m & (cosine > 0.0f)) ? pdf : F(0.0f);
 }
-/* E of a far light, its direction having density pdf among its own, along d through p. */
+/* Returns E of a far light along d through p; pdf: the density of d among the light's directions. */
 EC_FN lane_f emission_far(const lights *l, lane_u id, lane_f pdf, v3 p, v3 d)
 {
     return emission_pmf(l, id) * pdf * aim_far_pdf(l->env.params, p, d);
 }
-/* E of the environment, always the first light, where light sampling has density pdf. */
+/* Returns E of the environment, always the first light, where light sampling has density pdf. */
 EC_FN lane_f emission_environment(const lights *l, lane_f pdf, v3 p, v3 d)
 {
     lane_f own = pdf / F(l->env.params->environment_pmf);
     return pdf > 0.0f ? emission_far(l, U(0), own, p, d) : F(0.0f);
 }
 
-/* E of what light sampling has chosen for p. */
+/* Returns E of light sample s for p, on the lanes m. */
 EC_FN lane_f emission_sampled(const lights *l, const light_sample *s, lane_i m, v3 p)
 {
     v3 d = v3_negate(s->wi);
@@ -152,8 +154,8 @@ EC_FN lane_f emission_sampled(const lights *l, const light_sample *s, lane_i m, 
     return e;
 }
 
-/* Is there no light path by this vertex, that is seen from wo, goes on along wi (local: z) and starts lifted or not? A wall that is narrower than directions
- * resolve from one side only is one; so is a mirroring coat that is tilted. */
+/* Returns the lanes on which no light path passes this vertex from wi to wo. wo_z, wi_z: their local z; lifted: rays start above the facet. Among
+ * these are walls whose lobe is too narrow to resolve from one side only, and tilted coats that mirror. */
 EC_FN lane_i light_path_misses(const surface *s, v3 wi, lane_f wo_z, lane_f wi_z, lane_i lifted)
 {
     lane_i passes = wi_z < 0.0f, none = s->bent | (fabs(wi_z) < surface_least_cosine(fabs(v3_dot(s->ng, wi)))) | (lifted & !passes);
@@ -170,21 +172,21 @@ EC_FN lane_i light_path_misses(const surface *s, v3 wi, lane_f wo_z, lane_f wi_z
     return none;
 }
 
-/* |ng a| Q / (|ng c| P) at a vertex between c and a (local: z). */
+/* Returns |ng a| Q / (|ng c| P) at a vertex; c_z, a_z: local z of c and a. */
 EC_FN lane_f light_path_turn(const surface *s, v3 c, v3 a, lane_f c_z, lane_f a_z)
 {
     lane_f turn = fabs(v3_dot(s->ng, a) * c_z) / fabs(v3_dot(s->ng, c) * a_z);
     return (s->refracts & (c_z * a_z < 0.0f)) ? turn / (s->eta * s->eta) : turn;
 }
 
-/* Light paths leave direct light to the other two ways: these find it with every path, in the order of their samples, where light paths would come in
- * random numbers. Behind the first vertex K says so in its last bit. */
+/* Light paths leave direct light to the other two strategies: these find it with every path, in the order of their samples, where a random number of
+ * light paths would bring it. The last bit of K says so behind the first vertex. */
 EC_FN lane_f k_mark_direct(lane_f k) { return k > 0.0f ? as_lane_f(as_lane_u(k) | 1u) : F(0.0f); }
 EC_FN lane_f k_unmark(lane_f k) { return as_lane_f(as_lane_u(k) & ~1u); }
 EC_FN lane_i k_is_joined(lane_f k) { return (k > 0.0f) & ((as_lane_u(k) & 1u) == 0u); }
 
-/* K behind a vertex that is left by wi with density pdf, < 0: the only direction. k: before it, < 0 where it is the first one; way2: squared
- * length of the way from the camera to that. straight: a pane is passed, and is no vertex. */
+/* Returns K behind a vertex that a path leaves along wi with density pdf (< 0: the only direction). k: K before the vertex, < 0 at the first one;
+ * way2: squared distance from the camera to the first one. straight: a pane is passed, which is no vertex. */
 EC_FN lane_f light_path_k(constant ec_params *params, const surface *s, lane_f k, lane_f way2, v3 wo, v3 wi, lane_f wo_z, lane_f wi_z, lane_f pdf,
                           lane_i lifted, lane_i straight)
 {
@@ -195,7 +197,7 @@ EC_FN lane_f light_path_k(constant ec_params *params, const surface *s, lane_f k
     return straight ? k : next;
 }
 
-/* The density with which light sampling at p would have found the light path's start, `source`, which lies against d. */
+/* Returns the pdf with which light sampling at p finds `source`, the point (b1, b2) of light id where a light path starts along d. */
 EC_FN lane_f light_path_joined_pdf(const lights *l, const geometry *g, lane_i m, lane_u id, lane_f b1, lane_f b2, v3 p, v3 source, v3 d)
 {
     constant ec_params *params = l->env.params;

@@ -8,11 +8,11 @@
 
 typedef struct lights {
     global const float *table; /* ec_light_data by word */
-    global const uint *shares; /* ec_distribution_entry by word: of the table's lights in its order; with a tree of those that are infinitely
-                                  far, which come first, and of all others together */
+    global const uint *shares; /* ec_distribution_entry by word, one for each light of the table; with a tree, one for each light at infinity, which
+                                * come first, and one for all others together */
     environment env;
-    global const float *tree;  /* ec_light_node by word; NULL: by power alone */
-    global const uint *emission; /* with LIGHT_PATHS: which light sends them (light_path.h) */
+    global const float *tree;  /* ec_light_node by word; NULL: lights are chosen by power alone */
+    global const uint *emission; /* with LIGHT_PATHS: how lights are chosen as their start (light_path.h) */
 } lights;
 
 EC_FN bool lights_have_tree(const lights *l) { return HAS(LIGHT_TREE) && l->tree; }
@@ -34,7 +34,7 @@ EC_FN light_record light_load(const lights *l, lane_u id)
     return r;
 }
 
-/* To where it is at the paths' time. Those that do not move are at key 0 of nothing that is used. */
+/* Moves a light to where it is at the paths' time. Lanes whose light stands still load a valid key, which is not used. */
 EC_FN void light_move(const geometry *g, light_record *l)
 {
     lane_u type = l->kind & EC_LIGHT_KIND_MASK;

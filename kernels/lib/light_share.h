@@ -1,5 +1,5 @@
-/* What part of light sampling goes to lights at infinity and what to lamps. The table of lights has half of its numbers for each; random
- * numbers are stretched to that from what part they should have. */
+/* Divides light sampling between lights at infinity and lamps. The table of lights gives half of its numbers to each; random numbers are stretched to
+ * these halves from the shares that they should have. */
 #ifndef EC_LIB_LIGHT_SHARE_H
 #define EC_LIB_LIGHT_SHARE_H
 
@@ -16,7 +16,7 @@ EC_FN lane_u light_share_number(constant ec_params *params, lane_u r)
     return far ? number : (number | 0x80000000u);
 }
 
-/* The chance of a light, over that of the table. */
+/* Returns the probability of a light over that of the table. */
 EC_FN lane_f light_share_scale(constant ec_params *params, lane_u kind)
 {
     if (!HAS_FAR_AND_LAMPS || !params->far_numbers) return F(1.0f);

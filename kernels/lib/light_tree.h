@@ -1,24 +1,23 @@
-/* One of many lamps, chosen by what it may send to a point (Conty Estevez and Kulla 2018): from the root of a tree to a leaf, at each
- * node by the power of its two children over their squared distance, times the cosine that the best of their normals could have.
+/* Chooses one of many lamps by what it may send to a point (Conty Estevez and Kulla 2018): descends from the root of a tree to a leaf, at each node
+ * by the power of its two children over their squared distance, times the cosine that the best of their normals could have.
  *
- * Probabilities are shares of 2^31 random numbers that are handed down as whole numbers, so that the one divided by is the one
- * sampled, and those of all lamps add up to what they have together. Children have contiguous shares, and what is left of the number at a
- * leaf goes on to the point on the lamp. The point's own normal is left out: a path that meets a lamp knows where it comes from, not how the
- * surface there lay. */
+ * Probabilities are shares of 2^31 random numbers that are handed down as whole numbers, so that the probability divided by is the one sampled, and
+ * those of all lamps add up exactly. Children have contiguous shares, and the number's place in the share of a leaf is reused for the point on the
+ * lamp. The point's own normal is left out: a path that meets a lamp knows where it comes from, but not how the surface there lay. */
 #ifndef EC_LIB_LIGHT_TREE_H
 #define EC_LIB_LIGHT_TREE_H
 
 #include "bulb.h"
 #include "choice.h"
 
-#define EC_TREE_FEW 0x10000u /* numbers: fewer are too coarse to share out, and become 2^15 times as many */
+#define EC_TREE_FEW 0x10000u /* shares of fewer numbers are too coarse to divide, and become 2^15 times as fine */
 #define EC_TREE_FINER 15u
-/* Sines made of cosines near 1 are good to sqrt(2 u) = 3.5e-4, and two angles are taken off: what a cosine under -EC_TREE_DARK says
- * to be dark is dark. What is not keeps that share at least. */
+/* Sines made of cosines near 1 are good to sqrt(2 u) = 3.5e-4, and two angles are taken off: a node whose cosine is under -EC_TREE_DARK is surely
+ * dark. The cosine of any other counts as EC_TREE_DARK at least. */
 #define EC_TREE_DARK 0.004f
 
-/* Power times the largest cosine that one of a node's lamps may have towards p; d2: squared distance, no less than the node's size; link: where the
- * node leads. */
+/* Returns a node's power times the largest cosine that one of its lamps may have towards p. *d2: squared distance, no less than the node's size;
+ * *link: where the node leads. */
 EC_FN lane_f light_node_weight(quad place, quad cone, quad rest, v3 p, lane_f *d2, lane_u *link)
 {
     v3 way = v3_sub(p, v3_make(place.a, place.b, place.c));
@@ -40,14 +39,15 @@ EC_FN lane_f light_node_weight(quad place, quad cone, quad rest, v3 p, lane_f *d
     lane_i within = cosine >= cos_spread; /* the cone of normals */
     lane_f c = within ? F(1.0f) : fma(cosine, cos_spread, sine * sin_spread);
     lane_f s = within ? F(0.0f) : fma(sine, cos_spread, -(cosine * sin_spread));
-    lane_f sine2 = radius2 / distance2; /* of the angle that the node's sphere takes */
+    lane_f sine2 = radius2 / distance2; /* of the angle that the node's sphere subtends */
     lane_f cos_size = sqrt(max(1.0f - sine2, F(0.0f)));
     c = c >= cos_size ? F(1.0f) : fma(c, cos_size, s * sqrt(sine2));
     c = distance2 > radius2 ? c : F(1.0f);
     return c < -EC_TREE_DARK ? F(0.0f) : rest.a * max(c, F(EC_TREE_DARK));
 }
 
-/* How many of `all` numbers the first of two children gets, and where both lead. at_root: they are the root's, on all lanes. */
+/* Returns how many of `all` numbers the first of the two children at `child` gets; *first, *second: where they lead. at_root: they are the root's, on
+ * all lanes. */
 EC_FN lane_u light_tree_share(global const float *tree, lane_u child, bool at_root, v3 p, lane_u all, lane_u *first, lane_u *second)
 {
     lane_u at = child * EC_LIGHT_NODE_WORDS;
@@ -60,11 +60,11 @@ EC_FN lane_u light_tree_share(global const float *tree, lane_u child, bool at_ro
     lane_f share = good ? ia / sum : F(0.5f);
     lane_u n = int_to_lane_u(to_lane_i(to_lane_f(all >> 1) * share)) << 1;
     n = wb > 0.0f ? min(max(n, wa > 0.0f ? U(1u) : U(0u)), all - 1u) : all;
-    return dark ? all >> 1 : n; /* dark both: it does not matter, but probabilities add up */
+    return dark ? all >> 1 : n; /* both are dark: any split will do that adds up */
 }
 
-/* A lamp for p, and its probability. rest: one of `numbers` of 2^31 numbers, on the lanes m; *left: where it lies in the lamp's share, in [0, 1).
- * r: bits to make it finer. */
+/* Chooses a lamp for p, on the lanes m; *pmf: its probability. rest: a random number under `numbers`, of 2^31; *left: its place in the lamp's share,
+ * in [0, 1). r: bits that refine it. */
 EC_FN lane_u light_tree_choose(const lights *l, lane_i m, v3 p, lane_u rest, uint numbers, lane_u r, lane_f *pmf, lane_f *left)
 {
     lane_u link = U(1u), all = U(numbers);
@@ -98,7 +98,7 @@ EC_FN lane_u light_tree_choose(const lights *l, lane_i m, v3 p, lane_u rest, uin
     return lamp;
 }
 
-/* The lamp at the end of a trail whose next step is one of two children; weights are not asked for. */
+/* Returns the lamp at the end of `trail`, followed from the two children at `child` without computing weights. */
 EC_FN lane_u light_tree_end(global const float *tree, lane_i m, lane_u child, lane_u trail)
 {
     lane_u link = child;
@@ -110,7 +110,7 @@ EC_FN lane_u light_tree_end(global const float *tree, lane_i m, lane_u child, la
     return link & ~EC_LIGHT_LEAF;
 }
 
-/* The probability with which that comes to the lamp at the end of a trail. */
+/* Returns the probability with which light_tree_choose reaches the lamp at the end of `trail`. */
 EC_FN lane_f light_tree_pmf(const lights *l, lane_i m, v3 p, uint numbers, lane_u trail)
 {
     lane_u link = U(1u), all = U(numbers);

@@ -29,8 +29,8 @@ EC_FN v3 v3_abs(v3 a) { return v3_make(fabs(a.x), fabs(a.y), fabs(a.z)); }
 /* a + s b */
 EC_FN v3 v3_fma(v3 b, lane_f s, v3 a) { return v3_make(fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)); }
 EC_FN lane_f v3_dot(v3 a, v3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
-/* a b - c d within 1.5 ulps of itself: what one product rounds off is put back (Kahan; Jeannerod, Louvet, Muller 2013). Taken
- * away, not added: a zero keeps its sign. */
+/* Returns a b - c d within 1.5 ulps: what one product rounds off is put back (Kahan; Jeannerod, Louvet, Muller 2013). It is subtracted, not added, so
+ * that a zero keeps its sign. */
 EC_FN lane_f product_difference(lane_f a, lane_f b, lane_f c, lane_f d)
 {
     lane_f cd = c * d;
@@ -51,8 +51,8 @@ EC_FN bool is_finite_one(float x) { return (as_uint(x) & 0x7f800000u) != 0x7f800
 EC_FN lane_i is_finite_bits(lane_f x) { return (as_lane_u(x) & 0x7f800000u) != 0x7f800000u; }
 EC_FN lane_i v3_is_finite(v3 a) { return is_finite_bits(a.x) & is_finite_bits(a.y) & is_finite_bits(a.z); }
 
-/* Orthonormal frame around the unit vector n (Duff et al. 2017, listing 3, but that it turns at -0.125 and not at 0: there an ulp of a vertex would turn the
- * frame of an axis-parallel wall, and of all paths that leave it). */
+/* Makes an orthonormal frame around the unit vector n (Duff et al. 2017, listing 3, but with its change of sign at n.z = -0.125 instead of 0: there
+ * an ulp of a vertex would turn the frame of an axis-parallel wall, and of all paths that leave it). */
 EC_FN void v3_frame(v3 n, v3 *s, v3 *t)
 {
     lane_f sign = n.z < -0.125f ? F(-1.0f) : F(1.0f);

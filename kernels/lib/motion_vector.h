@@ -1,4 +1,4 @@
-/* By how many pixels what a sample meets goes through the picture while the shutter is open. */
+/* Motion vectors: by how many pixels what a sample meets moves in the picture while the shutter is open. */
 #ifndef EC_LIB_MOTION_VECTOR_H
 #define EC_LIB_MOTION_VECTOR_H
 
@@ -6,8 +6,7 @@
 #include "geometry.h"
 #include "slot_layers.h"
 
-/* Where a place is seen, in pixels from the picture's top left corner; a direction, where that is infinitely far away. *before: the camera is in
- * front of it. */
+/* Projects `place` (a direction where is_far) to pixels from the picture's top left corner. *before: it is in front of the camera. */
 EC_FN void seen_at(constant ec_params *params, const camera_axes *v, v3 place, lane_i is_far, lane_f *x, lane_f *y, lane_i *before)
 {
     v3 way = v3_select(is_far, place, v3_sub(place, v->origin));
@@ -17,7 +16,7 @@ EC_FN void seen_at(constant ec_params *params, const camera_axes *v, v3 place, l
     *y = (v3_dot(way, v->up) / (v3_dot(v->up, v->up) * depth) - params->screen[1]) / params->screen[3];
 }
 
-/* The hit's point of its triangle at a moment. */
+/* Returns the hit's point on its triangle at a moment. */
 EC_FN v3 hit_point_at(global const float *motion, const hit_point *h, lane_u prim, lane_i moves, moment t)
 {
     v3 p0 = h->p0, p1 = h->p1, p2 = h->p2;
@@ -25,7 +24,8 @@ EC_FN v3 hit_point_at(global const float *motion, const hit_point *h, lane_u pri
     return v3_fma(p2, h->b2, v3_fma(p1, h->b1, v3_scale(p0, h->b0)));
 }
 
-/* On the lanes of `active`; what is not found lies at infinity, along d. A place that is behind the camera at one end has no vector. */
+/* Stores motion vectors on the lanes `active`. Rays that have not `found` a surface see a point at infinity along d. A point that is behind the
+ * camera at either end has no vector. */
 EC_FN void store_motion_vector(constant ec_params *params, global float *radiance, global const float *motion, global const float *camera_keys, lane_u slot,
                                const hit_point *h, lane_u prim, v3 d, lane_i active, lane_i found)
 {

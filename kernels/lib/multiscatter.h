@@ -1,13 +1,13 @@
-/* What GGX microfacets lose, given back (--scattering multiple). They scatter light once: what meets a second facet is counted as
- * lost, l(n . w) of white light along w (multiscatter_table.h). A lobe with the shape of the loss on both ways returns it (Kulla and
- * Conty 2017, "Revisiting physically based shading at Imageworks"):
+/* Gives back what single scattering at GGX microfacets loses (--scattering multiple). What meets a second facet is counted as lost: l(n . w) of white
+ * light along w (multiscatter_table.h). A lobe with the shape of the loss in both directions returns it (Kulla and Conty 2017, "Revisiting physically
+ * based shading at Imageworks"):
  *
  *   f = share l(no) l(ni) / (pi L),   L = integral of 2 mu l(mu) over mu
  *
- * so that along each wo it returns share l(no), whatever the table says; and that says no more than was lost: a furnace stays at 1 or
- * under it. It is reciprocal. share: of metal F^2 E / (1 - F (1 - E)) with F the mean of Schlick's reflectance and E = 1 - L. Rough glass
- * loses what neither its reflection nor its transmission brings, of which 1 - t comes back and t passes; between bodies, whose loss
- * depends on the side, f keeps n^2's reciprocity (bsdf.h) because t L of one side is eta^2 t L of the other. */
+ * so that along each wo it returns share l(no), whatever the table says; and that says no more than was lost: a furnace stays at 1 or under it. The
+ * lobe is reciprocal. For metal, share is F^2 E / (1 - F (1 - E)) with F the mean of Schlick's reflectance and E = 1 - L. Rough glass loses what
+ * neither its reflection nor its transmission brings; of that, 1 - t comes back and t passes. Between bodies, whose loss depends on the side, f keeps
+ * n^2's reciprocity (bsdf.h) because t L of one side is eta^2 t L of the other. */
 #ifndef EC_LIB_MULTISCATTER_H
 #define EC_LIB_MULTISCATTER_H
 
@@ -20,11 +20,11 @@
 
 /* One side of a surface: its place in the table. */
 typedef struct loss {
-    lane_u at;                  /* of the first value of a row */
-    lane_f roughness, contrast; /* how far on towards the row, and the index, after it */
+    lane_u at;                  /* index of the first value of its row */
+    lane_f roughness, contrast; /* fractions towards the next row and towards the next contrast */
 } loss;
 
-/* The table's place p among `count`: the node before it, and how far behind that. */
+/* Returns the node before place p among `count`; *behind: the fraction from there to the next. */
 EC_FN lane_u loss_node(lane_f p, uint count, lane_f *behind)
 {
     lane_f node = min(max(floor(p), F(0.0f)), F((float)(count - 2u)));
@@ -32,7 +32,7 @@ EC_FN lane_u loss_node(lane_f p, uint count, lane_f *behind)
     return int_to_lane_u(to_lane_i(node));
 }
 
-/* eta: index beyond over index here; 0: as if all were mirrored. */
+/* eta: index beyond over index here; 0: everything is mirrored. */
 EC_FN loss loss_make(lane_f alpha, lane_f eta)
 {
     loss l;
@@ -44,7 +44,7 @@ EC_FN loss loss_make(lane_f alpha, lane_f eta)
     return l;
 }
 
-/* Along a row, to the next one, to the next index. */
+/* Interpolates along a row (t: the fraction after `column`), between rows and, with TRANSMISSION, between contrasts. */
 EC_FN lane_f loss_look_up(const loss *l, lane_u column, lane_f t)
 {
     lane_f value = F(0.0f);
@@ -59,7 +59,7 @@ EC_FN lane_f loss_look_up(const loss *l, lane_u column, lane_f t)
     return value;
 }
 
-/* l, for the cosine of a direction on this side. */
+/* Returns l for the cosine of a direction on this side. */
 EC_FN lane_f loss_along(const loss *l, lane_f cosine)
 {
     lane_f t;
@@ -67,10 +67,10 @@ EC_FN lane_f loss_along(const loss *l, lane_f cosine)
     return loss_look_up(l, column, t);
 }
 
-/* L. */
+/* Returns L. */
 EC_FN lane_f loss_mean(const loss *l) { return loss_look_up(l, U(MULTISCATTER_COSINES), F(0.0f)); }
 
-/* What comes back of metal, for the mean of Schlick's reflectance. */
+/* Returns the share for a channel f0 of metal; mean: L. f is the mean of Schlick's reflectance. */
 EC_FN lane_f loss_share(lane_f f0, lane_f mean)
 {
     lane_f f = fma(1.0f - f0, F(1.0f / 21.0f), f0);
@@ -78,15 +78,15 @@ EC_FN lane_f loss_share(lane_f f0, lane_f mean)
 }
 
 typedef struct multiscatter {
-    loss metal, here, beyond;          /* here and beyond: of glass */
-    v3 of_metal, back, through;        /* f |cos wi| over l(wi) |cos wi| */
-    lane_f albedo;                     /* what it returns of grey light */
-    lane_f p, p_below;                 /* probability of sampling it; then, of the other side */
-    lane_f slope;                      /* of the density in z, from 1 - slope to 1 + slope */
+    loss metal, here, beyond;          /* here, beyond: the two sides of glass */
+    v3 of_metal, back, through;        /* f / l(wi) of metal, and of glass on either side */
+    lane_f albedo;                     /* share of grey light that it returns */
+    lane_f p, p_below;                 /* probability of sampling the lobe; then, of the other side */
+    lane_f slope;                      /* of the sampling density in z, from 1 - slope to 1 + slope */
 } multiscatter;
 
-/* metallic, glass: shares of the surface. Glass whose reflectance is not its index's loses what the table does not say: its share is
- * to be less. Thin walls, which do not refract, mirror what passes and lose what metal does. */
+/* metallic, glass: shares of the surface. Where the reflectance of glass is not that of its index, the table does not hold, and callers pass a
+ * smaller share. Thin walls, which do not refract, mirror what passes and lose what metal does. */
 EC_FN multiscatter multiscatter_make(lane_f alpha, lane_f cosine, v3 base, lane_f metallic, lane_f glass, lane_f eta,
                                      lane_i refracts)
 {
@@ -116,14 +116,14 @@ EC_FN multiscatter multiscatter_make(lane_f alpha, lane_f cosine, v3 base, lane_
     return m;
 }
 
-/* albedo: about what the facets return that scatter once. */
+/* Sets the probability of sampling the lobe. albedo: about what facets return by single scattering. */
 EC_FN void multiscatter_weigh(multiscatter *m, lane_f albedo)
 {
     m->p = m->albedo > 0.0f ? m->albedo / (m->albedo + albedo) : F(0.0f);
 }
 
-/* Adds it to f |cos wi| and the density of what is scattered once. Its own sampling of either hemisphere is uniform for
- * narrow lobes, which lose most near the horizon, and by the cosine for the widest. */
+/* Adds the lobe to f |cos wi| and the density of single scattering. Its own density over either hemisphere is uniform for narrow lobes, which lose
+ * most near the horizon, and goes by the cosine for the widest. */
 EC_FN void multiscatter_over(const multiscatter *m, v3 wo, v3 wi, v3 *f, lane_f *pdf)
 {
     lane_i any = (m->p > 0.0f) & (wo.z > 0.0f);
@@ -139,11 +139,11 @@ EC_FN void multiscatter_over(const multiscatter *m, v3 wo, v3 wi, v3 *f, lane_f 
     *pdf = any ? fma(1.0f - m->p, *pdf, m->p * share * (0.5f * EC_INV_PI) * fma(m->slope, 2.0f * z - 1.0f, F(1.0f))) : *pdf;
 }
 
-/* A direction for multiscatter_over, from an angle and u2, on the side that was chosen by p_below. */
+/* Samples a direction with the density of multiscatter_over, from an angle and u2; below: on the other side, as p_below has chosen. */
 EC_FN v3 multiscatter_sample(const multiscatter *m, lane_f cosine, lane_f sine, lane_f u2, lane_i below)
 {
     lane_f least = 1.0f - m->slope, root = sqrt(fma(least, least, 4.0f * m->slope * u2));
-    lane_f z = min(u2 > 0.0f ? 2.0f * u2 / (least + root) : F(0.0f), F(1.0f)); /* of slope z^2 + (1 - slope) z = u2 */
+    lane_f z = min(u2 > 0.0f ? 2.0f * u2 / (least + root) : F(0.0f), F(1.0f)); /* solves slope z^2 + (1 - slope) z = u2 */
     lane_f r = sqrt(max(fma(-z, z, F(1.0f)), F(0.0f)));
     return v3_make(r * cosine, r * sine, below ? -z : z);
 }

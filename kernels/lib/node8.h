@@ -1,4 +1,4 @@
-/* One ray against the eight boxes of a node: what trees with eight children are traversed by. */
+/* Tests one ray against the boxes of a node's eight children, for trees of such nodes. */
 #ifndef EC_LIB_NODE8_H
 #define EC_LIB_NODE8_H
 
@@ -7,8 +7,8 @@
 
 EC_INLINED float8 node8_row(global const ec_bvh8_node *n, uint at) { return *(global const float8 *)((global const char *)n->bound + at); }
 
-/* Where the ray enters the children's boxes, and which of them it meets before t_max. Gives the numbers of slab_near: the sign of d
- * chooses the plane instead of min and max. */
+/* Returns where the ray enters the children's boxes; *meets: those that it meets before t_max. Gives the numbers of slab_near, but the sign of d
+ * selects the planes in place of min and max. */
 EC_INLINED float8 node8_near(const ray8 *q, global const ec_bvh8_node *n, float t_max, int8 *meets)
 {
     float8 near = max(max(fma(node8_row(n, q->near_x), q->r.inverse.x, q->near_offset_x),
@@ -21,7 +21,7 @@ EC_INLINED float8 node8_near(const ray8 *q, global const ec_bvh8_node *n, float 
     return near;
 }
 
-/* Asks for a node's or a block's cache lines; every second one is enough, processors fetch them in pairs. */
+/* Prefetches the cache lines of a node or a block; every second one is enough, since processors fetch them in pairs. */
 #if defined(__x86_64__) && __has_builtin(__builtin_prefetch)
 #define PREFETCH(p) __builtin_prefetch((const void *)(p), 0, 3)
 #else
@@ -36,12 +36,12 @@ EC_INLINED void prefetch8(global const ec_bvh8_node *nodes, global const ec_tri8
     PREFETCH(at + 256u);
 }
 
-/* Stacks the children that the ray meets before t_max, in the node's order; may write 8, returns how many count. */
+/* Pushes the children that the ray meets before t_max, in the node's order; returns how many. May write 8 whatever it returns. */
 EC_INLINED uint node8_push(const ray8 *q, global const ec_bvh8_node *n, float t_max, uint *stack)
 {
     int8 meets;
 #if PERMUTES_LANES
-    int8 child = *(global const int8 *)n->child; /* now, and not only once the mask is known */
+    int8 child = *(global const int8 *)n->child; /* loaded before the mask is known, not after */
     node8_near(q, n, t_max, &meets);
     uint mask = mask_bits8(meets);
     vstore8(as_uint8(pack8(child, mask)), 0, stack);
@@ -60,9 +60,9 @@ typedef struct stack8 {
     uint child[EC_BVH8_STACK];
 } stack8;
 
-/* Stacks the children that the ray meets before t_max, about the nearest on top: they come in the order of the direction's octant, which takes
- * no branch (Fuetterling, Lojewski, Pfreundt, Ebert 2017, "Accelerated single ray tracing for wide vector units"). May write 8 beyond the
- * new depth, which it returns. */
+/* Pushes the children that the ray meets before t_max, roughly with the nearest on top: in the node's order for the direction's octant, which takes
+ * no branch (Fuetterling, Lojewski, Pfreundt, Ebert 2017, "Accelerated single ray tracing for wide vector units"). Returns the new depth; may write 8
+ * beyond it. */
 EC_INLINED uint node8_push_near(const ray8 *q, global const ec_bvh8_node *n, float t_max, stack8 *stack, uint depth)
 {
     int8 meets;
@@ -89,10 +89,10 @@ EC_INLINED uint node8_push_near(const ray8 *q, global const ec_bvh8_node *n, flo
 #endif
 }
 
-/* A child to visit: the bits of its distance (no -0), which order as it does, above its index. */
+/* Makes stack entries of children: the bits of the distance (no -0), which order as it does, above the child's index. */
 EC_INLINED ulong8 entries8(float8 near, uint8 child) { return convert_ulong8(as_uint8(near + 0.0f)) << 32 | convert_ulong8(child); }
 
-/* A leaf's block, with its references' boxes where the builder has cut triangles. */
+/* Tests a leaf's block, with its references' boxes if the builder has split triangles. */
 EC_INLINED void leaf8(const accel *a, const ray8 *q, const hit_filter *filter, uint child, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
     uint i = child & ~EC_LEAF_BIT;

@@ -1,4 +1,4 @@
-/* Moving those of eight lanes that are on close together, on processors that permute eight lanes by a vector of numbers. */
+/* Packs those of eight lanes that are on, on processors that permute eight lanes by a vector of numbers. */
 #ifndef EC_LIB_PACKED_LANES_H
 #define EC_LIB_PACKED_LANES_H
 
@@ -8,7 +8,7 @@
 #define __has_builtin(x) 0
 #endif
 
-#ifndef PERMUTES_LANES /* tests of processors that do not are built with 0 */
+#ifndef PERMUTES_LANES /* tests build with 0 to stand for processors that do not */
 #if defined(__AVX2__) && __has_builtin(__builtin_ia32_permvarsi256)
 #define PERMUTES_LANES 1
 #else
@@ -17,7 +17,7 @@
 #endif
 
 #if PERMUTES_LANES
-/* By mask: the numbers of the lanes that are on, in their order, an octal digit each, from the last digit on. */
+/* For each mask, the numbers of the lanes that are on, in their order: an octal digit each, from the last digit on. */
 constant uint packed_lanes[256] = {
     0, 0, 01, 010, 02, 020, 021, 0210, 03, 030, 031, 0310, 032, 0320, 0321, 03210,
     04, 040, 041, 0410, 042, 0420, 0421, 04210, 043, 0430, 0431, 04310, 0432, 04320, 04321, 043210,
@@ -37,13 +37,13 @@ constant uint packed_lanes[256] = {
     07654, 076540, 076541, 0765410, 076542, 0765420, 0765421, 07654210, 076543, 0765430, 0765431, 07654310, 0765432, 07654320, 07654321, 076543210,
 };
 
-/* Eight numbers of lanes, an octal digit each; permute8 looks at no other bits. */
+/* Spreads eight lane numbers, an octal digit each; permute8 ignores all other bits. */
 EC_INLINED int8 lanes8_spread(uint digits) { return as_int8((uint8)(digits) >> (uint8)(0, 3, 6, 9, 12, 15, 18, 21)); }
 
 /* Lane k of the result is lane `lanes[k] & 7` of v. */
 EC_INLINED int8 permute8(int8 v, int8 lanes) { return __builtin_ia32_permvarsi256(v, lanes); }
 
-/* The lanes of `mask`, close together. */
+/* Packs the lanes of `mask` to the front. */
 EC_INLINED int8 pack8(int8 v, uint mask)
 {
 #if defined(__AVX512VL__) && __has_builtin(__builtin_ia32_compresssi256_mask)

@@ -1,24 +1,23 @@
-/* Eight rays that go much the same way, as those of a pixel do, through the 8-wide BVH together: a node's boxes are tested once for all of
- * them, by the least and the most of their origins and inverse directions. A leaf's box tells them apart, and its triangles are met by one
- * ray at a time, so the hits are those of bvh8_closest.
+/* Traces eight rays that go much the same way, as those of a pixel do, through the 8-wide BVH together: a node's boxes are tested once for all of
+ * them, by the least and the greatest of their origins and inverse directions. At a leaf each ray is tested against the box, and then against the
+ * triangles by itself, so the hits are those of bvh8_closest.
  *
- * Why no ray loses a box: along an axis that all go up, ray k enters it at v_k = (p - o_k - b) i_k, where b is ray_make's bound. With O the
- * most that o_k + b is and i the least inverse, (p - O) i <= v_k where p >= O; elsewhere it is negative, as if the ray began inside. The
- * sides that rays leave by are alike, by the least origin and the most inverse. Rounding is under 3 u S i_k in v_k and as much in the other,
- * S being |o| + scene_max, and b is taken 8 u S larger. */
+ * Why no ray loses a box: along an axis that all rays go up, ray k enters it at v_k = (p - o_k - b) i_k, where b is ray_make's bound. With O the greatest
+ * o_k + b and i the least inverse, (p - O) i <= v_k where p >= O; elsewhere it is negative, as if the ray began inside. Exits are alike, by the least origin
+ * and the greatest inverse. Rounding is under 3 u S i_k in v_k and as much in the other, S being |o| + scene_max, and b is taken 8 u S larger. */
 #ifndef EC_LIB_PACKET8_H
 #define EC_LIB_PACKET8_H
 
 #include "traverse_bvh8.h"
 
-/* By axis, where the first of the rays may enter a box and the last may leave it. Splat. */
+/* Along one axis, when the first of the rays may enter a box and the last may leave it; the same in all lanes. */
 typedef struct slabs8 {
     uint near, far; /* rows of ec_bvh8_node.bound */
     float8 first_inverse, first_offset, last_inverse, last_offset;
 } slabs8;
 
 typedef struct packet8 {
-    ray r; /* a ray a lane */
+    ray r; /* one ray per lane */
     slabs8 x, y, z;
 } packet8;
 
@@ -37,7 +36,7 @@ EC_INLINED float least8(float8 v)
 }
 EC_INLINED float most8(float8 v) { return -least8(-v); }
 
-/* False: some of the rays go up the axis, and others down. */
+/* Makes the slabs of one axis; returns false if some rays go up the axis and others down. */
 EC_INLINED bool slabs8_make(slabs8 *s, uint axis, float8 o, float8 bound, float8 inverse)
 {
     uint downs = mask_bits8(inverse < 0.0f), is_down = downs & 1u;
@@ -52,7 +51,7 @@ EC_INLINED bool slabs8_make(slabs8 *s, uint axis, float8 o, float8 bound, float8
     return downs == 0u || downs == 255u;
 }
 
-/* With p->r made; all lanes count. False: the rays do not go together. */
+/* Completes *p from p->r, of which all lanes count. Returns false if the rays differ in the sign of a direction's component. */
 EC_INLINED bool packet8_make(packet8 *p, float scene_max)
 {
     const ray *r = &p->r;
@@ -63,7 +62,7 @@ EC_INLINED bool packet8_make(packet8 *p, float scene_max)
     return x & y & z;
 }
 
-/* Where the first of the rays may enter each child of a node. */
+/* Returns when the first of the rays may enter each child of a node; *mask: children that one may meet before t_max. */
 EC_INLINED float8 packet8_near(const packet8 *p, global const float8 *bound, float t_max, uint *mask)
 {
     float8 near = max(max(fma(bound[p->x.near], p->x.first_inverse, p->x.first_offset), fma(bound[p->y.near], p->y.first_inverse, p->y.first_offset)),
@@ -74,7 +73,7 @@ EC_INLINED float8 packet8_near(const packet8 *p, global const float8 *bound, flo
     return near;
 }
 
-/* Which of the rays meet child k before t. */
+/* Returns a mask of the rays that meet child k before t. */
 EC_INLINED uint packet8_meet(const packet8 *p, global const ec_bvh8_node *n, uint k, float8 t)
 {
     v3 lo = v3_make(F(n->bound[0][k]), F(n->bound[2][k]), F(n->bound[4][k]));
@@ -83,7 +82,7 @@ EC_INLINED uint packet8_meet(const packet8 *p, global const ec_bvh8_node *n, uin
     return mask_bits8(near <= far);
 }
 
-/* Visits a node as bvh8_enter does, but what is stacked and comes next is a place: eight times the node's index, and which child of it. */
+/* Visits a node as bvh8_enter does, but the stack and *place hold eight times the node's index plus the number of its child. */
 EC_INLINED bool packet8_enter(const accel *a, const packet8 *p, uint node, float t_max, ulong *stack, uint *depth, uint *place)
 {
     global const ec_bvh8_node *n = (global const ec_bvh8_node *)a->at[0] + node;
@@ -112,7 +111,7 @@ EC_INLINED ray8 packet8_ray(const packet8 *p, uint k)
     return q;
 }
 
-/* Sends those of `rays` into what is below `child`, one by one. */
+/* Traces the rays of the mask `rays` through what is below `child`, one by one. */
 EC_CALLED void packet8_each(const accel *a, const packet8 *p, const hit_filter *filter, uint child, uint rays, uint8 skip, hits8 *h)
 {
     float *t = (float *)&h->t, *b1 = (float *)&h->b1, *b2 = (float *)&h->b2;
@@ -135,15 +134,15 @@ EC_CALLED void packet8_each(const accel *a, const packet8 *p, const hit_filter *
     }
 }
 
-/* Sends the rays together, until they part: once one has come to a leaf alone, each node that one alone meets is left to it. h->t: as hit8's,
- * negative in lanes that are off. */
+/* Traces the rays together until they part: once a ray has come to a leaf alone, every child that only one ray meets is left to that ray. h->t: as in
+ * hit8, negative in lanes that are off. */
 EC_INLINED void packet8_closest(const accel *a, const packet8 *p, const hit_filter *filter, uint8 skip, hits8 *h)
 {
     global const ec_bvh8_node *nodes = a->at[0];
     ulong stack[EC_BVH8_STACK];
     uint depth = 0, place, child = 0;
     bool part = false;
-    hit8 last = {most8(h->t), EC_NO_ID, 0.0f, 0.0f}; /* the farthest of what the rays have met */
+    hit8 last = {most8(h->t), EC_NO_ID, 0.0f, 0.0f}; /* t: the farthest of the rays' closest hits */
     for (;;) {
         TALLY_NODE(h);
         bool goes_on = packet8_enter(a, p, child, last.t, stack, &depth, &place);

@@ -1,23 +1,23 @@
 /* Panes: thin walls (KHR_materials_transmission without a volume) that are smooth, and walls of bodies with the same index of refraction on both
- * sides, so that what passes goes straight on. A shadow ray goes on with it, and light behind panes is looked for as if they were not there, but
- * for what they and the bodies between take away. A path that has passed some keeps the point where light was last looked for and the density
- * of its direction there: what it meets is weighed against light sampling from that point, and nothing is counted twice. */
+ * sides, so that what passes goes straight on. Shadow rays pass them: light behind panes is sampled as if they were not there, and dimmed by them and
+ * by the bodies between. A path that has passed some keeps the point of its last light sample and the density of its direction there: what it meets
+ * is weighted against light sampling from that point, and nothing is counted twice. */
 #ifndef EC_LIB_PANE_H
 #define EC_LIB_PANE_H
 
 #include "bsdf.h"
 #include "fog.h"
 
-#define EC_PANES_MOST 1024u /* in the way of one shadow ray: 0.04 of it reflected by each would leave 1e-18 */
+#define EC_PANES_MOST 1024u /* panes in the way of one shadow ray: if each reflects 0.04, 1e-18 is left */
 
-/* How many panes a shadow ray may pass: each is a vertex, as for a path, but not for Whitted's. */
+/* Returns how many panes a shadow ray may pass: each counts as a vertex, as for a path, but not for Whitted's integrator. */
 EC_FN uint panes_most(constant ec_params *params, uint bounce)
 {
     uint left = params->max_depth - min((bounce & ~EC_LIGHT_BOUNCE) + 2u, params->max_depth);
     return params->panes_count ? min(left, EC_PANES_MOST) : EC_PANES_MOST;
 }
 
-/* Is a wall a pane for what passes it in its single direction? flags: of its material. */
+/* Returns the lanes on which what passes the wall goes straight on. flags: of its material. */
 EC_FN lane_i pane_is(const bsdf *b, lane_u flags)
 {
     lane_i matched = !TRUE_MASK;
@@ -25,31 +25,31 @@ EC_FN lane_i pane_is(const bsdf *b, lane_u flags)
     return !b->refracts | matched;
 }
 
-/* What goes straight on of light that comes along wo: the value of that single direction, as bsdf_sample weighs it. */
+/* Returns the share of light along wo that goes straight on: the value of that single direction, as bsdf_sample weights it. */
 EC_FN v3 bsdf_straight(const bsdf *b, lane_u flags)
 {
     lane_i straight = b->facets.smooth & pane_is(b, flags) & (b->wo.z > 0.0f);
     return v3_select(straight, bsdf_passing(b, b->wo.z), v3_zero());
 }
 
-/* A shadow ray's way through panes. What it was in at its start fills all of it, unless a wall of a body of index 1 is crossed. */
+/* A shadow ray's way through panes. The medium at its start fills all of it, unless a wall of a body (of relative index 1) is crossed. */
 typedef struct pane_walk {
-    v3 o;           /* it goes on from here */
-    v3 light;       /* what is left of it */
-    v3 undimmed;    /* likewise, but by bodies up to `from` alone */
+    v3 o;           /* origin of the rest of the ray */
+    v3 light;       /* what is left of the light */
+    v3 undimmed;    /* likewise, but bodies have absorbed only up to `from` */
     v3 from;        /* the last such wall that was crossed, or the start */
-    lane_u medium;  /* from there on */
+    lane_u medium;  /* medium from there on */
     lane_i crossed;
 } pane_walk;
 
-/* It starts at o in a medium which leaves `left` of the light if it fills all of the way. */
+/* Starts at o in a medium that leaves `left` of the light if it fills all of the way. */
 EC_FN pane_walk pane_walk_make(v3 o, v3 light, lane_u medium, v3 left)
 {
     pane_walk w = {o, HAS_SHADOW_MEDIUM ? v3_mul(light, left) : light, light, o, medium, !TRUE_MASK};
     return w;
 }
 
-/* Bodies: that before the wall that was met, from the last one on. */
+/* Crosses the wall of a body, on the lanes m: the medium between the last such wall and this one absorbs, and the next one begins. */
 EC_FN void pane_cross(constant ec_params *params, const geometry *g, const hit_point *h, const surface *s, lane_i m, v3 d, pane_walk *w)
 {
     const bool nested = MEDIA_NESTED(params);
@@ -62,7 +62,7 @@ EC_FN void pane_cross(constant ec_params *params, const geometry *g, const hit_p
     w->crossed = w->crossed | m;
 }
 
-/* Along d (any length) it has met triangle prim (lanes m). Light that does not pass becomes 0. */
+/* Passes triangle prim, which the ray along d (any length) has met on the lanes m. Light that does not pass becomes 0. */
 EC_FN void pane_pass(constant ec_params *params, const geometry *g, lane_i m, lane_u prim, lane_f b1, lane_f b2, v3 d, pane_walk *w)
 {
     prim = m ? prim : U(0);
@@ -93,7 +93,7 @@ EC_FN void pane_block(lane_i m, pane_walk *w)
 
 EC_FN lane_i pane_is_lit(const pane_walk *w) { return v3_max_component(HAS_SHADOW_MEDIUM ? w->undimmed : w->light) > 0.0f; }
 
-/* What arrives at the end. */
+/* Returns the light that arrives at the end of the ray. */
 EC_FN v3 pane_walk_end(constant ec_params *params, const geometry *g, const pane_walk *w, lane_i is_far, v3 end)
 {
     if (!HAS_SHADOW_MEDIUM || !any_lane(w->crossed)) return w->light;

@@ -6,8 +6,8 @@
 
 #include "math.h"
 
-/* Where u in [0, 1) of a linear density lies that goes from a to b: of b - a over 2 t^2 + a t = u (a + b) / 2. In the form that does not
- * cancel (Press et al., 5.6). The middle where both are 0. */
+/* Samples a linear density that goes from a to b by u in [0, 1): solves (b - a) / 2 t^2 + a t = u (a + b) / 2 in the form that does not cancel (Press
+ * et al., 5.6). Returns the middle where both are 0. */
 EC_FN lane_f patch_across(lane_f a, lane_f b, lane_f u)
 {
     lane_f most = max(a, b);
@@ -18,7 +18,7 @@ EC_FN lane_f patch_across(lane_f a, lane_f b, lane_f u)
     return most > 0.0f ? t : F(0.5f);
 }
 
-/* Where u lies of the density (a (1 - t) + b t) (c (1 - t) + d t). The linear density between its ends is never further off than 0.12 of the
+/* Samples the density (a (1 - t) + b t) (c (1 - t) + d t) by u. The linear density between its ends is never further off than 0.12 of the
  * integral; three of Newton's steps from there leave 4e-7 (2 million random patches, c : d from 0 to 1). */
 EC_FN lane_f patch_along(lane_f a, lane_f b, lane_f c, lane_f d, lane_f u)
 {

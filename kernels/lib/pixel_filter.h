@@ -1,6 +1,5 @@
-/* Where in a pixel, and beside it, a sample lies: importance sampling of the pixel filter (Ernst, Stamminger, Greiner 2006). All
- * samples of a pixel weigh the same, and none counts in two pixels: a pixel's samples stay independent of each other and of
- * those of its neighbours, which is what the stated error takes them for. */
+/* Places samples in and beside a pixel: importance sampling of the pixel filter (Ernst, Stamminger, Greiner 2006). All samples of a pixel weigh the
+ * same, and none counts in two pixels: a pixel's samples stay independent of each other and of those of its neighbours, as the stated error assumes. */
 #ifndef EC_LIB_PIXEL_FILTER_H
 #define EC_LIB_PIXEL_FILTER_H
 
@@ -8,7 +7,7 @@
 #include "../shared/pixel_filter.h"
 #include "math.h"
 
-/* u in [0, 1) to pixels from the pixel's lower edge. table: NULL for a box of one pixel. */
+/* Maps u in [0, 1) to a distance from the pixel's lower edge, in pixels. table: NULL for a box of one pixel. */
 EC_FN lane_f pixel_filter_place(global const float *table, lane_f u)
 {
     if (!HAS(PIXEL_FILTER) || !table) return u;
@@ -21,7 +20,7 @@ EC_FN lane_f pixel_filter_place(global const float *table, lane_f u)
     return 0.5f + (u < 0.5f ? -distance : distance);
 }
 
-/* The filter's density at this distance from the pixel's centre, along one axis. */
+/* Returns the filter's density at this distance from the pixel's centre, along one axis. */
 EC_FN lane_f pixel_filter_density(global const float *table, lane_f distance)
 {
     lane_u low = U(0); /* table[low] > distance >= table[low + 1]: entries fall */
@@ -34,8 +33,8 @@ EC_FN lane_f pixel_filter_density(global const float *table, lane_f distance)
     return ((distance < table[0]) & (width > 0.0f)) ? 2.0f * at * at * at / ((float)EC_FILTER_STEPS * width) : F(0.0f);
 }
 
-/* A pixel that a place in the picture (pixels) counts for, along one axis: u in [0, 1) chooses by the filters' densities there, whose sum
- * is *weight. The pixel that it lies in where there is a box. */
+/* Chooses a pixel that a place in the picture (in pixels) counts for, along one axis: u in [0, 1) chooses by the densities of the pixels' filters
+ * there, whose sum is *weight. With a box filter it is the pixel in which the place lies. */
 EC_FN lane_f pixel_filter_choose(global const float *table, lane_f place, lane_f u, lane_f *weight)
 {
     *weight = F(1.0f);

@@ -6,17 +6,17 @@
 #include "../shared/path_state.h"
 #include "math.h"
 
-/* Entries that a work-item has of kernels that take one at a time. */
+/* Entries per work-item in kernels that take one entry at a time. */
 #ifndef RUN
 #define RUN 1u
 #endif
-/* The entry that work-item `item` of part `row` begins at, of `takes` that it has; past all where the part ends before. */
+/* Returns the first of the `takes` entries of work-item `item` in part `row`; EC_NO_ID past the end of the part. */
 EC_INLINED uint queue_entry(uint part, uint row, uint item, uint takes)
 {
     uint before = item * takes;
     return before < part ? row * part + before : EC_NO_ID;
 }
-/* How many entries stand at i or after it: of a queue in part `row`, i's own, and of all slots. */
+/* Returns how many entries there are from i on: of a queue in part `row`, which holds i; slot_entries: of all slots. */
 EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, uint row, uint i)
 {
     if (i >= wave) return 0u;
@@ -24,7 +24,7 @@ EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, u
     return count > before ? count - before : 0u;
 }
 EC_INLINED uint slot_entries(uint count, uint i) { return i < count ? count - i : 0u; }
-/* Room in part `row` for the lanes of `bits`, of which there is one at least. */
+/* Reserves room in part `row` for the lanes of `bits`, of which there is at least one; returns the first entry. */
 EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint row, uint bits)
 {
     return row * part + atomic_add(&counts[row * EC_PART_STRIDE], LANES == 1 ? 1u : popcount(bits));
@@ -43,7 +43,7 @@ EC_FN v3 queue_load_v3(global const float *queue, uint wave, uint field, uint i)
     return v3_make(queue_load_f(queue, wave, field, i), queue_load_f(queue, wave, field + 1, i),
                    queue_load_f(queue, wave, field + 2, i));
 }
-/* Entries that stand side by side from `first` on, or those of `order`. */
+/* LANES entries of a queue: consecutive from `first` on or, if is_scattered, those numbered `at`. */
 typedef struct queue_packet {
     uint first;
     bool is_scattered;
@@ -89,8 +89,8 @@ EC_FN void queue_push_v3(global float *queue, uint wave, uint field, uint i, v3 
     queue_push_f(queue, wave, field + 2, i, v.z, bits);
 }
 
-/* Slots' radiance, for light that paths of so many segments bring: R, G, B of direct light, then those of indirect light where it is kept
- * apart. */
+/* Returns where light of paths with so many segments is added, by slot: R, G, B of direct light, or those of indirect light behind them where it is
+ * kept apart. */
 EC_FN global float *radiance_of(constant ec_params *params, global float *radiance, uint segments)
 {
     return params->apart && segments > EC_DIRECT_SEGMENTS ? radiance + 3 * (ulong)params->wave : radiance;

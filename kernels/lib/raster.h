@@ -31,7 +31,7 @@ typedef struct view {
     bool is_flat; /* orthographic */
 } view;
 
-/* The edge from p to q, vertices relative to the camera. */
+/* Writes the edge function from p to q; vertices are relative to the camera. */
 EC_FN void raster_edge(const view *c, point3 p, point3 q, float sign, global float *f)
 {
     point3 n = point3_cross(p, q);
@@ -41,7 +41,7 @@ EC_FN void raster_edge(const view *c, point3 p, point3 q, float sign, global flo
     f[2] = sign * point3_dot(n, c->forward);
 }
 
-/* Where a vertex lies in the picture, in pixels. */
+/* Projects a vertex to the picture, in pixels. */
 EC_FN void raster_project(const view *c, constant ec_params *params, point3 v, float *x, float *y)
 {
     float w = c->is_flat ? 1.0f : point3_dot(v, c->forward);
@@ -51,7 +51,7 @@ EC_FN void raster_project(const view *c, constant ec_params *params, point3 v, f
     *y = (sy - params->screen[1]) / params->screen[3];
 }
 
-/* The box of the part before the near plane, in pixels; false where there is none. */
+/* Bounds the triangle's part beyond the near plane, in pixels; returns false if none of it is in the picture. */
 EC_FN bool raster_box(const view *c, constant ec_params *params, const point3 *v, float *lo, float *hi)
 {
     float near = params->scene_max * 1e-6f; /* nearer parts could only be seen in their own projection's rounding */
@@ -80,8 +80,8 @@ EC_FN bool raster_box(const view *c, constant ec_params *params, const point3 *v
     return lo[0] <= (float)params->width && lo[1] <= (float)params->height && hi[0] >= 0.0f && hi[1] >= 0.0f;
 }
 
-/* The triangle may be seen in a tile unless an edge function is negative in all of it. Picture coordinates of tile (x, y);
- * the slack covers the rounding of the sample's own place and of the function. */
+/* Returns whether the triangle may be seen in tile (x, y): unless an edge function is negative in all of it. The slack covers the rounding of the
+ * sample's own place and of the function. */
 EC_FN bool raster_meets_tile(constant ec_params *params, global const ec_raster_tri *t, uint x, uint y)
 {
     float sx = EC_TILE * params->screen[2], sy = EC_TILE * params->screen[3];
@@ -94,7 +94,7 @@ EC_FN bool raster_meets_tile(constant ec_params *params, global const ec_raster_
     return true;
 }
 
-/* Which tile a pixel lies in. */
+/* Returns the tile in which a pixel lies. */
 EC_FN lane_u raster_tile(constant ec_params *params, lane_u x, lane_u y)
 {
     return y / EC_TILE * ((params->width + EC_TILE - 1u) / EC_TILE) + x / EC_TILE;

@@ -26,7 +26,7 @@ typedef struct ray {
     lane_f shear_x, shear_y, scale_z;
 } ray;
 
-/* The largest component of d changes places with z. (Not the cyclic order of the paper: this one costs a third less.) */
+/* Exchanges the largest component of d with z. (Not the cyclic order of the paper: this one costs a third less.) */
 EC_INLINED v3 ray_permute(lane_i z_is_x, lane_i z_is_y, v3 v)
 {
     return v3_make(z_is_x ? v.z : v.x, z_is_y ? v.z : v.y, z_is_x ? v.x : (z_is_y ? v.y : v.z));
@@ -91,11 +91,11 @@ EC_INLINED v3 ray_vertex(const ray *r, v3 p)
     return ray_shear(r->shear_x, r->shear_y, v3_sub(ray_permute(r->z_is_x, r->z_is_y, p), r->o_permuted));
 }
 
-/* Which side of the edge from q to p the ray passes. Products are rounded one by one and compared: the sign is never wrong,
- * only sometimes 0, and seen from the other side it is exactly the negative (Woop et al. 2013). */
+/* Returns the edge function, whose sign says on which side of the edge from q to p the ray passes. Products are rounded one by one and compared: the
+ * sign is never wrong, only sometimes 0, and seen from the other side it is exactly the negative (Woop et al. 2013). */
 EC_INLINED lane_f ray_edge(v3 p, v3 q) { return p.x * q.y - p.y * q.x; }
 
-/* 0 counts as inside, so no ray slips between two triangles. */
+/* Returns the lanes whose ray passes inside, and sets e->det. 0 counts as inside, so no ray slips between two triangles. */
 EC_INLINED lane_i edges_inside(edges *e)
 {
     e->det = e->u + e->v + e->w;
@@ -109,12 +109,12 @@ EC_INLINED edges edges_make(v3 a, v3 b, v3 c)
     return e;
 }
 
-/* Below the rounding of the vertices' depths, and with them of a mean of these, the sign of t means nothing: what lies in the plane that
- * a ray starts on is not met (pbrt-v4, section 6.8.7, delta_t). */
+/* Returns the t up to which a hit does not count. Below the rounding of the vertices' depths, and of a mean of these, the sign of t means nothing: a
+ * face in the plane that a ray starts on is not met (pbrt-v4, section 6.8.7, delta_t). */
 EC_INLINED lane_f edges_least(lane_f z0, lane_f z1, lane_f z2) { return max(fabs(z0), max(fabs(z1), fabs(z2))) * (8.0f * EC_ULP); }
 
-/* Which of the lanes m meet their triangle's plane in front of them, at t <= t_max, as far as floats can tell; inverse = 1 / det.
- * *close: those of them that have to ask edges_settle, whatever their t; reference_clamp looks at t_max. */
+/* Returns which of the lanes m meet their triangle's plane in front of them, at t <= t_max, as far as floats can tell; *inverse = 1 / det. *close:
+ * those that edges_settle must decide, returned whatever their t; reference_clamp compares it with t_max. */
 EC_INLINED lane_i edges_distance(const ray *r, const edges *e, lane_i m, lane_f t_max, lane_i *close, lane_f *inverse, lane_f *t)
 {
     lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z;
@@ -125,22 +125,21 @@ EC_INLINED lane_i edges_distance(const ray *r, const edges *e, lane_i m, lane_f 
     return *close | (m & !is_short & (*t <= t_max));
 }
 
-/* What a sum of two has lost (Knuth's two-sum). */
+/* Returns the rounding error of sum = a + b (Knuth's two-sum). */
 EC_INLINED lane_f sum_error(lane_f a, lane_f b, lane_f sum)
 {
     lane_f of_b = sum - a;
     return (a - (sum - of_b)) + (b - of_b);
 }
 
-/* What ray_edge has lost: the errors of its products and of their difference. */
+/* Returns the rounding error of ray_edge: the errors of its products and of their difference. */
 EC_INLINED lane_f ray_edge_error(v3 p, v3 q, lane_f edge)
 {
     lane_f a = p.x * q.y, b = p.y * q.x;
     return (fma(p.x, q.y, -a) - fma(p.y, q.x, -b)) + sum_error(a, -b, edge);
 }
 
-/* The sum of u z0, v z1 and w z2 with twice a float's digits (Ogita, Rump, Oishi 2005, algorithm 5.3), for u, v, w as they are before
- * rounding. */
+/* Returns the sum of u z0, v z1 and w z2 with twice a float's digits (Ogita, Rump, Oishi 2005, algorithm 5.3), for u, v, w before their rounding. */
 EC_INLINED lane_f edges_exact_sum(const edges *e, v3 a, v3 b, v3 c, lane_f z0, lane_f z1, lane_f z2)
 {
     lane_f p0 = e->u * z0, p1 = e->v * z1, p2 = e->w * z2, first = p0 + p1, sum = first + p2;
@@ -158,10 +157,10 @@ EC_INLINED lane_f edges_exact_sum(const edges *e, v3 a, v3 b, v3 c, lane_f z0, l
     return sum + lost;
 }
 
-/* t of close triangles, negative where they are not met. The edge functions' rounding hides what is in front of the origin and what
- * behind it where t is short: each product is at most `most`, so each of the three is off by 4 u most, and their sum with the depths by
- * three times that and its own roundings, 32 u most deepest in all. Along needles this is any t. Then twice the digits decide: vertices
- * are rounded the same way for all triangles around them, so a closed mesh stays closed. a, b, c: sheared vertices. */
+/* Returns t of close triangles, negative where they are not met. Where t is short, the edge functions' rounding hides what is in front of the origin
+ * and what is behind it: each product is at most `most`, so each of the three functions is off by 4 u most, and their sum with the depths by three
+ * times that and its own roundings, in all 32 u most times the greatest depth. Along needles this may be any t. Then twice the digits decide.
+ * Vertices are rounded the same way for all triangles around them, so a closed mesh stays closed. a, b, c: sheared vertices. */
 EC_INLINED lane_f edges_settle(const ray *r, const edges *e, v3 a, v3 b, v3 c, lane_i close, lane_f inverse, lane_f t)
 {
     lane_f z0 = e->z0 * r->scale_z, z1 = e->z1 * r->scale_z, z2 = e->z2 * r->scale_z, least = edges_least(z0, z1, z2);
@@ -173,7 +172,7 @@ EC_INLINED lane_f edges_settle(const ray *r, const edges *e, v3 a, v3 b, v3 c, l
     return (hidden & (exact > least)) ? exact : t;
 }
 
-/* Does the ray meet the triangle at all, its box left aside? The traversals do the same step by step. */
+/* Returns the lanes whose ray meets the triangle, its box left aside. The traversals do the same step by step. */
 EC_INLINED lane_i ray_meets(const ray *r, v3 v0, v3 v1, v3 v2, edges *e, lane_f *inverse, lane_f *t)
 {
     v3 a = ray_vertex(r, v0), b = ray_vertex(r, v1), c = ray_vertex(r, v2);
@@ -183,7 +182,7 @@ EC_INLINED lane_i ray_meets(const ray *r, v3 v0, v3 v1, v3 v2, edges *e, lane_f 
     return m & (*t > 0.0f);
 }
 
-/* The distance clamped into the slab of the reference's box; false where that leaves (0, t_max]. */
+/* Clamps *t to the slab of the reference's box; returns false where the box is missed or *t is past t_max. */
 EC_INLINED lane_i reference_clamp(const ray *r, v3 lo, v3 hi, lane_f t_max, lane_f *t)
 {
     lane_f far, near = slab_near(r, lo, hi, F(EC_HUGE), &far);
@@ -191,7 +190,7 @@ EC_INLINED lane_i reference_clamp(const ray *r, v3 lo, v3 hi, lane_f t_max, lane
     return (near <= far) & (*t <= t_max);
 }
 
-/* Seen from its front (counter-clockwise)? Exchanging two axes mirrors the triangle. */
+/* Returns the lanes that see the triangle's front (counter-clockwise). Exchanging two axes mirrors the triangle. */
 EC_INLINED lane_i edges_front(const ray *r, const edges *e)
 {
     lane_i is_mirrored = r->z_is_x | r->z_is_y, same = (e->det < 0.0f) == (r->scale_z < 0.0f);

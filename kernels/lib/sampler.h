@@ -12,16 +12,16 @@
 /* Pairs: two for the camera, then three a bounce. */
 #define EC_PAIR_PIXEL 0u
 #define EC_PAIR_LENS 1u
-#define EC_PAIR_TIME 0x80000000u /* when, while the shutter is open: behind all bounces */
+#define EC_PAIR_TIME 0x80000000u /* the time, while the shutter is open: behind all bounces */
 #define EC_PAIR_MEDIUM(b) (0x40000000u + (b)) /* how far light goes inside a body that scatters it */
 #define EC_PAIR_BOUNCE(b) (2u + 3u * (b))
 #define EC_PAIR_LIGHT 0u    /* which light, and the point on it */
 #define EC_PAIR_BSDF 1u     /* which lobe, and the direction */
-#define EC_PAIR_ROULETTE 2u /* does the path go on; and which colour, and does it pass, where it meets glass */
+#define EC_PAIR_ROULETTE 2u /* whether the path goes on; at glass also which colour, and whether it passes */
 
 typedef struct sampler {
-    lane_u key;   /* hash of seed, batch and pixel */
-    lane_u index; /* sample within the batch */
+    lane_u key;   /* hash of seed and pixel */
+    lane_u index; /* number of the sample */
 } sampler;
 
 /* Integer mixer with low bias (C. Wellons, "hash prospector", 2-round constants of 2022). */

@@ -1,18 +1,19 @@
-/* Light scattered inside bodies, KHR_materials_volume_scatter, and in fog: homogeneous media, Henyey and Greenstein's phase function. How far light goes
- * is drawn in closed form, for a colour channel that is chosen by what the path carries in it; the density is that of all three
- * channels together (spectral MIS, Wilkie et al. 2014), so that the sum of the three never grows. Scattering takes the place of the surface. */
+/* Light scattered inside bodies, KHR_materials_volume_scatter, and in fog: homogeneous media, Henyey and Greenstein's phase function. The distance is
+ * sampled in closed form for one colour channel, chosen by its share of the throughput; its density is that of all three channels together (spectral
+ * MIS, Wilkie et al. 2014), so that the sum of the three never grows. A scattering event takes the place of the surface. */
 #ifndef EC_LIB_SCATTER_H
 #define EC_LIB_SCATTER_H
 
 #include "fog.h"
 
 typedef struct scattering {
-    lane_i m;  /* does the path scatter on its way? */
+    lane_i m;  /* lanes whose path scatters before it meets a surface */
     v3 p;      /* where */
-    lane_f g;  /* mean cosine of the angle by which */
+    lane_f g;  /* mean cosine of the scattering angle */
 } scattering;
 
-/* Density per solid angle that light going along d goes on along wi. By chords of the unit sphere: cosines lose the digits of a narrow peak. */
+/* Returns the pdf per solid angle with which light along d goes on along wi. It uses chords of the unit sphere: cosines lose the digits of a narrow
+ * peak. */
 EC_FN lane_f phase_value(lane_f g, v3 d, v3 wi)
 {
     lane_f narrow = fabs(g), rest = 1.0f - narrow;
@@ -21,7 +22,7 @@ EC_FN lane_f phase_value(lane_f g, v3 d, v3 wi)
     return (0.25f * EC_INV_PI) * rest * (1.0f + narrow) / (q * sqrt(q));
 }
 
-/* A direction by that density, u1, u2 in [0, 1). Inverting the distribution divides by g; rewritten, no digits are lost at any g: with
+/* Samples a direction with that density; u1, u2 in [0, 1). Inverting the distribution divides by g; in this form no digits are lost at any g: with
  * a = 1 + g (2 u - 1), the cosine c has 1 - c = 2 (1 - u) (1 - g)^2 (1 + g u) / a^2, and 1 + c is the same with -g and 1 - u. */
 EC_FN v3 phase_sample(lane_f g, v3 d, lane_f u1, lane_f u2)
 {
@@ -33,19 +34,19 @@ EC_FN v3 phase_sample(lane_f g, v3 d, lane_f u1, lane_f u2)
     return v3_normalize(v3_fma(d, 0.5f * (over - under), v3_fma(s, sine * cos_phi, v3_scale(t, sine * sin_phi))));
 }
 
-/* Metres until light of extinction `density` scatters: u in [0, 1). */
+/* Samples how many metres light goes at extinction `density` before it scatters; u in [0, 1). */
 EC_FN lane_f scatter_distance(lane_f density, lane_f u)
 {
     return density > 0.0f ? -log_unit(1.0f - u, u) / density : F(EC_HUGE);
 }
 
-/* What a path goes through on its way, per metre; where that begins, and how long it is. */
+/* The medium along a segment of a path: extinction per metre, albedo, g; where it begins and how long it is, in metres. */
 typedef struct stretch {
     v3 density, albedo;
     lane_f g, from, length;
 } stretch;
 
-/* From o along d, `length` metres: of a material, or fog on the lanes `fogged`. */
+/* Makes the stretch of `length` metres from o along d: of a material, or of fog on the lanes `fogged`. */
 EC_FN stretch stretch_make(constant ec_params *params, const geometry *g, lane_u material, lane_i fogged, v3 o, v3 d, lane_f length)
 {
     lane_i inside = material != EC_NO_ID;
@@ -64,8 +65,8 @@ EC_FN stretch stretch_make(constant ec_params *params, const geometry *g, lane_u
     return s;
 }
 
-/* The way of a path of throughput *beta from o along d over a stretch, `length` metres in all to surface s, on lanes `found`: does it scatter there? *beta takes
- * what the medium leaves. u1 chooses a channel, u2 the distance. */
+/* Samples whether and where a path from o along d scatters on the stretch `way`, before surface s, which is `length` metres away on the lanes
+ * `found`. *beta takes what the medium leaves. u1 chooses a channel, u2 the distance. */
 EC_FN scattering scatter_along(const stretch *way, v3 o, v3 d, const surface *s, lane_i found, lane_f length, lane_f u1, lane_f u2, v3 *beta)
 {
     scattering e;

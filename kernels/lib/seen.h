@@ -1,4 +1,4 @@
-/* What an eye ray sees by itself, before any light is looked for: background, emission, unlit surfaces. */
+/* What an eye ray sees before any light is sampled: background, emission, unlit surfaces. */
 #ifndef EC_LIB_SEEN_H
 #define EC_LIB_SEEN_H
 
@@ -9,7 +9,7 @@ typedef struct seen {
     hit_point h;
     surface s;
     v3 glow;     /* radiance without any light falling on the surface */
-    lane_i lit;  /* is there a surface that light falls on? */
+    lane_i lit;  /* lanes with a surface that light falls on */
 } seen;
 
 EC_FN v3 seen_background(const environment *env, lane_i missed, v3 d, bool shows)

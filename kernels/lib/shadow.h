@@ -1,4 +1,4 @@
-/* A light sample becomes a shadow ray. */
+/* Turns a light sample into a shadow ray. */
 #ifndef EC_LIB_SHADOW_H
 #define EC_LIB_SHADOW_H
 
@@ -6,14 +6,14 @@
 #include "light.h"
 #include "queue.h"
 
-/* What a shadow ray starts in, and what that leaves of the light if it fills all of the way. */
+/* The medium that a shadow ray starts in, and what it leaves of the light if it fills all of the way. */
 typedef struct shadow_way {
     lane_u medium;
     v3 left;
     lane_i is_far;
 } shadow_way;
 
-/* To the light that was sampled for p. */
+/* Makes the way to light sample l for p. */
 EC_FN shadow_way shadow_way_make(constant ec_params *params, const geometry *g, const light_sample *l, lane_u medium, bool nested, v3 p)
 {
     shadow_way w = {medium, v3_splat(F(1.0f)), l->is_far};
@@ -21,8 +21,8 @@ EC_FN shadow_way shadow_way_make(constant ec_params *params, const geometry *g, 
     return w;
 }
 
-/* Appends a ray from `from` to `end` to part `row` of the queue, which counts counts; what is not finite is dropped and counted. It passes
- * through triangles prim and target. */
+/* Appends a ray from `from` to `end` to part `row` of the queue, whose counters are `counts`; light that is not finite is dropped and counted. The
+ * ray passes through triangles prim and target. */
 EC_FN void shadow_push(constant ec_params *params, global float *shadows, volatile global uint *counts, uint row, v3 from, v3 end, v3 arriving,
                        lane_u slot, lane_u prim, lane_u target, const shadow_way *way, lane_i m, volatile global uint *invalid)
 {
@@ -45,7 +45,7 @@ EC_FN void shadow_push(constant ec_params *params, global float *shadows, volati
     queue_push_f(shadows, wave, EC_SHADOW_FAR, at, way->is_far ? F(1.0f) : F(0.0f), bits);
 }
 
-/* Where a ray ends that goes to the light that was sampled for p. */
+/* Returns the end of the shadow ray from p to light sample l. */
 EC_FN v3 shadow_end(v3 p, const light_sample *l)
 {
     return surface_offset(v3_add(p, l->towards), l->end_error, l->end_normal, v3_negate(l->wi));

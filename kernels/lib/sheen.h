@@ -32,7 +32,7 @@ EC_FN void sheen_hide(lane_i m, sheen_look *look) { look->color = v3_select(m, v
 
 typedef struct sheen {
     v3 color;
-    lane_f most;             /* of its channels */
+    lane_f most;             /* its largest channel */
     lane_f roughness, power; /* power: 1 / alpha */
     lane_f albedo_o;         /* E at wo */
     lane_f shadowing_o;      /* L at wo */
@@ -63,7 +63,7 @@ EC_FN lane_f sheen_shadowing(const sheen *s, lane_f cosine)
     return sheen_exponential(grazing ? x : 2.0f * sheen_exponent(F(0.5f), t) - x);
 }
 
-/* E, of white fibres. */
+/* Returns E, the albedo of white fibres. */
 EC_FN lane_f sheen_albedo(const sheen *s, lane_f cosine)
 {
     lane_f x = sqrt(cosine) * (float)(SHEEN_COSINES - 1);
@@ -77,7 +77,7 @@ EC_FN lane_f sheen_albedo(const sheen *s, lane_f cosine)
     return fma(v, high, (1.0f - v) * low);
 }
 
-/* albedo: about what the surface under it reflects. */
+/* albedo: approximate albedo of the surface under the fibres. */
 EC_FN sheen sheen_make(const sheen_look *look, v3 wo, lane_f albedo)
 {
     sheen s;
@@ -94,13 +94,13 @@ EC_FN sheen sheen_make(const sheen_look *look, v3 wo, lane_f albedo)
     return s;
 }
 
-/* What of the light between wo and wi what lies under it gets. */
+/* Returns the share of light between wo and a direction of this cosine that gets to what lies under the fibres. */
 EC_FN lane_f sheen_leaves(const sheen *s, lane_f cosine)
 {
     return 1.0f - s->most * min(max(s->albedo_o, sheen_albedo(s, min(fabs(cosine), F(1.0f)))), F(1.0f));
 }
 
-/* Uniform over the hemisphere. */
+/* Samples a direction, uniform over the hemisphere. */
 EC_FN v3 sheen_sample(const sheen *s, v3 wo, lane_f cosine, lane_f sine, lane_f u)
 {
     lane_f r = sqrt(max(fma(-u, u, F(1.0f)), F(0.0f)));
@@ -112,7 +112,7 @@ EC_FN v3 sheen_ambient(const sheen *s, v3 under)
     return v3_fma(s->color, min(s->albedo_o, F(1.0f)), v3_scale(under, 1.0f - s->own));
 }
 
-/* Lays it over f |cos wi| and the density of the surface. */
+/* Lays the fibres over *f (f |cos wi|) and *pdf of the surface under them. */
 EC_FN void sheen_over(const sheen *s, v3 wo, v3 wi, v3 *f, lane_f *pdf)
 {
     lane_i covered = (s->most > 0.0f) & (wo.z > 0.0f), above = covered & (wi.z > 0.0f);

@@ -1,5 +1,5 @@
-/* Rays that go the same way from the same place side by side: after a bounce those of one packet scatter, and a packet visits what any of
- * its rays visits. Which rays share a packet changes no hit (ray.h). */
+/* Sorts rays so that those that go the same way from the same place are neighbours: after a bounce the rays of a packet scatter, and a packet visits
+ * what any of its rays visits. Which rays share a packet changes no hit (ray.h). */
 #ifndef EC_LIB_SORT_RAYS_H
 #define EC_LIB_SORT_RAYS_H
 
@@ -9,8 +9,8 @@
 
 EC_FN lane_u octant(v3 v) { return (as_lane_u(v.x) >> 31) | (as_lane_u(v.y) >> 31) << 1 | (as_lane_u(v.z) >> 31) << 2; }
 
-/* Octants of the origin about the scene's centre and of the direction. Neighbouring bins differ in one sign (Gray's code): packets straddle
- * them. */
+/* Returns a ray's bin, of octants of the origin about the scene's centre and of the direction. Neighbouring bins differ in one sign (Gray's code),
+ * since packets straddle them. */
 EC_FN lane_u ray_bin(v3 o, v3 d)
 {
     lane_u bin = octant(o) << 3 | octant(d);
@@ -19,8 +19,8 @@ EC_FN lane_u ray_bin(v3 o, v3 d)
     return bin ^ bin >> 4;
 }
 
-/* order: numbers of the `count` entries from `first` on, bin by bin and by number within a bin, and `first` up to the end of the last packet.
- * origin, direction: the queue's fields of them. */
+/* Sets order to the numbers of the `count` entries from `first` on, by bin and by number within a bin, then to `first` up to the end of the last
+ * packet. origin, direction: their fields in the queue. */
 EC_FN void sort_rays(global const float *queue, uint wave, uint origin, uint direction, uint first, uint count, uint *order)
 {
     uint bins[EC_SORTED], at[64], sum = 0;
@@ -39,7 +39,8 @@ EC_FN void sort_rays(global const float *queue, uint wave, uint origin, uint dir
     for (uint i = count; i % LANES; i++) order[i] = first;
 }
 
-/* The rays of the work-item at entry i, of `left`: a packet, or, sorted, EC_SORTED from there on, and none for those in between. Returns how many. */
+/* Returns how many of the `left` rays from entry i on the work-item traces: a packet or, with sorts, up to EC_SORTED, whose order it sets, and none
+ * for the work-items in between. */
 EC_FN uint item_rays(uint left, global const float *queue, uint wave, uint part, uint origin, uint direction, uint i, bool sorts, uint *order)
 {
     if (!sorts) return min(left, (uint)LANES);

@@ -19,14 +19,14 @@ typedef struct spherical_triangle {
     lane_f near_a, near_b, near_c; /* 1 / distance */
     lane_f h;               /* sqrt(D^2 + E^2) */
     lane_f ab, ac;          /* 1 + a.b, 1 + a.c */
-    lane_f turns;           /* solid angle / 4 pi, at most a half; 0 also where it is no number */
+    lane_f turns;           /* solid angle / 4 pi, at most a half; 0 also where it is not a number */
 } spherical_triangle;
 
 EC_FN lane_f half_square(v3 a) { return 0.5f * v3_dot(a, a); }
 
-/* E where a and b, not normalised, are all but opposite, so that the point is next to the edge from a to b: of sums of unit vectors
- * nothing but their rounding would be left. With q, the edge's nearest point, a = q + alpha (b - a) and b = q + beta (b - a); what
- * cancels in |a| b + |b| a and |a| |b| + a.b is then left out. */
+/* Returns E where a and b, not normalised, are nearly opposite, so that the point is next to the edge from a to b: sums of unit vectors would
+ * leave nothing but their rounding. With q, the edge's nearest point, a = q + alpha (b - a) and b = q + beta (b - a); what cancels in |a| b + |b|
+ * a and |a| |b| + a.b is then left out. */
 EC_FN lane_f spherical_triangle_e(v3 a, v3 b, v3 c)
 {
     v3 edge = v3_sub(b, a), x = v3_cross(a, edge);
@@ -37,7 +37,7 @@ EC_FN lane_f spherical_triangle_e(v3 a, v3 b, v3 c)
     return (x2 / fma(la, lb, -v3_dot(a, b)) + v3_dot(both, c) / sqrt(v3_dot(c, c))) / (la * lb);
 }
 
-/* E where some two corners are all but opposite. A card branches: it has no registers to spare for a choice of nine numbers. */
+/* Returns E where two of the corners are nearly opposite. Graphics cards branch: they have no registers to spare for a choice of nine numbers. */
 EC_FN lane_f spherical_triangle_e_of(v3 a, v3 b, v3 c, lane_i is_ab, lane_i is_bc)
 {
     if (LANES == 1) return is_ab ? spherical_triangle_e(a, b, c) : is_bc ? spherical_triangle_e(b, c, a) : spherical_triangle_e(c, a, b);
@@ -67,11 +67,11 @@ EC_CALLED spherical_triangle spherical_triangle_make(v3 a, v3 b, v3 c, lane_f de
     return t;
 }
 
-/* A direction, unit, and the barycentrics of the corners v1 and v2 where it meets the triangle, as p sees it. */
+/* Samples a unit direction from p; *weight_b, *weight_c: barycentrics, at the corners v1 and v2, of the point where it meets the triangle. */
 EC_FN v3 spherical_triangle_sample(const spherical_triangle *t, v3 v0, v3 v1, v3 v2, v3 p, lane_f u1, lane_f u2, lane_f *weight_b,
                                    lane_f *weight_c)
 {
-    /* Unit, once more, from the corners to p: so compilers do not keep those of spherical_triangle_make, for which a card has no registers. */
+    /* Unit vectors, computed again from p: compilers would otherwise keep those of spherical_triangle_make, for which a card has no registers. */
     v3 a = v3_scale(v3_sub(p, v0), -t->near_a), b = v3_scale(v3_sub(p, v1), -t->near_b), c = v3_scale(v3_sub(p, v2), -t->near_c);
     /* m: where the arc a c is cut. x is 1, so that no square underflows. */
     lane_f cosine, s = u1 * t->turns;
@@ -87,7 +87,7 @@ EC_FN v3 spherical_triangle_sample(const spherical_triangle *t, v3 v0, v3 v1, v3
     cosine = sqrt(0.5f * half_square(v3_add(m, b)));
     lane_f pb = max(sine * part_cosine - part * cosine, F(0.0f)) * fma(cosine, part_cosine, sine * part);
     lane_f pm = part * part_cosine;
-    /* A direction's weights over the unit vectors are its point's over the corners, but for their distances. */
+    /* A direction's weights over the unit vectors, times 1 / distance of each corner, are its point's weights over the corners. */
     lane_f wa = pm * ma * t->near_a, wb = pb * t->near_b, wc = pm * mc * t->near_c, sum = wa + wb + wc;
     lane_i valid = (sum > 0.0f) & is_finite_bits(sum);
     *weight_b = valid ? wb / sum : F(1.0f / 3.0f);

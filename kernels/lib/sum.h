@@ -4,7 +4,7 @@
 
 #include "math.h"
 
-/* Adds 64 at a time plainly, and these sums with what each addition loses put back (Kahan 1965): plain floats gain or lose 6e-4 in 65536. */
+/* Adds 64 values at a time plainly, and these sums with compensation (Kahan 1965): plain floats gain or lose 6e-4 in 65536. */
 EC_FN float sum_of(global const float *in, uint count, float scale)
 {
     float sum = 0.0f, lost = 0.0f;
@@ -22,7 +22,7 @@ EC_FN float mean_of(global const float *in, uint count)
 {
     if (count == 1u) return 0.0f + in[0]; /* as the sum would, never -0 */
     float mean = sum_of(in, count, 1.0f) / (float)count;
-    return is_finite_one(mean) ? mean : sum_of(in, count, 1.0f / (float)count); /* their sum is more than a float holds */
+    return is_finite_one(mean) ? mean : sum_of(in, count, 1.0f / (float)count); /* the sum is more than a float holds */
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* From a hit to a shading point: position with its error bound, normals, material parameters. */
+/* Turns a hit into a shading point: position with its error bound, normals, material parameters. */
 #ifndef EC_LIB_SURFACE_H
 #define EC_LIB_SURFACE_H
 
@@ -10,28 +10,28 @@ typedef struct surface {
     v3 p_error;    /* bound of its rounding, per axis */
     v3 ng;         /* geometric normal, unit, on the side of wo */
     v3 ns, s, t;   /* shading frame, ns on the side of ng */
-    lane_i bent;   /* is ns turned, since wo would see its back? */
-    lane_i front;  /* is wo on the front? */
+    lane_i bent;   /* ns was turned, since wo would see its back */
+    lane_i front;  /* wo is on the front */
     v3 base;       /* base colour, linear */
     lane_f metallic;
     lane_f alpha_ggx; /* roughness squared, at least EC_SMOOTH_ALPHA */
     lane_f stretch;   /* of the lobe along s: KHR_materials_anisotropy; 1 where there is none */
-    lane_i smooth;    /* under that: reflection and refraction have one direction each */
+    lane_i smooth;    /* narrower than that: reflection and refraction have one direction each */
     v3 f0;         /* dielectric reflectance at normal incidence */
     lane_f f90;    /* and at grazing */
-    lane_f transmission; /* share of what a dielectric does not reflect that passes, not scattered back by the base */
+    lane_f transmission; /* share of what a dielectric does not reflect that passes; the base scatters the rest back */
     lane_f eta;    /* index of refraction beyond the surface over that on wo's side; 1: passes through a thin wall */
-    lane_i refracts;     /* bounds a body: what passes goes on inside, bent if transmission is above 0 */
-    lane_u bodies, beyond; /* with NESTED: those on wo's side, those behind (bodies.h) */
+    lane_i refracts;     /* bounds a body: what passes goes on inside, refracted if transmission is above 0 */
+    lane_u bodies, beyond; /* with NESTED: the bodies on wo's side, and those behind (bodies.h) */
     lane_i displaced;      /* the same body fills both sides */
-    lane_f head_on;        /* reflectance to multiply f0 by, where that depends on what is on both sides */
+    lane_f head_on;        /* head-on reflectance that f0 is multiplied by, where it depends on the media of both sides */
     lane_f diffuse_transmission;        /* KHR_materials_diffuse_transmission: share of diffuse light that comes out on the other side */
     v3 transmission_color;           /* and its colour */
-    lane_f coat;       /* weight of a clear coat; with it its width, as alpha_ggx and smooth, and its normal */
+    lane_f coat;       /* weight of a clear coat; then its width, as alpha_ggx and smooth, and its normal */
     lane_f coat_alpha;
     lane_i coat_smooth;
     v3 coat_ns;
-    lane_f film;       /* weight of a thin film; with it its index and nanometres */
+    lane_f film;       /* weight of a thin film; then its index, and its thickness in nanometres */
     lane_f film_ior, film_thickness;
 #define SURFACE_LAYER(feature, layer) layer##_look layer;
     LAYERS_UP(SURFACE_LAYER)
@@ -51,7 +51,7 @@ EC_FN void surface_place(const hit_point *h, v3 wo, surface *s)
     s->bodies = s->beyond = U(0);
 }
 
-/* A ray's origin just off the surface on the side of `towards`: outside the error box around p (pbrt-v4, eq. 6.31). */
+/* Returns the origin of a ray just off the surface on the side of `towards`: outside the error box around p (pbrt-v4, eq. 6.31). */
 EC_FN v3 surface_offset(v3 p, v3 p_error, v3 n, v3 towards)
 {
     lane_f d = v3_dot(v3_abs(n), p_error);
@@ -59,7 +59,7 @@ EC_FN v3 surface_offset(v3 p, v3 p_error, v3 n, v3 towards)
     return v3_fma(n, d, p);
 }
 
-/* What a picture's coordinates are of those of the mesh, by KHR_texture_transform and but for its offset: two rows. */
+/* Returns the 2 x 2 matrix of KHR_texture_transform, from the mesh's uv to the texture's: two rows, without the offset. */
 EC_FN quad surface_turn(const geometry *g, const hit_point *h, uint slot)
 {
     quad head = material_quad(g, h, EC_WORD_slots + slot * 8u), tail = material_quad(g, h, EC_WORD_slots + slot * 8u + 4u);
@@ -67,7 +67,7 @@ EC_FN quad surface_turn(const geometry *g, const hit_point *h, uint slot)
     return turn;
 }
 
-/* To where a picture that is turned or mirrored goes on: A being its turn, d/du' is (A22 d/du - A21 d/dv) / det A. */
+/* Returns the tangent d/du' of a texture whose transform A rotates or mirrors it: (A22 d/du - A21 d/dv) / det A. */
 EC_FN v3 surface_turn_tangent(lane_i turned, quad turn, lane_f det, v3 dpdu, v3 dpdv, lane_f *handedness)
 {
     lane_f sign = det < 0.0f ? F(-1.0f) : F(1.0f);
@@ -76,11 +76,11 @@ EC_FN v3 surface_turn_tangent(lane_i turned, quad turn, lane_f det, v3 dpdu, v3 
     return v3_select(turned, along, dpdu);
 }
 
-/* Tangent and handedness of a picture that is turned so on a surface of normal n: the vertices' own, else dp/du of the triangle. Green of a
- * normal map points up in it, towards smaller v: on a front face the uv triangle of an unmirrored map then runs clockwise. */
+/* Returns the tangent, and sets the handedness, of a texture with transform `turn` on a surface of normal n: the vertices' own, else dp/du of the
+ * triangle. Green of a normal map points up in it, towards smaller v: on a front face the uv triangle of an unmirrored map then runs clockwise. */
 EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, quad turn, v3 n, lane_f *handedness)
 {
-    v3 tangent = v3_zero(), down = v3_zero(); /* down: d/dv, wanted for turned pictures alone */
+    v3 tangent = v3_zero(), down = v3_zero(); /* down: d/dv, needed for rotated textures alone */
     lane_f turn_det = turn.a * turn.d - turn.b * turn.c;
     lane_i turned = (turn_det != 0.0f) & ((turn.c != 0.0f) | (turn.d < 0.0f) | (turn_det < 0.0f));
     bool turns = any_lane(turned);
@@ -106,7 +106,7 @@ EC_FN v3 surface_tangent(const geometry *g, const hit_point *h, lane_i second, q
     return turns ? surface_turn_tangent(turned, turn, turn_det, tangent, down, handedness) : tangent;
 }
 
-/* The normal n bent by the normal map in a slot, whose scale is the third of four words of the material. */
+/* Bends the normal n by the normal map in slot `map`, whose scale is the third of the material's four words at `words`. */
 EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, v3 n, uint map, uint words)
 {
     quad slot = material_quad(g, h, EC_WORD_slots + map * 8u);
@@ -127,10 +127,10 @@ EC_FN v3 surface_mapped_normal(const geometry *g, const hit_point *h, lane_i m, 
     return v3_select(m, v3_scale(r, 1.0f / sqrt(r2)), n);
 }
 
-/* The least cosine between a shading normal and a direction that has this one to ng: under it the normal is bent. */
+/* Returns the least cosine between a shading normal and a direction whose cosine to ng is to_ng: below it the normal is bent. */
 EC_FN lane_f surface_least_cosine(lane_f to_ng) { return min(to_ng, F(0.01f)); }
 
-/* The normal on wo's side, and never turned so far that wo sees its back. */
+/* Turns the normal n to wo's side, and bends it where wo would see its back. */
 EC_FN v3 surface_seen_normal(const surface *s, v3 wo, v3 n, lane_i *is_bent)
 {
     /* Files whose normals oppose their winding exist: the side is the geometric normal's. */
@@ -141,7 +141,7 @@ EC_FN v3 surface_seen_normal(const surface *s, v3 wo, v3 n, lane_i *is_bent)
     return v3_select(*is_bent, bent, n);
 }
 
-/* Shading normal and frame. */
+/* Sets the shading normals and the frame. */
 EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo, surface *s)
 {
     s->ns = s->coat_ns = s->ng;
@@ -163,7 +163,8 @@ EC_FN void surface_frame(const geometry *g, const hit_point *h, lane_i m, v3 wo,
     v3_frame(s->ns, &s->s, &s->t);
 }
 
-/* A wall of bodies is crossed. That one is met from behind tells that it was entered, seen or not; from the front, that it was not. */
+/* Updates the sets of bodies where a wall is crossed, on the lanes `nested`. To meet a wall from behind means that its body was entered, seen or not;
+ * from the front, that it was not. *here, *there: materials on wo's side and behind. */
 EC_FN void surface_cross(const geometry *g, quad index, lane_i nested, surface *s, lane_u *here, lane_u *there)
 {
     lane_u own = as_lane_u(index.c), bodies = s->front ? s->bodies & ~own : s->bodies | own;
@@ -174,7 +175,7 @@ EC_FN void surface_cross(const geometry *g, quad index, lane_i nested, surface *
     s->displaced = s->displaced | (nested & (*here == *there));
 }
 
-/* And light is bent between what is on its two sides. f0 of such materials is a colour to be multiplied by the reflectance head-on. */
+/* Likewise, and sets eta from the media of both sides. f0 of such materials is a colour to be multiplied by head_on, the reflectance head-on. */
 EC_FN void surface_between(const geometry *g, quad index, lane_i nested, surface *s)
 {
     lane_u here, there;
@@ -185,7 +186,7 @@ EC_FN void surface_between(const geometry *g, quad index, lane_i nested, surface
     s->head_on = nested ? r * r : F(1.0f);
 }
 
-/* What is not there lets all pass in the one direction it has. */
+/* Makes displaced walls let all light pass in a single direction. */
 EC_FN void surface_displace(surface *s)
 {
     lane_i gone = s->displaced;
@@ -203,14 +204,15 @@ EC_FN void surface_displace(surface *s)
     s->eta = gone ? F(1.0f) : s->eta;
 }
 
-/* The lobe of what is bent has a width of about alpha |eta - 1|, and float half vectors have no more digits than that: what is narrower has
- * one direction. */
+/* Returns the lanes on which refraction has a single direction: its lobe has a width of about alpha |eta - 1|, and float half vectors do not resolve
+ * a narrower one. */
 EC_FN lane_i surface_passes_singly(const surface *s)
 {
     return s->refracts & (s->alpha_ggx * fabs(s->eta - 1.0f) < EC_SMOOTH_ALPHA);
 }
 
-/* A stretched lobe (lanes m) goes by its wide axis: across it is as wide as they resolve, the same from either side. */
+/* Widens the narrow axis of a stretched lobe that refracts (lanes m) to what half vectors resolve, the same from either side. Where the wide axis is
+ * narrower than that, too, it has a single direction. */
 EC_FN void surface_widen(lane_i m, surface *s)
 {
     lane_f along = s->alpha_ggx * s->stretch, least = EC_SMOOTH_ALPHA * max(s->eta, F(1.0f)) / fabs(s->eta - 1.0f);
@@ -222,7 +224,7 @@ EC_FN void surface_widen(lane_i m, surface *s)
     s->stretch = m ? along / least : s->stretch;
 }
 
-/* KHR_materials_transmission, _ior and _volume. A body is entered through its front. Around it is air, where no bodies are nested. */
+/* KHR_materials_transmission, _ior and _volume. A body is entered through its front. The medium around it is air unless bodies are nested. */
 EC_FN void surface_transmission(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
     lane_u flags = as_lane_u(material_quad(g, h, EC_WORD_emission).d);
@@ -318,13 +320,13 @@ EC_FN void surface_film(const geometry *g, const hit_point *h, lane_i m, surface
     s->film_thickness = q.d;
     if (HAS(IRIDESCENCE_TEXTURE)) {
         s->film *= material_texture(g, h, m, EC_SLOT_IRIDESCENCE, false).rgb.x;
-        lane_f t = material_texture(g, h, m, EC_SLOT_IRIDESCENCE_THICKNESS, false).rgb.y; /* 1 where there is none */
+        lane_f t = material_texture(g, h, m, EC_SLOT_IRIDESCENCE_THICKNESS, false).rgb.y; /* 1 without a texture */
         s->film_thickness = fma(t, q.d, (1.0f - t) * q.c);
     }
     s->film = ((s->film_thickness > 0.0f) & (s->film_ior > 1.0f)) ? s->film : F(0.0f);
 }
 
-/* Parameters of the metallic-roughness model with KHR_materials_specular, and of what lies over it. */
+/* Reads the parameters of the metallic-roughness model with KHR_materials_specular, and of the layers over it. */
 EC_FN void surface_material(const geometry *g, const hit_point *h, lane_i m, surface *s)
 {
     s->base = surface_base_color(g, h, m).rgb;

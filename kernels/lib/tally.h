@@ -1,5 +1,5 @@
-/* What a traversal is handed, and what it did: with PROBE defined its kernels also write the hit's t, the nodes or cells that the
- * ray visited and the triangles that it was tested against. For `eclat info --accel` and the tests; elsewhere it costs nothing. */
+/* The buffers that a traversal is given, and its counts: with PROBE defined kernels also write the hit's t, the number of nodes or cells that the ray
+ * visited and of triangles that it was tested against. For `eclat info --accel` and the tests; elsewhere it costs nothing. */
 #ifndef EC_LIB_TALLY_H
 #define EC_LIB_TALLY_H
 

@@ -9,7 +9,7 @@
 
 #include "surface.h"
 
-/* The hit as seen from one corner: how far it must rise to the corner's tangent plane, along its normal. */
+/* Returns by how much the hit must rise, along a corner's normal, to reach the corner's tangent plane. */
 EC_FN v3 terminator_rise(const geometry *g, const hit_point *h, const surface *s, lane_u vertex, v3 corner)
 {
     v3 n = vertex_normal(g, h, vertex);
@@ -18,7 +18,7 @@ EC_FN v3 terminator_rise(const geometry *g, const hit_point *h, const surface *s
     return v3_scale(n, ((depth > 0.0f) & (length2 > 0.0f)) ? depth / length2 : F(0.0f));
 }
 
-/* Where reflected rays and shadow rays start. lifted: is that above the facet, by more than the rounding of the hit? */
+/* Returns where reflected rays and shadow rays start. *lifted: lanes on which that is above the facet by more than the rounding of the hit. */
 EC_FN v3 terminator_origin(const geometry *g, const hit_point *h, const surface *s, lane_i *lifted)
 {
     v3 rise = v3_scale(terminator_rise(g, h, s, h->i0, h->p0), h->b0);

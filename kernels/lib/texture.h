@@ -32,8 +32,8 @@ EC_INLINED rgba texel_bytes(textures t, lane_u word, bool is_srgb)
     return r;
 }
 
-/* The texels `first` and `second` of a row that starts at `row`. Mostly they stand side by side: a load fetches both, and a word more than
- * the buffer has texels. */
+/* Reads the texels `first` and `second` of a row that starts at `row`. They are mostly neighbours, so one load fetches both; at the end it reads a
+ * word more than there are texels. */
 EC_INLINED void texture_row(textures t, lane_u offset, lane_u row, lane_u first, lane_u second, lane_i is_float,
                             bool is_srgb, rgba *a, rgba *b)
 {
@@ -64,7 +64,7 @@ EC_FN lane_f texture_fold(lane_f u, lane_u wrap)
     return wrap == 0u ? repeat : (wrap == 1u ? clamped : mirror);
 }
 
-/* The two texels around x (in texels, folded) along one axis and the weight of the second. */
+/* Finds the two texels around u along one axis, and the weight of the second. */
 EC_FN void texture_axis(lane_f u, lane_i size, lane_u wrap, lane_i is_nearest, lane_u *first, lane_u *second,
                          lane_f *weight)
 {
@@ -78,7 +78,7 @@ EC_FN void texture_axis(lane_f u, lane_i size, lane_u wrap, lane_i is_nearest, l
     *weight = is_nearest ? F(0.0f) : x - base;
 }
 
-/* The texture of a table's entry at (u, v); white off the lanes of m. */
+/* Samples the texture of a table's entry at (u, v); white off the lanes m. */
 EC_FN rgba texture_sample(textures t, lane_i m, quad entry, lane_f u, lane_f v, bool is_srgb)
 {
     lane_u offset = as_lane_u(entry.a), width = as_lane_u(entry.b), height = as_lane_u(entry.c), flags = as_lane_u(entry.d);

@@ -1,4 +1,4 @@
-/* What the two kernels of an accelerator are given: its templates are trace_rays.h, trace_packets.h and trace_interleaved.h. */
+/* Parameters of an accelerator's two kernels, whose templates are trace_rays.h, trace_packets.h and trace_interleaved.h. */
 #ifndef EC_LIB_TRACE_H
 #define EC_LIB_TRACE_H
 

@@ -1,27 +1,26 @@
-/* The two kernels of bvh8 for structures larger than caches: a work-item has INTERLEAVE rays on their way, takes one step of each in
- * turn, and asks for what a ray's next step reads before it turns to the next ray, so that memory answers while others are served
- * (as group prefetching does in databases: Chen, Ailamaki, Gibbons, Mowry 2004). Steps take few branches: one that was foretold
- * wrongly costs all rays. Boxes and triangles are tested as by bvh8_closest and bvh8_any, so the hits are the same. What moves, panes,
- * and faces in one plane are left to trace_rays.h. */
+/* The two kernels of bvh8 for structures larger than caches: a work-item has INTERLEAVE rays in flight, takes one step of each in turn, and
+ * prefetches what a ray's next step reads before it turns to the next ray, so that memory answers while others are served (as group prefetching does
+ * in databases: Chen, Ailamaki, Gibbons, Mowry 2004). Steps have few branches: one that is mispredicted costs all rays. Boxes and triangles are
+ * tested as by bvh8_closest and bvh8_any, so the hits are the same. Motion, panes and coplanar faces are left to trace_rays.h. */
 #ifndef EC_LIB_TRACE_INTERLEAVED_H
 #define EC_LIB_TRACE_INTERLEAVED_H
 
 #include "packet8.h"
 #include "trace.h"
 
-/* A ray on its way. */
+/* A ray in flight. */
 typedef struct walk {
     ray8 q;
     hit8 h;
     uint i;               /* its place in the queue */
-    uint skip0, skip1;    /* triangles that are passed through */
-    uint current, depth;  /* what is visited next; entries of the stack */
-    struct walk *next;    /* in the ring of those on their way */
+    uint skip0, skip1;    /* triangles that the ray passes through */
+    uint current, depth;  /* node or leaf to visit next; depth of the stack */
+    struct walk *next;    /* in the ring of rays in flight */
     lane_u key;           /* as in hit_filter */
-    stack8 stack;         /* of any: children alone */
+    stack8 stack;         /* any-hit rays use its children alone */
 } walk;
 
-/* All cache lines of a node or a block: here it is memory that is waited for. */
+/* Prefetches all cache lines of a node or a block, which come from memory here. */
 EC_INLINED void walk_prefetch(const accel *a, uint child)
 {
     global const ec_bvh8_node *nodes = a->at[0];
@@ -34,7 +33,7 @@ EC_INLINED void walk_prefetch(const accel *a, uint child)
     PREFETCH(at + 192u + (child >> 31 << 6)); /* a block has one more than a node */
 }
 
-/* With w->q made. */
+/* Starts the walk of the ray at entry i; the caller has made w->q. */
 EC_INLINED void walk_begin(walk *w, uint i, uint skip0, uint skip1, float t_max)
 {
     hit8 h = {t_max, EC_NO_ID, 0.0f, 0.0f};
@@ -45,7 +44,7 @@ EC_INLINED void walk_begin(walk *w, uint i, uint skip0, uint skip1, float t_max)
     w->current = w->depth = 0;
 }
 
-/* One visit on the way to the closest hit; true once that is known. */
+/* Makes one visit on the way to the closest hit; returns true once that is known. */
 EC_INLINED bool walk_closest(const accel *a, hit_filter *filter, walk *w)
 {
     if (w->current & EC_LEAF_BIT) {
@@ -66,7 +65,7 @@ EC_INLINED bool walk_closest(const accel *a, hit_filter *filter, walk *w)
     return false;
 }
 
-/* One visit on the way to any hit; true once there is one, or none is left. */
+/* Makes one visit on the way to any hit; returns true once there is one, or nothing is left to visit. */
 EC_INLINED bool walk_any(const accel *a, hit_filter *filter, walk *w)
 {
     if (w->current & EC_LEAF_BIT) {
@@ -90,7 +89,7 @@ EC_INLINED walk *walk_ring(walk *walks, uint count)
     return walks + count - 1;
 }
 
-/* Takes *w, which has ended, out of the ring; *w becomes the one before it. False: there is none. */
+/* Takes *w, which has ended, out of the ring; *w becomes `before`. Returns false if it was the only one. */
 EC_INLINED bool walk_drop(walk **w, walk *before)
 {
     if (*w == before) return false;
@@ -126,13 +125,13 @@ EC_INLINED void walk_store(const walk *w, uint wave, global float *hits)
 #endif
 }
 
-/* Closest hits of eight camera rays that stand side by side, or of the `left` that there are. */
+/* Finds the closest hits of eight camera rays from entry i on, or of the `left` that there are. */
 EC_INLINED void camera_rays(uint i, uint left, constant ec_params *params INTERSECT_PARAMETERS(EC_PARAMETER))
 {
     uint wave = params->wave;
     lane_i on = LANE_NUMBERS < left;
     v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
-    o = v3_select(on, o, v3_make(F(o.x.s0), F(o.y.s0), F(o.z.s0))); /* lanes that are off go as the first */
+    o = v3_select(on, o, v3_make(F(o.x.s0), F(o.y.s0), F(o.z.s0))); /* lanes that are off take the first ray */
     d = v3_select(on, d, v3_make(F(d.x.s0), F(d.y.s0), F(d.z.s0)));
     hit_filter filter = {FILTER_GEOMETRY, U(0), true, 0};
     if (HAS(ALPHA)) {
@@ -203,7 +202,7 @@ EC_INLINED void walk_light(const walk *w, constant ec_params *params, uint bounc
                       p[EC_SHADOW_LB * wave]);
 }
 
-/* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
+/* Traces shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
 EC_KERNEL(ec_connect_bvh8, RUN, CONNECT_PARAMETERS, QUEUED(shadows[step]))
 {
     uint next = 0;

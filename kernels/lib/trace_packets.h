@@ -1,8 +1,8 @@
-/* The two kernels of an accelerator that sends LANES rays a packet: a template. ACCEL is its name, and before this stands
+/* A template of the two kernels of an accelerator that traces packets of LANES rays. ACCEL is its name; the including file has defined
  *
  *     void ACCEL_trace(const accel *, const ray *, const hit_filter *, lane_u skip0, lane_u skip1, bool any_hit, hit *h);
  *
- * h->t comes in as the largest t of interest (negative: lane off), h->prim as EC_NO_ID. */
+ * On entry h->t is the largest t of interest (negative: lane off), h->prim EC_NO_ID. */
 #include "pane.h"
 #include "sort_rays.h"
 #include "trace.h"
@@ -46,7 +46,7 @@ EC_KERNEL(EC_CAT(ec_intersect_, ACCEL), LANES, INTERSECT_PARAMETERS, QUEUED(rays
     }
 }
 
-/* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
+/* Traces shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
 EC_KERNEL(EC_CAT(ec_connect_, ACCEL), LANES, CONNECT_PARAMETERS, QUEUED(shadows[step]))
 {
     uint wave = params->wave;
@@ -81,7 +81,7 @@ EC_KERNEL(EC_CAT(ec_connect_, ACCEL), LANES, CONNECT_PARAMETERS, QUEUED(shadows[
             passed = packet_load_v3(shadows, wave, EC_SHADOW_TR, &at);
         }
         pane_walk w = pane_walk_make(r.o, packet_load_v3(shadows, wave, EC_SHADOW_LR, &at), medium, passed);
-        if (HAS(PANES)) { /* nothing but panes in the way: through one after the other */
+        if (HAS(PANES)) { /* only panes are in the way: passes one after the other */
             geometry g = {prims,  indices, normals,      tangents,
                           uvs,    colors,  materials,    {texture_table, texels, srgb},
                           places, motion,  filter.g.time};

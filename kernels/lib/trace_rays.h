@@ -1,13 +1,13 @@
-/* The two kernels of an accelerator that sends one ray a work-item: a template. ACCEL is its name, and before this stand
+/* A template of the two kernels of an accelerator that traces one ray per work-item. ACCEL is its name; the including file has defined
  *
  *     void ACCEL_closest(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, hit8 *h);
  *     bool ACCEL_any(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, hit8 *h);
  *
- * h->t comes in as the largest t of interest, h->prim as EC_NO_ID. Triangles skip0 and skip1 are passed through. With ACCEL_HAS_TRACE
+ * On entry h->t is the largest t of interest, h->prim EC_NO_ID. Rays pass through triangles skip0 and skip1. With ACCEL_HAS_TRACE
  *
  *     void ACCEL_trace(const accel *, const ray8 *, const hit_filter *, uint skip0, uint skip1, bool any_hit, hit8 *h);
  *
- * stands there in place of both. */
+ * takes the place of both. */
 #include "pane.h"
 #include "trace.h"
 
@@ -61,7 +61,7 @@ EC_RUN_KERNEL(EC_CAT(ec_intersect_, ACCEL), INTERSECT_PARAMETERS, QUEUED(rays[st
 #endif
 }
 
-/* Shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
+/* Traces shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
 EC_RUN_KERNEL(EC_CAT(ec_connect_, ACCEL), CONNECT_PARAMETERS, QUEUED(shadows[step]))
 {
     uint wave = params->wave;
@@ -90,7 +90,7 @@ EC_RUN_KERNEL(EC_CAT(ec_connect_, ACCEL), CONNECT_PARAMETERS, QUEUED(shadows[ste
         passed = v3_make(F(p[EC_SHADOW_TR * wave]), F(p[EC_SHADOW_TG * wave]), F(p[EC_SHADOW_TB * wave]));
     }
     pane_walk w = pane_walk_make(q.r.o, light, medium, passed);
-    if (HAS(PANES) && any_lane(panes)) { /* nothing but panes in the way: through one after the other */
+    if (HAS(PANES) && any_lane(panes)) { /* only panes are in the way: passes one after the other */
         geometry g = {prims,  indices, normals,      tangents, uvs, colors, materials, {texture_table, texels, srgb},
                       places, motion,  filter.g.time};
         v3 end = v3_add(q.r.o, q.r.d);

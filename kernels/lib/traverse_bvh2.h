@@ -1,5 +1,4 @@
-/* LANES rays through the binary BVH together. Wins on small scenes and coherent rays; with LANES 1 it is the ordinary GPU
- * kernel. */
+/* Traces LANES rays through the binary BVH together. Wins on small scenes and coherent rays; with LANES 1 it is the ordinary GPU kernel. */
 #ifndef EC_LIB_TRAVERSE_BVH2_H
 #define EC_LIB_TRAVERSE_BVH2_H
 
@@ -18,7 +17,7 @@ typedef struct hit {
 
 EC_FN v3 splat_point(global const float *p) { return v3_make(F(p[0]), F(p[1]), F(p[2])); }
 
-/* The box of a reference: its own, or without those (`box` NULL) what the vertices span. */
+/* Returns the low corner of a reference's box: its own or, if `box` is NULL, that of the vertices. box_high: the high one. */
 EC_FN v3 box_low(global const ec_tri *t, global const ec_box *box)
 {
     if (box) return splat_point(box->lo);
@@ -32,7 +31,7 @@ EC_FN v3 box_high(global const ec_tri *t, global const ec_box *box)
                    F(max(t->v0[2], max(t->v1[2], t->v2[2]))));
 }
 
-/* Lanes m meet triangle id, whose box is lo to hi, at t: is it the closest so far, by (t, triangle id)? */
+/* Takes triangle id, whose box is lo to hi and which lanes m meet at t, where it is the closest so far, by (t, triangle id). */
 EC_FN void packet_keep(const ray *r, const hit_filter *filter, v3 lo, v3 hi, lane_u id, const edges *e, lane_i m,
                        lane_f t, lane_f inverse, hit *h)
 {
@@ -45,8 +44,8 @@ EC_FN void packet_keep(const ray *r, const hit_filter *filter, v3 lo, v3 hi, lan
     h->b2 = m ? b2 : h->b2;
 }
 
-/* Lanes m pass inside the edges e of triangle tri, or of the other half of its quad where `second`, which is `other` triangles on: 0 where
- * there is none. skip0 and skip1 are triangles a lane ignores. */
+/* Takes the triangle inside whose edges e lanes m pass: tri or, where `second`, the other half of its quad, which is `other` triangles on (0 where
+ * there is none). skip0 and skip1 are triangles a lane ignores. */
 EC_FN void packet_take(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
                        uint other, lane_i second, const edges *e, lane_i m, lane_u skip0, lane_u skip1, hit *h)
 {
@@ -74,7 +73,7 @@ EC_FN edges edges_select(lane_i m, edges a, edges b)
     return e;
 }
 
-/* One that moves, for each lane where it is at its time. Such have boxes, and no second half. */
+/* Tests a moving triangle, for each lane where it is at the lane's time. Moving triangles have boxes, and no second half. */
 EC_FN void packet_moving(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
                          lane_u skip0, lane_u skip1, hit *h)
 {
@@ -96,7 +95,7 @@ EC_FN void packet_moving(const ray *r, const hit_filter *filter, global const ec
     packet_keep(r, filter, splat_point(box->lo), splat_point(box->hi), id, &e, m, t, inverse, h);
 }
 
-/* One triangle, or two that form a quad, against the packet. Returns how many. */
+/* Tests one triangle, or two that form a quad, against the packet. Returns how many. */
 EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const ec_tri *tri, global const ec_box *box,
                             lane_u skip0, lane_u skip1, hit *h)
 {
@@ -107,7 +106,7 @@ EC_FN uint packet_triangles(const ray *r, const hit_filter *filter, global const
     v3 a = ray_vertex(r, splat_point(tri->v0)), b = ray_vertex(r, splat_point(tri->v1)), c = ray_vertex(r, splat_point(tri->v2));
     edges e = edges_make(a, b, c);
     lane_i m = edges_inside(&e), n = !TRUE_MASK;
-    uint has_pair = LANES == 1 ? 0u : tri->has_pair; /* registers count for a ray alone: it meets the halves one after the other, at the same t */
+    uint has_pair = LANES == 1 ? 0u : tri->has_pair; /* a single ray meets the halves one after the other, at the same t, which saves registers */
     edges f = e;
     if (has_pair) {
         v3 d = ray_vertex(r, splat_point(tri[1].v2));

@@ -1,11 +1,11 @@
-/* One ray through the 8-wide BVH, SIMD inside the ray: eight boxes or eight triangles at a time. Wins on CPUs in large scenes
- * and on incoherent rays. */
+/* Traces one ray through the 8-wide BVH, with SIMD inside the ray: eight boxes or eight triangles at a time. Wins on CPUs in large scenes and on
+ * incoherent rays. */
 #ifndef EC_LIB_TRAVERSE_BVH8_H
 #define EC_LIB_TRAVERSE_BVH8_H
 
 #include "node8.h"
 
-/* Goes on to the nearest of the children of `mask`, and stacks the others, the nearest on top. False: there are none. */
+/* Sets *current to the nearest of the children of `mask`, and pushes the others, the nearest on top. Returns false if there are none. */
 EC_INLINED bool bvh8_sort(float8 near, uint mask, uint8 child, ulong *stack, uint *depth, uint *current)
 {
     ulong entry[8];
@@ -32,18 +32,18 @@ EC_INLINED bool bvh8_sort(float8 near, uint mask, uint8 child, ulong *stack, uin
     return true;
 }
 
-/* Visits node *current: goes on to the nearest child that the ray meets. False: it meets none. */
+/* Visits node *current, and sets *current to the nearest child that the ray meets. Returns false if it meets none. */
 EC_INLINED bool bvh8_enter(const accel *a, const ray8 *q, hit8 *h, ulong *stack, uint *depth, uint *current)
 {
     global const ec_bvh8_node *n = (global const ec_bvh8_node *)a->at[0] + *current;
     TALLY_NODE(h);
     int8 meets;
-    uint8 child = *(global const uint8 *)n->child; /* now, and not only once the distances are known */
+    uint8 child = *(global const uint8 *)n->child; /* loaded before the distances are known, not after */
     float8 near = node8_near(q, n, h->t, &meets);
     return bvh8_sort(near, mask_bits8(meets), child, stack, depth, current);
 }
 
-/* Goes on to what the stack has that the ray enters before its best hit. False: nothing. */
+/* Pops into *current the next entry that the ray enters before its best hit. Returns false if there is none. */
 EC_INLINED bool bvh8_return(const hit8 *h, const ulong *stack, uint *depth, uint *current)
 {
     do {
@@ -54,7 +54,7 @@ EC_INLINED bool bvh8_return(const hit8 *h, const ulong *stack, uint *depth, uint
     return true;
 }
 
-/* The closest hit in node or leaf `current`. */
+/* Finds the closest hit in node or leaf `current`. */
 EC_INLINED void bvh8_below(const accel *a, const ray8 *q, const hit_filter *filter, uint current, uint skip0, uint skip1, hit8 *h)
 {
     ulong stack[EC_BVH8_STACK];
@@ -76,7 +76,7 @@ EC_INLINED void bvh8_closest(const accel *a, const ray8 *q, const hit_filter *fi
     bvh8_below(a, q, filter, 0, skip0, skip1, h);
 }
 
-/* Is anything in the way before t = h->t? */
+/* Returns whether anything is in the way before t = h->t. */
 EC_INLINED bool bvh8_any(const accel *a, const ray8 *q, const hit_filter *filter, uint skip0, uint skip1, hit8 *h)
 {
     global const ec_bvh8_node *nodes = a->at[0];

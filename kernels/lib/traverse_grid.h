@@ -1,4 +1,4 @@
-/* One ray through a uniform grid: the 3D-DDA of Amanatides and Woo 1987 for a ray as wide as its rounding, over blocks of 4 x 4 x 4
+/* Traces one ray through a uniform grid: the 3D-DDA of Amanatides and Woo 1987 for a ray as wide as its rounding, over blocks of 4 x 4 x 4
  * cells; within a block all 64 cells are compared at once, in the lanes of vectors, and most are empty.
  *
  * Along each axis the ray is in one block or, near a plane, in two: a block begins for it at its near plane with the widened offset
@@ -24,7 +24,7 @@ typedef struct grid_axis {
     float begins, ends;          /* when the block after `newest` begins, when `oldest` ends */
 } grid_axis;
 
-/* Triangles on their way to be tested. */
+/* Triangles that wait to be tested. */
 typedef struct grid_mail {
     uint seen[GRID_MAIL];
     uint pending[8], count;
@@ -33,10 +33,11 @@ typedef struct grid_mail {
 EC_FN float grid_begins(const grid_axis *x, int block) { return fma(x->plane[4 * block], x->inverse, x->near_offset); }
 EC_FN float grid_ends(const grid_axis *x, int block) { return fma(x->plane[4 * block], x->inverse, x->far_offset) * EC_SLAB_PAD; }
 
-/* When the block after `block` begins: never behind the last one. */
+/* Returns when the block after `block` begins; never, after the last one. */
 EC_FN float grid_next(const grid_axis *x, int block) { return block == x->end ? INFINITY : grid_begins(x, block); }
 
-/* The axis with the ray at t = start, found from a guess; exit and entry of the whole grid along it are min- and maximised. */
+/* Makes an axis, and narrows *enter and *leave to the ray's way through the whole grid along it. grid_axis_start finds its blocks at t = start from a
+ * guess. */
 EC_FN void grid_axis_make(grid_axis *x, global const float *planes, int blocks, float inverse, float lo_offset, float hi_offset,
                           int stride, float *enter, float *leave)
 {
@@ -81,7 +82,7 @@ EC_FN void grid_axis_start(grid_axis *x, int blocks, float guess, float start)
         hi_ = v3_make(GRID_SIDE(hi, 0), GRID_SIDE(hi, 1), GRID_SIDE(hi, 2));                       \
     }
 
-/* The pending ones, gathered from wherever they lie; free places repeat the first. */
+/* Tests the pending triangles, gathered from wherever they lie; free places repeat the first. */
 EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, global const ec_tri *tris,
                      global const ec_box *boxes, uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
@@ -92,7 +93,7 @@ EC_FN void grid_test(grid_mail *mail, const ray8 *q, const hit_filter *filter, g
     EACH_LANE(GRID_TRIANGLE)
 #undef GRID_TRIANGLE
     uint8 id = as_uint8(GRID_ROW(0, 3));
-    if (block8_moves(filter, id)) { /* there are boxes, then */
+    if (block8_moves(filter, id)) { /* there are always boxes then */
         v3 lo, hi;
         GRID_BOXES(lo, hi)
         block8_moving(q, filter, GRID_CORNER(0), GRID_CORNER(1), GRID_CORNER(2), lo, hi, id, skip0, skip1, any_hit, h);
@@ -127,7 +128,7 @@ EC_FN void grid_visit(grid_mail *mail, global const uint *entries, uint first, u
     }
 }
 
-/* When the ray is in each of the four cells of a block along an axis. */
+/* Computes when the ray enters and leaves each of the four cells of a block along an axis. */
 EC_FN void grid_four(const grid_axis *x, int block, float4 *begins, float4 *ends)
 {
     bool down = x->step < 0;
@@ -137,7 +138,7 @@ EC_FN void grid_four(const grid_axis *x, int block, float4 *begins, float4 *ends
     *ends = fma(down ? lo : hi, (float4)(x->inverse), (float4)(x->far_offset)) * EC_SLAB_PAD;
 }
 
-/* A bit for each cell of block (bx, by, bz) that the ray meets before t_max. */
+/* Returns a bit for each cell of block (bx, by, bz) that the ray meets before t_max. */
 EC_FN ulong grid_cells(const grid_axis *axis, int bx, int by, int bz, float t_max)
 {
     float4 x0, x1, y0, y1, z0, z1;

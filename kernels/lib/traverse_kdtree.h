@@ -1,5 +1,5 @@
-/* One ray through a kd-tree, three levels of planes at a time in the lanes of a vector, near children first; leaves are blocks
- * of eight triangles.
+/* Traces one ray through a kd-tree, three levels of planes at a time in the lanes of a vector, near children first; leaves are blocks of eight
+ * triangles.
  *
  * A plane is met over a span, from its near to its far time with the widened offsets of slab_near: the side before it is left at
  * the far time, the side behind it entered at the near one. Why no hit is lost: let t be a hit's distance, clamped to the near
@@ -15,13 +15,13 @@ typedef struct kd_entry {
     float enter, leave;
 } kd_entry;
 
-/* When the ray is in each of the eight children; the mask of those that it meets within [enter, leave]. */
+/* Computes when the ray enters and leaves each of the eight children; returns the mask of those that it meets within [enter, leave]. */
 EC_FN uint kd_children(const ray8 *q, global const ec_kd_node *n, float enter, float leave, float8 *enters, float8 *leaves)
 {
     uint8 axis = ((uint8)(n->axes) >> (uint8)(0u, 2u, 4u, 6u, 8u, 10u, 12u, 14u)) & 3u;
     int8 x = axis == 0u, y = axis == 1u, z = axis == 2u;
     float8 plane = vload8(0, n->plane);
-    plane.s7 = 0.0f; /* the axes' bits */
+    plane.s7 = 0.0f; /* holds the axes' bits */
     float8 inverse = x ? q->r.inverse.x : (y ? q->r.inverse.y : (z ? q->r.inverse.z : (float8)(0.0f)));
     float8 near_offset = x ? q->near_offset_x : (y ? q->near_offset_y : (z ? q->near_offset_z : (float8)(-INFINITY)));
     float8 far_offset = x ? q->far_offset_x : (y ? q->far_offset_y : (z ? q->far_offset_z : (float8)(INFINITY)));

@@ -1,6 +1,6 @@
-/* One ray through two levels of 8-wide BVHs: what stands in the world by itself, then a tree of instances, each of which is entered by
- * taking the ray into its mesh's own space and left when its tree is done. Only boxes are met there: a leaf's corners are taken to
- * the world (instance.h), where the triangles are tested as all others are.
+/* Traces one ray through two levels of 8-wide BVHs: the triangles of no instance, then a tree of instances, each of which is entered by
+ * transforming the ray into its mesh's own space and left when its tree is done. Only boxes are tested there: a leaf's corners are transformed to
+ * the world (instance.h), where triangles are tested as all others are.
  *
  * Why no hit can be lost that accelerators over written-out triangles find. Let u = 2^-24, A = |o| + reach, reach bounding every
  * sum in placing a corner, per axis; R a row of |M^-1|.
@@ -21,14 +21,14 @@
 /* An instance that the ray is in. */
 typedef struct visit {
     global const ec_instance *at; /* 0: in the world */
-    ray8 q;                       /* there; its slabs only */
-    float late;                   /* by so much boxes may be entered after the hits they hold */
-    uint base;                    /* what the stack holds of the world's tree */
+    ray8 q;                       /* the ray in its space, of which only the slabs are set */
+    float late;                   /* how much later than a hit the ray may enter the box that holds it */
+    uint base;                    /* depth of the stack when the instance was entered */
 } visit;
 
 EC_FN float visit_row(global const float *m, float x, float y, float z) { return fma(m[0], x, fma(m[1], y, m[2] * z)); }
 
-/* Slabs along one axis. off: how far the ray may be from where it is taken to be. */
+/* Makes the slabs of one axis. off: how far the ray may be from its computed place. */
 EC_FN void visit_axis(float o, float d, float d_min, float off, float8 *inverse, float8 *near_offset, float8 *far_offset)
 {
     float i = copysign(1.0f / max(fabs(d), d_min), d), offset = -(o * i), widen = fabs(off * i);
@@ -68,7 +68,7 @@ EC_FN v3 visit_corner(global const ec_instance *n, global const ec_tri8 *b, uint
     return v3_make(place_row(m0, p), place_row(m1, p), place_row(m2, p));
 }
 
-/* block8_triangles, of triangles that are taken to the world first. Unused slots are points there too. */
+/* Like block8_triangles, but transforms the triangles to the world first. Unused slots are points there too. */
 EC_FN void visit_block(const ray8 *q, const hit_filter *filter, global const ec_instance *n, global const ec_tri8 *b,
                        uint skip0, uint skip1, bool any_hit, hit8 *h)
 {
@@ -88,7 +88,7 @@ EC_FN void twolevel_leaf(const accel *a, const ray8 *q, const visit *v, const hi
     else leaf8(a, q, filter, child, skip0, skip1, any_hit, h);
 }
 
-/* What is to be looked at in place of `child`: an instance's root, which the ray is in from here on, where `child` is an instance. */
+/* Enters the instance that `child` is, if it is one. Returns what to visit: the instance's root, or `child`. */
 EC_FN uint visit_begin(visit *v, const accel *a, const ray8 *q, uint child, uint depth)
 {
     const uint instance = EC_LEAF_BIT | EC_INSTANCE_BIT;
@@ -99,7 +99,7 @@ EC_FN uint visit_begin(visit *v, const accel *a, const ray8 *q, uint child, uint
     return v->at->root;
 }
 
-/* Back to the world once all of the instance's tree is done. */
+/* Goes back to the world once all of the instance's tree is done. */
 EC_FN void visit_end(visit *v, uint depth)
 {
     if (!v->at || depth != v->base) return;
@@ -116,7 +116,7 @@ EC_FN void twolevel_closest(const accel *a, const ray8 *q, const hit_filter *fil
     visit v;
     v.at = 0;
     v.late = 0.0f;
-    if (instances) stack[depth++] = instances->root; /* after what stands in the world */
+    if (instances) stack[depth++] = instances->root; /* visited after the world's own triangles */
     for (;;) {
         current = visit_begin(&v, a, q, current, depth);
         if (current & EC_LEAF_BIT) {

@@ -4,7 +4,7 @@
 
 #include "types.h"
 
-#define EC_ACCEL_BUFFERS 5      /* that an accelerator may have on the device */
+#define EC_ACCEL_BUFFERS 5      /* buffers that an accelerator may have on the device */
 
 #define EC_BVH_STACK 96         /* entries of a binary traversal stack; the builder keeps trees no deeper than 64 */
 #define EC_BVH8_STACK 96        /* the same for eight children; layout8.c keeps every path within it */
@@ -52,18 +52,18 @@ typedef struct ec_tri8 {
 } ec_tri8;
 EC_ASSERT_SIZE(ec_tri8, 320);
 
-/* Two levels: nodes[0] is the root of what stands in the world. Leaves of the upper tree are instances: EC_LEAF_BIT |
- * EC_INSTANCE_BIT | index of an ec_instance, whose mesh has a tree and blocks in its own space, with ids that count from 0. The first
- * ec_instance stands for none of them: its root is that of the upper tree. */
+/* Two levels: nodes[0] is the root of the triangles that belong to no instance. Leaves of the upper tree are instances: EC_LEAF_BIT | EC_INSTANCE_BIT
+ * | index of an ec_instance, whose mesh has a tree and blocks in its own space, with ids that count from 0. The first ec_instance is not an instance:
+ * its root is that of the upper tree. */
 #define EC_INSTANCE_BIT 0x40000000u
 #define EC_TWOLEVEL_STACK (2 * EC_BVH8_STACK)
 typedef struct ec_instance {
     ec_float place[3][4];   /* rows: world = place x (point, 1) */
-    ec_float inverse[3][4]; /* rows of the 3 x 3 inverse; the fourth is how far a ray taken there may be off, over its reach */
+    ec_float inverse[3][4]; /* rows of the 3 x 3 inverse; the fourth is how far a ray transformed by it may be off, over its reach */
     ec_uint id;             /* of the mesh's first triangle here */
     ec_uint root;
     ec_uint turned;         /* 1: corners 1 and 2 change places */
-    ec_float longest;       /* edge of a triangle's box in the world */
+    ec_float longest;       /* longest edge of a triangle's box in the world */
     ec_float reach;         /* no coordinate of the scene is larger */
     ec_uint pad[3];
 } ec_instance;
@@ -87,10 +87,10 @@ typedef struct ec_grid_block {
 } ec_grid_block;
 EC_ASSERT_SIZE(ec_grid_block, 16);
 
-/* Kd-tree, three levels of splits a node, in a cache line. Planes in the order of a heap: 0 divides all eight children, 1 and 2 the
- * first and the last four, 3 to 6 the pairs; bit 2 of a child's number says on which side of plane 0 it lies (1: above), bit 1 and
- * bit 0 of those below. axes: two bits a plane, x first; EC_KD_NO_PLANE divides nothing. child: EC_NO_CHILD; a node; or a
- * leaf, EC_LEAF_BIT | first block << 6 | count. A triangle is in every leaf that its box overlaps. */
+/* Kd-tree, three levels of splits a node, in a cache line. Planes in the order of a heap: 0 divides all eight children, 1 and 2 the first and the
+ * last four, 3 to 6 the pairs; bit 2 of a child's number says on which side of plane 0 it lies (1: above), bits 1 and 0 on which side of the
+ * planes below that. axes: two bits a plane, x first; EC_KD_NO_PLANE divides nothing. child: EC_NO_CHILD; a node; or a leaf, EC_LEAF_BIT | first
+ * block << 6 | count. A triangle is in every leaf that its box overlaps. */
 typedef struct ec_kd_node {
     ec_float plane[7];
     ec_uint axes;

@@ -1,6 +1,6 @@
-/* The built-in functions that kernels call, for a driver whose own header has 18 000 lines of them and is read anew for each program
- * (host/cl/workarounds.c): EC_OWN_BUILTINS comes with _OPENCL_H_, that header's guard. Another function belongs here as well, and functions
- * of integers for each width, since a number of another would be converted without a word. */
+/* Declares the built-in functions that kernels call, for a driver whose own header has 18 000 lines of them and is read anew for each program
+ * (host/cl/workarounds.c): EC_OWN_BUILTINS comes with _OPENCL_H_, that header's guard. A kernel that calls another function needs it declared here;
+ * functions of integers for each width, since an argument of another type would be converted silently. */
 #ifndef EC_SHARED_BUILTINS_H
 #define EC_SHARED_BUILTINS_H
 #ifdef EC_OWN_BUILTINS

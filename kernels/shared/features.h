@@ -1,5 +1,5 @@
-/* What a scene can call for, one bit each: the host sets the mask (host/pack/features.c), the kernels are built with it.
- * A bit says that code is structurally needed; values stay in buffers. */
+/* Effects that a scene can call for, one bit each: the host sets the mask (host/pack/features.c), the kernels are built with it. A bit says that code
+ * is structurally needed; values stay in buffers. */
 #ifndef EC_SHARED_FEATURES_H
 #define EC_SHARED_FEATURES_H
 
@@ -125,15 +125,15 @@
 #define EC_FEATURE_ALL (0 EC_FEATURES(EC_FEATURE_OR_))
 EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_its_own_bit);
 
-/* All of what reads a texture or goes along one, and so wants texels and places on them. */
+/* Effects that read a texture or follow one's direction, and so need texels and texture coordinates. */
 #define EC_FEATURE_OF_SLOT_(name, is_srgb, effect, textured, has, path) | EC_FEATURE_##textured
 #define EC_FEATURES_TEXTURED (EC_FEATURE_ANISOTROPY EC_SLOTS(EC_FEATURE_OF_SLOT_))
-/* What bends normals, what has a direction: what wants tangents. */
+/* Effects that bend normals; these and effects with a direction, which need tangents. */
 #define EC_FEATURES_BENDING (EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE)
 #define EC_FEATURES_TANGENTS (EC_FEATURES_BENDING | EC_FEATURE_ANISOTROPY)
-/* What asks which body a ray is in. */
+/* Effects that need to know which body a ray is in. */
 #define EC_FEATURES_MEDIUM (EC_FEATURE_ABSORPTION | EC_FEATURE_NESTED | EC_FEATURE_FOG)
-/* What sends paths from lights. */
+/* Effects that trace paths from lights. */
 #define EC_FEATURES_FROM_LIGHTS (EC_FEATURE_LIGHT_PATHS | EC_FEATURE_GUIDING)
 #define EC_FEATURES_UV (EC_FEATURES_TEXTURED | EC_FEATURE_UV)
 #define EC_FEATURES_ATTRIBUTES (EC_FEATURES_UV | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS)
@@ -148,7 +148,7 @@ EC_ASSERT(EC_FEATURE_ALL == 0 EC_FEATURES(EC_FEATURE_SUM_), ec_each_feature_has_
 #define HAS_PASSING (HAS(TRANSMISSION) || HAS(DIFFUSE_TRANSMISSION))
 #define HAS_BENDING ((FEATURES & EC_FEATURES_BENDING) != 0)
 #define HAS_MEDIUM ((FEATURES & EC_FEATURES_MEDIUM) != 0)
-/* Do shadow rays keep what they are in? */
+/* Shadow rays carry their medium. */
 #define HAS_SHADOW_MEDIUM (HAS(MATCHED) && HAS_MEDIUM)
 #define HAS_FAR_AND_LAMPS ((HAS(ENVIRONMENT) || HAS(PUNCTUAL_LIGHTS)) && (HAS(AREA_LIGHTS) || HAS(PUNCTUAL_LIGHTS)))
 #define HAS_ATTRIBUTES ((FEATURES & EC_FEATURES_ATTRIBUTES) != 0)

@@ -1,15 +1,15 @@
-/* What a material is: each of its fields, and each texture that it may take, once. Made of these rows are ec_material, the kernels' record
- * of it, and all that reads, checks, folds, packs, leaves out and reports materials (host/scene/material_fields.h). */
+/* Lists each field of a material, and each texture that it may have, once. From these rows come ec_material, the kernels' record of it, and all that
+ * reads, checks, folds, packs, leaves out and reports materials (host/scene/material_fields.h). */
 #ifndef EC_SHARED_MATERIAL_FIELDS_H
 #define EC_SHARED_MATERIAL_FIELDS_H
 
 /* In the order of the kernels' record, in fours of words.
  *   F(field, floats, default, least, most, SLOT, channel, EFFECT, has, path): as files have it, and as kernels read it
- *   S(likewise): as files have it; what kernels get for it is worked out (host/pack/pack.c)
- *   P(type, field): one word, for kernels alone. V(field): three floats, likewise
- * SLOT and channel: the texture whose channels, from that one on, multiply it. EFFECT: the field weighs it, so that at 0 there is none of it,
- * and --without sets that. has: what a report says of a material with that effect; 0: what more it takes is in host/pack/features.c.
- * path: in glTF's material, from where host/gltf/gltf_material.cpp takes it as it is unless it says otherwise. */
+ *   S(the same): as files have it; host/pack/pack.c computes what kernels get for it
+ *   P(type, field): one word, for kernels alone. V(field): three floats, for kernels alone
+ * SLOT and channel: the texture whose channels, from that one on, multiply it. EFFECT: the effect that the field weighs: at 0 there is none of it,
+ * and --without sets that. has: what a report says of a material with that effect; 0: host/pack/features.c says what more it takes. path: in glTF's
+ * material, from where host/gltf/gltf_material.cpp takes it as it is unless it says otherwise. */
 #define EC_KHR "extensions/KHR_materials_"
 #define EC_MATERIAL_FIELDS(F, S, P, V) \
     F(base_color, 4, 1, 0, 1, BASE_COLOR, 0, NONE, 0, "pbrMetallicRoughness/baseColorFactor") /* linear; alpha: coverage */ \

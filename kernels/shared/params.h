@@ -7,7 +7,7 @@
 /* How a path finds area lights and the environment. All converge to the same picture. Punctual lights are joined to in every
  * one: no direction that is sampled ever meets a point. */
 typedef enum ec_sample {
-    EC_SAMPLE_MIS,       /* light and BSDF sampling, weighed by the power heuristic */
+    EC_SAMPLE_MIS,       /* light and BSDF sampling, weighted by the power heuristic */
     EC_SAMPLE_LIGHT,     /* a point on a light; BSDF sampling leads the path on and counts no light found again */
     EC_SAMPLE_BSDF,      /* only what directions sampled by the BSDF meet */
     EC_SAMPLE_HEMISPHERE, /* only what directions meet that are uniform over the hemisphere about ns */
@@ -16,7 +16,7 @@ typedef enum ec_sample {
 
 #define EC_CASTERS_MOST 8
 
-/* What a picture can have beside radiance that is one of a kind; light groups come after these. */
+/* The layers beside radiance of which a picture has one each; light groups come after these. */
 enum ec_layer_kind { EC_LAYER_DIRECT, EC_LAYER_INDIRECT, EC_LAYER_POSITION, EC_LAYER_UV, EC_LAYER_MOTION, EC_LAYER_KINDS };
 #define EC_GROUPS_MOST 16
 #define EC_GROUP_NAME 64
@@ -46,35 +46,35 @@ typedef struct ec_params {
     ec_float environment_pmf;     /* probability that light sampling chooses the environment */
     ec_float scene_radius;        /* of a sphere around the recentred origin that holds the scene */
     ec_float scene_max;           /* largest |coordinate| of the scene */
-    ec_float scene_centre[3];     /* of the world, which the recentred frame has its origin in */
+    ec_float scene_centre[3];     /* of the world, where the recentred frame has its origin */
     ec_uint first_roulette;       /* path segments that are never cut short (lib/roulette.h) */
     ec_float survival;            /* of roulette: a constant probability; 0: by throughput */
-    ec_float cutoff;              /* of Whitted's: branches of less weight are not followed */
+    ec_float cutoff;              /* of Whitted's integrator: branches of less weight are not followed */
     ec_float lens_nearness;       /* 1 / distance of the plane in focus */
     ec_uint environment_turned;   /* 0: environment_turn is not looked at */
-    ec_uint light_tree_numbers;   /* of 2^31 random numbers those by which light sampling goes to the tree */
-    ec_uint panes_count;          /* is a pane that a shadow ray passes a vertex, as max_depth counts them? Not in Whitted's */
+    ec_uint light_tree_numbers;   /* how many of 2^31 random numbers choose the light tree */
+    ec_uint panes_count;          /* panes that shadow rays pass count as vertices for max_depth; not in Whitted's integrator */
     ec_float fog[3];              /* around bodies, in the ball about the scene: extinction, 1/m, of every channel, 0: none; albedo; mean cosine */
     ec_uint nested;               /* bodies may lie in one another: media are sets (lib/medium.h) */
-    ec_uint camera_medium;        /* what the camera is inside of */
+    ec_uint camera_medium;        /* medium that the camera is in */
     ec_uint film_row;             /* the picture's row that the films begin with */
-    ec_uint terminator;           /* do rays leave from the smooth surface (lib/terminator.h)? */
-    ec_uint multiple;             /* do facets scatter more than once (lib/multiscatter.h)? */
+    ec_uint terminator;           /* rays leave from the smooth surface (lib/terminator.h) */
+    ec_uint multiple;             /* facets scatter more than once (lib/multiscatter.h) */
     ec_uint light_choices;        /* entries of the table by which a light is chosen */
     ec_uint environment_stretch[2]; /* floor(2^64 / numbers that choose the environment), the high word first (lib/choice.h) */
-    ec_uint far_numbers;          /* of 2^32 random numbers those by which light sampling goes to lights at infinity; 0: there are none, or no others */
+    ec_uint far_numbers;          /* how many of 2^32 random numbers choose lights at infinity; 0: there are none, or no others */
     ec_uint far_stretch[2], lamp_stretch[2]; /* floor(2^64 / numbers of these and of the others), the high word first */
-    ec_float far_scale, lamp_scale; /* chance of each kind over that of the table */
-    ec_uint apart;                /* do slots keep indirect light apart (radiance_of), so that it can be limited? */
+    ec_float far_scale, lamp_scale; /* probability of each kind over that of the table */
+    ec_uint apart;                /* slots keep indirect light apart (radiance_of), so that it can be limited */
     ec_float limit;               /* of the luminance of a sample's indirect light; 0: none */
-    ec_uint backdrop;             /* the environment is hidden from camera rays, which a background takes the place of */
+    ec_uint backdrop;             /* the environment is hidden from camera rays; a background takes its place */
     ec_float screen[4];           /* x and y of the picture's top left corner; what they grow by from pixel to pixel */
     /* Light paths (lib/light_path.h). */
     ec_float light_paths;         /* for each camera path; 0: none */
-    ec_uint light_apart;          /* is what they bring no part of batches? */
-    ec_float film_area;           /* of the picture in the plane at distance 1, of an orthographic camera in the scene */
+    ec_uint light_apart;          /* what they bring is no part of batches */
+    ec_float film_area;           /* of the picture: in the plane at distance 1, or, for an orthographic camera, in the scene */
     ec_float splat_unit;          /* radiance of one step of the splats' sums, a power of two */
-    ec_uint film_rows;            /* that the films hold, from film_row on */
+    ec_uint film_rows;            /* rows that the films hold, from film_row on */
     ec_uint caster_count;
     ec_float casters[EC_CASTERS_MOST][4]; /* spheres about what bends light: centre, radius */
     ec_float caster_share[EC_CASTERS_MOST]; /* probability that a light path is aimed at one */
@@ -83,7 +83,7 @@ typedef struct ec_params {
     ec_uint layer_of[EC_LAYER_KINDS];
     ec_uint layer_groups;         /* the first light group's; the others follow */
     ec_uint layer_ids;            /* behind them: which node and material a sample meets (lib/features.h) */
-    ec_uint edge_numbers;         /* pixel numbers from this one on are of rays to lamps' edges (stages/lamp_edges.cl); 0: there are none */
+    ec_uint edge_numbers;         /* pixel numbers from this one on belong to rays to lamps' edges (stages/lamp_edges.cl); 0: there are none */
 } ec_params;
 EC_ASSERT_SIZE(ec_params, 596);
 
@@ -94,17 +94,17 @@ EC_ASSERT_SIZE(ec_params, 596);
 
 #define EC_ROULETTE_FIRST 3u /* first_roulette of --rr auto */
 
-/* What a batch tells of a pixel, floats: mean radiance R, G, B of its samples; of the samples' luminance the largest, and the sums of
- * its squares and fourth powers in units of that (1 to m, 0 where all are black). Where there is a limit: in place of these two the sums of
- * the luminance that it cuts off, and of its squares, in units of largest^2 / limit, so that they add up by the same rule (film/clamp.h). */
+/* What a batch says of a pixel, in floats: mean radiance R, G, B of its samples; the largest luminance of a sample; and the sums of the squares and
+ * fourth powers of the samples' luminance, in units of the largest (1 to m, 0 where all are black). Where there is a limit, these two sums are of the
+ * luminance that it cuts off and of its squares, in units of largest^2 / limit, so that they add up by the same rule (film/clamp.h). */
 #define EC_BATCH_FIELDS 6
 enum ec_batch_field { EC_BATCH_R, EC_BATCH_G, EC_BATCH_B, EC_BATCH_LARGEST, EC_BATCH_SQUARES, EC_BATCH_FOURTHS };
 
 /* An entry of a pixel list: the pixel's number (kernels/lib/film.h), and how many samples it has. */
 #define EC_LIST_WORDS 2
 
-/* What light paths bring to a pixel in a batch, words: R, G, B as 64-bit sums in splat units, the low word first, and the largest luminance
- * of one, a float. */
+/* What light paths bring to a pixel in a batch, in words: R, G, B as 64-bit sums in splat units, the low word first, and the largest luminance of a
+ * single contribution, a float. */
 #define EC_SPLAT_WORDS 8
 enum ec_splat_word { EC_SPLAT_R = 0, EC_SPLAT_G = 2, EC_SPLAT_B = 4, EC_SPLAT_LARGEST = 6 };
 

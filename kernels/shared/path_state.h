@@ -10,14 +10,14 @@ enum ec_path_field {
     EC_PATH_OX, EC_PATH_OY, EC_PATH_OZ,    /* ray origin, recentred frame */
     EC_PATH_DX, EC_PATH_DY, EC_PATH_DZ,    /* ray direction, unit */
     EC_PATH_BR, EC_PATH_BG, EC_PATH_BB,    /* beta: product of f cos / pdf and 1 / survival so far */
-    EC_PATH_PDF,                           /* solid-angle density of this direction; < 0: light sampling could not */
-    EC_PATH_DEPTH = EC_PATH_PDF,           /* of Whitted's: segments before this one, less 1 */
+    EC_PATH_PDF,                           /* solid-angle density of this direction; < 0: light sampling cannot find it */
+    EC_PATH_DEPTH = EC_PATH_PDF,           /* of Whitted's integrator: segments before this one, less 1 */
     EC_PATH_SLOT,                          /* uint: where in the wave the sample's radiance is kept */
     EC_PATH_PRIM,                          /* uint: triangle the ray leaves; EC_NO_ID for camera rays */
     EC_PATH_FIELDS,
-    EC_PATH_MEDIUM = EC_PATH_FIELDS,       /* with ABSORPTION, NESTED or FOG only: uint, what the ray is inside of (lib/medium.h) */
+    EC_PATH_MEDIUM = EC_PATH_FIELDS,       /* with ABSORPTION, NESTED or FOG only: uint, medium of the ray (lib/medium.h) */
     EC_PATH_MEDIUM_FIELDS,
-    EC_PATH_SX = EC_PATH_MEDIUM_FIELDS,    /* with PANES only: where light was last looked for; EC_PATH_PDF is of that point */
+    EC_PATH_SX = EC_PATH_MEDIUM_FIELDS,    /* with PANES only: where light was last sampled; EC_PATH_PDF is the density there */
     EC_PATH_SY, EC_PATH_SZ,
     EC_PATH_PANE_FIELDS,
     EC_PATH_K = EC_PATH_PANE_FIELDS,       /* with LIGHT_PATHS only: see lib/light_path.h */
@@ -26,7 +26,7 @@ enum ec_path_field {
     EC_PATH_GUIDED_FIELDS
 };
 
-/* What a light path is of, by slot: with LIGHT_PATHS only. */
+/* State of a light path, by slot; with LIGHT_PATHS only. */
 enum ec_light_slot_field {
     EC_LIGHT_SLOT_PIXEL,                   /* uint: place in the films that its shadow ray's light goes to */
     EC_LIGHT_SLOT_LIGHT,                   /* uint: its light */
@@ -51,15 +51,15 @@ enum ec_shadow_field {
     EC_SHADOW_PRIM,                        /* uint: triangle the ray leaves */
     EC_SHADOW_TARGET,                      /* uint: triangle it ends on, or EC_NO_ID */
     EC_SHADOW_FIELDS,
-    EC_SHADOW_MEDIUM = EC_SHADOW_FIELDS,   /* with MATCHED and media only: uint, what it starts in (lib/medium.h) */
-    EC_SHADOW_TR, EC_SHADOW_TG, EC_SHADOW_TB, /* what that leaves if it fills all of the way, which then is not yet in L */
+    EC_SHADOW_MEDIUM = EC_SHADOW_FIELDS,   /* with MATCHED and media only: uint, medium that the ray starts in (lib/medium.h) */
+    EC_SHADOW_TR, EC_SHADOW_TG, EC_SHADOW_TB, /* what that leaves if it fills all of the way; L does not include it then */
     EC_SHADOW_FAR,                         /* 1 where it ends infinitely far away, else 0 */
     EC_SHADOW_MEDIUM_FIELDS
 };
 
-/* Branches of Whitted's ray trees that wait: a stack for each slot. Field f of branch k of slot s stands at word
- * (1 + k * EC_BRANCH_FIELDS + f) * wave + s; word s says how many there are. One branch of a tree is under way and leaves at most
- * one other behind in each of its segments, so max_depth - 1 are enough. */
+/* Waiting branches of Whitted's ray trees: a stack for each slot. Field f of branch k of slot s stands at word (1 + k * EC_BRANCH_FIELDS + f) * wave
+ * + s; word s says how many there are. One branch of a tree is under way and leaves at most one other behind in each of its segments, so max_depth -
+ * 1 are enough. */
 enum ec_branch_field {
     EC_BRANCH_OX, EC_BRANCH_OY, EC_BRANCH_OZ,
     EC_BRANCH_DX, EC_BRANCH_DY, EC_BRANCH_DZ,

@@ -20,23 +20,23 @@ EC_ASSERT_SIZE(ec_prim, 48);
 #define EC_PRIM_WORDS 12
 #define EC_PRIM_SINGLE_SIDED 1u /* camera rays pass through its back */
 #define EC_PRIM_ALPHA 2u        /* coverage must be looked up */
-#define EC_PRIM_PANE 4u         /* may let light straight on (lib/pane.h) */
-#define EC_PRIM_PARTS 8u        /* shift: of a lamp in parts its first ec_lamp_node; else 0 */
+#define EC_PRIM_PANE 4u         /* may let light go straight on (lib/pane.h) */
+#define EC_PRIM_PARTS 8u        /* shift: first ec_lamp_node of a lamp in parts; else 0 */
 
 /* Where instances stand, for shading: a header, an ec_place each, and behind them their first ids once more, side by side, to be
  * searched. */
 typedef struct ec_place_header {
     ec_uint count;
-    ec_uint first_id;   /* of the first instance: triangles before it stand in the world as they are */
+    ec_uint first_id;   /* of the first instance: triangles before it belong to none */
     ec_uint ids;        /* word where the first ids begin */
     ec_uint step;       /* largest power of two below count, or 0 */
 } ec_place_header;
 EC_ASSERT_SIZE(ec_place_header, 16);
 typedef struct ec_place {
     ec_float place[3][4];  /* rows: world = place x (point, 1) */
-    ec_float normal[3][4]; /* rows: turns normals; the fourth is 0 */
+    ec_float normal[3][4]; /* rows: transforms normals; the fourth column is 0 */
     ec_uint id;            /* of its first triangle, as hits have it */
-    ec_uint first;         /* the same one's ec_prim */
+    ec_uint first;         /* index of that triangle's ec_prim */
     ec_uint turned;        /* 1: mirrored; corners 1 and 2 change places */
     ec_uint pad;
 } ec_place;
@@ -45,8 +45,8 @@ EC_ASSERT_SIZE(ec_place, 112);
 #define EC_PLACE_NORMAL 12
 #define EC_PLACE_ID 24
 
-/* What moves, in words: a header; four words a moving triangle, which are its corners' vertices; then streams with four words a key, all
- * keys of a vertex side by side: positions, normals, tangents. Of a light first its positions, then as many directions. */
+/* What moves, in words: a header; four words for each moving triangle, the vertices of its corners; then streams with four words a key, all keys
+ * of a vertex side by side: positions, normals, tangents. A light has its positions first, then as many directions. */
 #define EC_MOTION_SEGMENTS 0u  /* one fewer than keys, a power of two */
 #define EC_MOTION_TRIANGLES 1u /* the scene's first ones */
 #define EC_MOTION_VERTICES 2u
@@ -127,28 +127,27 @@ EC_ASSERT_SIZE(ec_light_data, 64);
 #define EC_LIGHT_KIND_MASK 7u
 #define EC_LIGHT_TWO_SIDED 8u
 #define EC_LIGHT_TEXTURED 16u
-#define EC_LIGHT_MOVES 32u /* punctual: prim is its number among the lights that move. A triangle that moves has its pmf for a density, here
-                              and in ec_prim: the area is that at the path's time */
-#define EC_LIGHT_COATED 64u /* dimmed by a clear coat, which goes by the angle */
+#define EC_LIGHT_MOVES 32u /* punctual: prim is its number among the lights that move. A triangle that moves has its pmf in place of a density, here
+                            * and in ec_prim, since its area is that at the path's time */
+#define EC_LIGHT_COATED 64u /* dimmed by a clear coat, depending on the angle */
 #define EC_LIGHT_OPEN 128u  /* coverage leaves some of it open */
 #define EC_LIGHT_PAIR_FIRST 256u  /* the next light is a triangle that faces the opposite way … */
-#define EC_LIGHT_PAIR_SECOND 512u /* … and the last one is: whichever of both faces the point is chosen */
+#define EC_LIGHT_PAIR_SECOND 512u /* … and the previous one is: whichever of the two faces the point is chosen */
 #define EC_LIGHT_PARTS 10u  /* shift: first node of its parts, or 0 */
 
-/* A triangle in four: three at its corners, and between them the fourth, turned by half a turn. Of 2^32 numbers each has those from its first
- * one to the next one's; the last one's end where its parent's do. Node 0 is nobody's. */
+/* A triangle divided into four: three at its corners, and the fourth between them, turned by half a turn. Each child is chosen by the numbers, of
+ * 2^32, from its first one to the next child's; the last child's end where the parent's do. Node 0 is unused. */
 typedef struct ec_lamp_node {
     ec_uint first[3]; /* of children 1, 2 and 3 */
-    ec_uint link;     /* 16 times the node of the first child that is in parts itself, beside which those of the others stand; + a bit for
-                         each that is */
+    ec_uint link;     /* 16 times the node of the first child that is divided itself, after which those of the others follow, + a bit for each such child */
 } ec_lamp_node;
 EC_ASSERT_SIZE(ec_lamp_node, 16);
 #define EC_LAMP_NODE_WORDS 4
 #define EC_LAMP_NODES_MOST 0x01000000u
 #define EC_LAMP_PARTS_NUMBERS 0xe0000000u /* numbers that choose a part; by the others the lamp is sampled as a whole */
 
-/* Entry of a distribution that is sampled by inversion: its share of the 32-bit numbers begins at `first` and ends where the next
- * entry's begins, the last one's at 2^32. guide: of the numbers r with r * n >> 32 equal to this entry's place the last one's entry. */
+/* Entry of a distribution that is sampled by inversion: its share of the 32-bit numbers begins at `first` and ends where the next entry's begins,
+ * the last one's at 2^32. guide: the entry of the last of the numbers r for which r * n >> 32 is this entry's index. */
 typedef struct ec_distribution_entry {
     ec_uint first;
     ec_uint guide;

@@ -21,7 +21,7 @@
 #else /* on a graphics card it costs memory for all that it hands over */
 #define EC_CALLED EC_FN
 #endif
-#define EC_LOOP _Pragma("unroll 1") /* before a loop that is to stay one: turns side by side take registers for all of them */
+#define EC_LOOP _Pragma("unroll 1") /* before a loop that must not be unrolled: iterations side by side take registers for all of them */
 typedef int ec_int;
 typedef uint ec_uint;
 typedef ulong ec_ulong;

@@ -1,6 +1,5 @@
-/* What the pixel's samples in this batch come to, added in sample order, their indirect light limited where it is kept apart. Reads: the
- * slots' radiance, which is changed then. Writes: the batch film, EC_BATCH_FIELDS floats a pixel in row order from film_row on, or in the
- * list's. Last stage of a wave. */
+/* Averages a pixel's samples of this batch, added in sample order; limits their indirect light where it is kept apart. Reads: the slots' radiance, which
+ * the limit changes. Writes: the batch film, EC_BATCH_FIELDS floats a pixel in row order from film_row on, or in the list's. Last stage of a wave. */
 #include "../lib/film.h"
 #include "../lib/kernel.h"
 #include "../lib/sum.h"
@@ -10,7 +9,7 @@ static float luminance_of(global const float *in, uint wave, uint s)
     return 0.2126f * in[s] + 0.7152f * in[wave + s] + 0.0722f * in[2 * wave + s]; /* linear Rec. 709 */
 }
 
-/* The tail of the samples' luminance. In units of the largest no power leaves the range of a float. */
+/* Writes the tail of the samples' luminance: the largest, and sums of powers in units of it, so that none leaves the range of a float. */
 static void write_tail(global const float *in, uint wave, uint count, global float *out)
 {
     float largest = 0.0f, squares = 0.0f, fourths = 0.0f;
@@ -28,7 +27,7 @@ static void write_tail(global const float *in, uint wave, uint count, global flo
 }
 
 /* Adds the indirect light of a pixel's samples to their direct light, scaled down to a luminance of `limit` where it has more. What was cut off
- * stays in place of the indirect light's red. */
+ * replaces the indirect light's red. */
 static void limit_indirect(global float *direct, uint wave, uint count, float limit)
 {
     global float *indirect = direct + 3 * (ulong)wave;
@@ -41,7 +40,7 @@ static void limit_indirect(global float *direct, uint wave, uint count, float li
     }
 }
 
-/* In place of the tail's powers. The largest is over the limit where anything was cut off. */
+/* Writes sums of what was cut off in place of the tail's powers. The largest is over the limit where anything was cut off. */
 static void write_cut(global const float *cut, uint count, float limit, global float *out)
 {
     float largest = out[EC_BATCH_LARGEST], unit = limit > 0.0f ? limit / largest / largest : 0.0f, sum = 0.0f, squares = 0.0f;
@@ -59,7 +58,8 @@ static float splat_sum(global const uint *words, float unit)
     return ((float)words[1] * 4294967296.0f + (float)words[0]) * unit;
 }
 
-/* Adds what light paths brought to the pixel: of its tail the largest is known, and powers are at most what they would be if all were that. */
+/* Adds what light paths brought to the pixel. Of these contributions only the largest luminance is known, so their powers are bounded as if all were
+ * as large. */
 static void add_splats(global const uint *splat, float unit, uint batch, global float *out)
 {
     float most = as_float(splat[EC_SPLAT_LARGEST]), largest = max(out[EC_BATCH_LARGEST], most);

@@ -1,5 +1,5 @@
-/* One pass of an edge-avoiding filter over a picture (Dammertz et al. 2010), its weights by the variance that is left, as in SVGF (Schied et al.
- * 2017): 5 x 5 taps of a B3 spline, `apart` pixels from one another. Weights are Tukey's biweights, so that nothing but exact arithmetic is used.
+/* One pass of an edge-avoiding filter over a picture (Dammertz et al. 2010), with weights by the remaining variance as in SVGF (Schied et al. 2017):
+ * 5 x 5 taps of a B3 spline, `apart` pixels from one another. Weights are Tukey's biweights, so that nothing but exact arithmetic is used.
  * Reads: 4 floats a pixel, colour and the variance of its luminance; EC_AOV_FIELDS features a pixel. Writes: 4 floats a pixel. */
 #include "../lib/lanes.h"
 #include "../shared/path_state.h"
@@ -8,14 +8,14 @@
 #error "one work-item a pixel: build with LANES 1"
 #endif
 
-#define ATROUS_LUMINANCE 64.0f /* squares: of 8 standard deviations … */
-#define ATROUS_DEPTH 9.0f      /* … of 3 times the slope over the distance, … */
-#define ATROUS_DEPTH_LEAST 1e-6f      /* … or a thousandth of the depth, … */
-#define ATROUS_NORMAL 16.0f    /* 1 over that of a quarter, as a difference of unit vectors, … */
-#define ATROUS_ALBEDO 16.0f    /* … and of albedos */
+#define ATROUS_LUMINANCE 64.0f /* 8^2: the weight is 0 from a difference of 8 standard deviations on, … */
+#define ATROUS_DEPTH 9.0f      /* 3^2: … of 3 times the slope of the depth over the distance, … */
+#define ATROUS_DEPTH_LEAST 1e-6f      /* 0.001^2: … or a thousandth of the depth, … */
+#define ATROUS_NORMAL 16.0f    /* 1 / 0.25^2: … of a quarter between unit normals, … */
+#define ATROUS_ALBEDO 16.0f    /* … and between albedos */
 #define ATROUS_TINY 1e-30f
 
-/* square: in units of that at which the weight is 0. */
+/* square: over the one at which the weight is 0. */
 EC_FN float biweight(float square)
 {
     float t = max(1.0f - square, 0.0f);
@@ -43,7 +43,7 @@ EC_FN float smooth_variance(global const float4 *from, int2 at, int2 size)
     return sum;
 }
 
-/* By how much the depth changes from pixel to pixel. */
+/* Returns by how much the depth changes from pixel to pixel. */
 EC_FN float depth_slope(global const float *features, int2 at, int2 size)
 {
     int left = max(at.x - 1, 0), right = min(at.x + 1, size.x - 1), up = max(at.y - 1, 0), down = min(at.y + 1, size.y - 1);

@@ -1,7 +1,7 @@
-/* Light paths begin: a caster, a light, a point on it and a direction to the caster (lib/light_path.h), or as the light shines where only light
- * paths count; of a far light its direction and a point of the caster's disk. Reads: params, lights. Writes: the path queue, those that carry
- * light; what each slot's path is of, and zeroes the slots' radiance. Next: intersect. Slots are counted as of camera rays, with light paths in
- * the place of pixels. */
+/* Starts light paths: chooses a caster, a light, a point on it and a direction to the caster (lib/light_path.h), or one of the light's emission where
+ * only light paths count; for a far light, its direction and a point of the caster's disk. Reads: params, lights. Writes: the path queue, with those
+ * that carry light; the light and point of each slot's path, and zeroes the slots' radiance. Next: intersect. Slots are numbered as those of camera
+ * rays, with light paths in the place of pixels. */
 #include "../lib/coplanar.h"
 #include "../lib/film.h"
 #include "../lib/kernel.h"

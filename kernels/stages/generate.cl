@@ -1,4 +1,5 @@
-/* Camera rays. Reads: params, where it moves the camera's keys. Writes: the path queue, one entry a slot, and zeroes the slots' radiance; with MOTION their times. Next: intersect.
+/* Makes camera rays. Reads: params, and the camera's keys where it moves. Writes: the path queue, one entry a slot, and zeroes the slots' radiance;
+ * with MOTION the slots' times. Next: intersect.
  * Slot s of a wave is sample s % batch of the wave's pixel s / batch. */
 #include "../lib/camera.h"
 #include "../lib/camera_axes.h"
@@ -12,7 +13,7 @@
     DO(global float *, paths) DO(global float *, radiance) DO(global const float *, camera_keys) DO(global const float *, motion)                     \
     DO(global float *, times) DO(global const uint *, edges)
 
-/* EC_PATH_PDF of a camera ray: it says what becomes of the lamps that the ray sees at first sight (shared/path_state.h). */
+/* Returns EC_PATH_PDF of camera rays, which says how lamps that the ray sees at first sight are counted (shared/path_state.h). */
 EC_FN lane_f first_pdf(constant ec_params *params, uint first_pixel, global const uint *pixel_list, global const uint *edges, lane_u slot)
 {
     uint count = params->width * params->height;
@@ -44,7 +45,7 @@ EC_KERNEL(ec_generate, LANES, GENERATE_PARAMETERS, slot_entries(path_count, i))
     else
         d = v3_add(d, offset);
     if (HAS(LENS) && !params->orthographic) lens_shift(&v, params->lens_nearness, random, &o, &d);
-    if (HAS(LIGHT_PATHS) && params->light_paths > 0.0f) { /* d has 1 along the axis: 1 / its length is the cosine */
+    if (HAS(LIGHT_PATHS) && params->light_paths > 0.0f) { /* d is 1 long along the axis, so 1 / its length is the cosine */
         lane_f cosine = params->orthographic ? F(1.0f) : 1.0f / sqrt(v3_dot(d, d));
         queue_store_f(paths, wave, EC_PATH_K, i, -params->light_paths * params->film_area * cosine * cosine * cosine);
     }

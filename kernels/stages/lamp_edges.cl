@@ -1,5 +1,6 @@
-/* Adds to each sample of a pixel that a lamp's edge goes through what it sees of lamps at first sight: the mean of EC_EDGE_RAYS camera rays of its own, which
- * end there (host/device/lamp_edges.h). Reads: params, the list of the wave. Changes: the radiance of the samples' slots, which their paths leave that out of. */
+/* Adds to each sample of a pixel that a lamp's edge goes through what it sees of lamps at first sight: the mean of EC_EDGE_RAYS camera rays of its
+ * own, which end there (host/device/lamp_edges.h). Reads: params, the list of the wave. Changes: the radiance of the samples' slots, whose paths
+ * leave that light out. */
 #include "../lib/kernel.h"
 #include "../lib/slot_layers.h"
 #include "../lib/sum.h"
@@ -7,7 +8,7 @@
 #define LAMP_EDGES_PARAMETERS(DO)                                                                                                                     \
     DO(global const uint *, pixel_list) DO(uint, path_count) DO(uint, pixel_count) DO(global float *, radiance)
 
-/* Positions of the wave that are of such rays, and pixels that they are of. */
+/* Return how many positions of the wave such rays take, and how many pixels these belong to. */
 EC_INLINED uint edge_positions(constant ec_params *params, uint path_count, uint pixel_count) { return path_count / params->batch - pixel_count; }
 EC_INLINED uint edge_pixels(constant ec_params *params, uint path_count, uint pixel_count)
 {

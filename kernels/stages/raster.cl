@@ -1,5 +1,5 @@
-/* What each sample sees, by going through its tile's triangles with a depth test. Reads: path queue, tiles. Writes: hits, as
- * intersect does. Next: shade_raster. The nearest wins, and of equals the lower triangle id: the lists' order does not matter. */
+/* Finds what each sample sees, by going through its tile's triangles with a depth test. Reads: path queue, tiles. Writes: hits, as intersect does.
+ * Next: shade_raster. The nearest wins, and of equals the lower triangle id: the lists' order does not matter. */
 #include "../lib/camera.h"
 #include "../lib/coplanar.h"
 #include "../lib/filter.h"
@@ -7,8 +7,8 @@
 #include "../lib/raster.h"
 #include "../shared/accel.h"
 
-/* Which of the samples an edge function leaves inside. Top-left rule: a sample on an edge belongs to the triangle that lies on
- * its positive side, along x or, where that is level, along y. */
+/* Returns the samples that an edge function leaves inside. Top-left rule: a sample on an edge belongs to the triangle that lies on its positive
+ * side, along x or, where that is level, along y. */
 EC_FN lane_i raster_inside(global const float *f, lane_f value)
 {
     bool owns = f[0] > 0.0f || (f[0] == 0.0f && (f[1] > 0.0f || (f[1] == 0.0f && f[2] > 0.0f)));

@@ -1,5 +1,5 @@
-/* The tiles' lists of triangles. Reads: raster triangles. Writes: the lists; `ends` starts as where each begins and becomes where
- * it ends. Once a render. Next: raster. */
+/* Fills the tiles' lists of triangles. Reads: raster triangles. Writes: the lists; `ends` starts as where each begins and becomes where it ends. Once
+ * a render. Next: raster. */
 #include "../lib/raster.h"
 #include "../shared/accel.h"
 

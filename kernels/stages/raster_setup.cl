@@ -1,5 +1,5 @@
-/* Triangles in picture coordinates, and how many of them each tile may see. Reads: triangles. Writes: raster triangles; adds to
- * the tiles' counts. Once a render. Next: raster_fill. */
+/* Sets up triangles in picture coordinates, and counts how many of them each tile may see. Reads: triangles. Writes: raster triangles; adds to the
+ * tiles' counts. Once a render. Next: raster_fill. */
 #include "../lib/raster.h"
 #include "../shared/accel.h"
 #include "../shared/scene_buffers.h"

@@ -1,4 +1,4 @@
-/* What a ray found: emission or environment, one light sampled, one direction sampled, roulette.
+/* Shades what a ray found: adds emission or environment, samples one light and one direction, plays roulette.
  * Reads: path queue and hits. Writes: radiance of the slots, the shadow queue (next: connect), the next path queue (next:
  * intersect), first-hit features at bounce 0 where asked for. Every path either ends here or is pushed once. */
 #include "../lib/bsdf.h"
@@ -15,8 +15,8 @@
 #include "../lib/shadow.h"
 #include "../lib/terminator.h"
 
-/* Weight of light that a path meets, against light_pdf; 1 where light sampling cannot find it or is not asked to. by_light: density of light
- * paths over that of this one. */
+/* Returns the MIS weight of light that a path meets, against light_pdf; 1 where light sampling cannot find it or is not used. by_light: density of
+ * light paths over that of this path. */
 EC_FN lane_f found_weight(uint sample, lane_f path_pdf, lane_f light_pdf, lane_f by_light)
 {
     lane_i sampled = (path_pdf >= 0.0f) & (light_pdf > 0.0f);
@@ -29,7 +29,7 @@ EC_FN lane_f found_weight(uint sample, lane_f path_pdf, lane_f light_pdf, lane_f
     return F(1.0f);
 }
 
-/* Weight of light that a shadow ray joins to: the same shares the other way round. by_light: density of light paths. */
+/* Returns the weight of light that a shadow ray joins to, the complement of found_weight. by_light: density of light paths. */
 EC_FN lane_f joined_weight(uint sample, const light_sample *l, lane_f path_pdf, lane_f by_light)
 {
     lane_f weight = F(sample == EC_SAMPLE_LIGHT ? 1.0f : 0.0f);
@@ -41,21 +41,21 @@ EC_FN lane_f joined_weight(uint sample, const light_sample *l, lane_f path_pdf, 
     return l->is_delta ? F(1.0f) : weight;
 }
 
-/* Shading normals can put a direction on one side of the surface and the path on the other. From above the facet it may dip
- * below its plane. */
+/* Returns the lanes whose direction is on the same side of facet and shading normal, which shading normals can separate. A ray that starts above the
+ * facet may dip below its plane. */
 EC_FN lane_i same_side(const surface *s, v3 w, v3 w_local, lane_i lifted)
 {
     return (v3_dot(s->ng, w) * w_local.z > 0.0f) | (lifted & (w_local.z > 0.0f));
 }
 
-/* A ray's origin: above the surface, or below where it passes. */
+/* Returns a ray's origin: above the surface, or below it where the ray passes. */
 EC_FN v3 leave(const surface *s, v3 above, v3 w, v3 w_local)
 {
     if (!HAS_PASSING) return above;
     return v3_select(w_local.z < 0.0f, surface_offset(s->p, s->p_error, s->ng, w), above);
 }
 
-/* The triangle that a ray need not be tested against: its own, unless it dips below that. */
+/* Returns the triangle that a ray need not be tested against: its own, unless the ray dips below it. */
 EC_FN lane_u left_behind(const surface *s, v3 w, lane_i lifted, lane_u prim)
 {
     return HAS(TERMINATOR) ? ((lifted & (v3_dot(s->ng, w) < 0.0f)) ? U(EC_NO_ID) : prim) : prim;
@@ -144,7 +144,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     }
     lane_i met = found & !strewn;
 
-    v3 source = o; /* where light was last looked for */
+    v3 source = o; /* where light was last sampled */
     if (HAS(PANES) && bounce) source = queue_load_v3(paths, wave, EC_PATH_SX, i);
     if (HAS(EMISSION)) {
         lane_i m = met & !beside & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
@@ -152,7 +152,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
         if (any_lane(m)) {
             v3 way = v3_sub(s.p, source);
             if (HAS(LIGHT_TREE) && light_tree) {
-                lane_u lamp = HAS(INSTANCES) ? (h.placed ? U(0) : prim) : prim; /* no instance is one, and its id lies behind the trails */
+                lane_u lamp = HAS(INSTANCES) ? (h.placed ? U(0) : prim) : prim; /* no instance is a lamp, and its id lies behind the trails */
                 h.light_pdf_a *= light_tree_pmf(&light, m & (path_pdf >= 0.0f) & (h.light_pdf_a > 0.0f), source,
                                                 params->light_tree_numbers, gather_u(light_trails, lamp));
             }
@@ -213,11 +213,11 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     if (HAS(DISPERSION)) disperse(&g, &h, scatters, &u_pass, &s, &beta);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo), params->multiple != 0u);
 
-    /* Where reflected rays start. Lights are looked for from there, so that a path that meets one finds the same density. */
+    /* Where reflected rays start. Lights are sampled from there, so that a path that meets one finds the same density. */
     lane_i lifted = !TRUE_MASK;
     v3 start = HAS(TERMINATOR) && params->terminator && normals ? terminator_origin(&g, &h, &s, &lifted) : s.p;
     v3 above = surface_offset(start, s.p_error, s.ng, wo);
-    if (HAS(SCATTERING)) { /* an event has no surface to be above of, nor to leave */
+    if (HAS(SCATTERING)) { /* a scattering event has no surface to be above or to leave */
         above = v3_select(strewn, event.p, above);
         lifted = lifted | strewn;
         prim = strewn ? U(EC_NO_ID) : prim;
@@ -297,7 +297,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
         alive = alive & (u_survives < survival);
         beta = v3_scale(beta, 1.0f / survival);
     }
-    lane_i straight = !TRUE_MASK; /* by a pane */
+    lane_i straight = !TRUE_MASK; /* passes a pane */
     if (HAS(PANES)) straight = (next_way.pdf < 0.0f) & (next_way.wi.z < 0.0f) & pane_is(&b, flags);
     if (only_seen) alive = alive & straight;
     uint bits = mask_bits(alive);

@@ -1,8 +1,8 @@
-/* What a light path meets: it is joined to the camera, and goes on. Reads: path queue, hits, what slots' paths are of. Writes: the shadow queue
- * (next: connect, splat), the pixels that its light goes to, the next path queue (next: intersect).
- * Values are those that a camera path has there, so at each vertex the surface is looked at from both sides: for directions sampled it is
+/* Shades what a light path meets: joins it to the camera, and continues it. Reads: path queue, hits, lights of the slots' paths. Writes: the shadow
+ * queue (next: connect, splat), the pixels that its light goes to, the next path queue (next: intersect).
+ * Values are those that a camera path has there, so at each vertex the surface is evaluated from both sides: for sampled directions it is
  * seen from the light (a), for values from the camera (c). A light path carries beta = Le / E * product of value |ng c| / (|ng a| pdf), and for
- * its weight (lib/light_path.h) E, in EC_PATH_K, and N / P of its last vertex, in EC_PATH_PDF: EC_HUGE before there is one, negative of
+ * its weight (lib/light_path.h) E, in EC_PATH_K, and N / P at x_k-1, its first vertex, in EC_PATH_PDF: EC_HUGE before there is one, negative for
  * punctual lights. */
 #include "../lib/bsdf.h"
 #include "../lib/dispersion.h"
@@ -81,7 +81,7 @@ EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
 
     const bool records = HAS(GUIDING) && photons;
     if (records && vertex && vertex <= EC_PHOTON_VERTICES) {
-        /* No camera path finds what comes from a point by way of a mirror. */
+        /* Camera paths cannot find what comes from a point by way of a mirror. */
         lane_i counts = scatters & !bsdf_is_single(&ba) & ((ratio >= 0.0f) | (ratio < -EC_RATIO_LEAST));
         lane_u at = ((vertex - 1u) * path_count + slot) * EC_PHOTON_WORDS;
         uint bits = mask_bits(counts);
@@ -101,7 +101,7 @@ EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
     if (HAS(MOTION) && motion && camera_keys) axes = camera_axes_at(camera_keys, motion, g.time);
     film_point film = film_point_of(params, &axes, filter, sa.p, u1, u2, to_unit(hash_u(r1)), to_unit(hash_u(r2)));
 
-    /* N of the first vertex. */
+    /* N at the first vertex. */
     lane_i is_first = fabs(ratio) > EC_NO_VERTEX, is_delta = ratio < 0.0f;
     lane_f n_joined = F(0.0f), e_here = e, window = F(1.0f);
     if (any_lane(scatters & is_first)) {

@@ -1,5 +1,5 @@
-/* What layers of a pixel's samples in this batch come to, added in sample order. Reads: the slots' layers. Writes: three floats a layer and
- * pixel, in row order from film_row on, or in the list's. After accumulate. */
+/* Averages the layers of a pixel's samples in this batch, added in sample order. Reads: the slots' layers. Writes: three floats a layer and pixel, in
+ * row order from film_row on, or in the list's. After accumulate. */
 #include "../lib/film.h"
 #include "../lib/kernel.h"
 #include "../lib/sum.h"

@@ -1,12 +1,13 @@
-/* Light that shadow rays of light paths have brought to their slots goes to its pixels. Reads: the slots' radiance, which is zeroed, and
- * pixels. Writes: the splats. Sums are of whole numbers, so that no bit depends on the order; what is under one step is rounded up as often as
- * it is large. Last stage of a bounce of light paths. */
+/* Adds the light that shadow rays of light paths have brought to their slots to its pixels. Reads: the slots' radiance, which is zeroed, and pixels.
+ * Writes: the splats. Sums are of whole numbers, so that no bit depends on the order; a fraction of a step is rounded up with a probability of its
+ * size. Last stage of a bounce of light paths. */
 #include "../lib/film.h"
 #include "../lib/kernel.h"
 #include "../lib/sampler.h"
 #include "../shared/path_state.h"
 
-/* A 64-bit sum as two words, for devices without atomics of so many bits: whoever makes the low one overflow carries. */
+/* Adds to a 64-bit sum of two words, for devices without 64-bit atomics: whoever makes the low word overflow carries. r: random bits by which `steps`
+ * is rounded. */
 static void add_fixed(volatile global uint *words, float steps, uint r)
 {
     steps = min(steps, 1.8e19f);

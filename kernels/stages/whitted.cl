@@ -1,6 +1,6 @@
-/* One hit of Whitted's ray tree: background, emission, ambient light; then what is mirrored and what passes, both weighted by
- * Fresnel. Of two such branches one goes on and the other waits on the slot's stack; where a branch ends, the one that waited
- * last takes its place, so a slot never has more than one ray under way.
+/* Shades one hit of Whitted's ray tree: adds background, emission, ambient light; then follows what is mirrored and what passes, both weighted by
+ * Fresnel. Of two such branches one goes on and the other waits on the slot's stack; where a branch ends, the one that waited last takes its place,
+ * so a slot never has more than one ray under way.
  * Reads: path queue and hits. Writes: radiance of the slots, the next path queue, stacks, first-hit features at step 0 where asked
  * for; in its own queues, beta after absorption, and no hit where no light falls. Next: whitted_light, then intersect. */
 #include "../lib/blinn_phong.h"

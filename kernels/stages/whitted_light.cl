@@ -1,4 +1,4 @@
-/* One light of Whitted's: its centre, by Blinn-Phong, for the hits that whitted left in their queue.
+/* Samples one light at its centre, by Blinn-Phong, for the hits that whitted left in their queue.
  * Reads: path queue and hits. Writes: the shadow queue. Next: connect, then the next light. */
 #include "../lib/blinn_phong.h"
 #include "../lib/kernel.h"
