@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""usage: balls.py OUT    Rows of three balls that differ in one parameter, which rises from left to right: OUT/NAME.gltf, for bench_cycles.py."""
+"""usage: balls.py OUT    Writes rows of three balls that differ in one parameter, which rises from left to right: OUT/NAME.gltf, for bench_cycles.py."""
 import os
 import sys
 

@@ -1,4 +1,4 @@
-"""What the benchmark scripts share: where things are, running eclat, medians and tables."""
+"""Shared code of the benchmark scripts: finds files, runs eclat, makes medians and tables."""
 import json
 import os
 import statistics
@@ -10,7 +10,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 SHARED = os.environ.get("ECLAT_SHARED", os.path.join(os.path.dirname(ROOT), "shared"))
 
-# What is measured is rendering with the fast kernels; bench_start.py alone measures what comes before them.
+# Benchmarks measure rendering with the fast kernels. Only bench_start.py measures the time before these are there.
 os.environ.setdefault("ECLAT_COMPILE", "first")
 
 
@@ -19,7 +19,7 @@ def fail(text):
 
 
 def eclat_path(given=None):
-    """The program: --eclat, $ECLAT, or the build folders in which it usually stands."""
+    """Returns the program's path: --eclat, $ECLAT, or one of the usual build folders."""
     places = [given, os.environ.get("ECLAT"), os.path.join(ROOT, "build-bench", "eclat"), os.path.join(ROOT, "build", "eclat")]
     for place in places:
         if place and os.access(place, os.X_OK):
@@ -28,7 +28,7 @@ def eclat_path(given=None):
 
 
 def shared(*parts):
-    """A file under ../shared, or None where it is not there."""
+    """Returns the path of a file under ../shared, or None if it is not there."""
     path = os.path.join(SHARED, *parts)
     return path if os.path.exists(path) else None
 
@@ -38,7 +38,7 @@ def cornell_box():
 
 
 def run_eclat(eclat, arguments, environment=None):
-    """`eclat render` with --json: its object, with the wall time of the whole process as wall_seconds."""
+    """Runs `eclat render --json`. Returns its report, with the wall time of the whole process as wall_seconds."""
     command = [eclat, "render", *arguments, "--json", "--quiet"]
     start = time.monotonic()
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
@@ -55,7 +55,7 @@ def median(values):
 
 
 def spread(values):
-    """Half the distance between the quartiles, relative to the median: how far runs lie apart."""
+    """Returns half the distance between the quartiles, relative to the median: how much the runs vary."""
     if len(values) < 4:
         return (max(values) - min(values)) / (2 * median(values))
     low, _, high = statistics.quantiles(values, n=4)
@@ -63,7 +63,7 @@ def spread(values):
 
 
 def row(figure, value, target, met, note=""):
-    """One line of the table that tools/bench/run collects."""
+    """Returns one line of the table that tools/bench/run collects."""
     return {"figure": figure, "value": value, "target": target, "met": met, "note": note}
 
 
@@ -74,16 +74,16 @@ def print_rows(rows):
 
 
 def commit():
-    """Of the sources, and its date; nothing where they are no git checkout."""
+    """Returns the commit of the sources and its date; nothing if they are not a git checkout."""
     done = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%h %cs"], capture_output=True, text=True)
     return done.stdout.split() if done.returncode == 0 else ["", ""]
 
 
-PLACES = ("--table", "--json", "--eclat", "--references")  # options that say where files are, and change no figure
+PLACES = ("--table", "--json", "--eclat", "--references")  # options that only say where files are, and change no figure
 
 
 def write_table(path, setting, columns, rows):
-    """What tools/docs_tables.py makes a table of docs/ from. Cells are text."""
+    """Writes the data from which tools/docs_tables.py makes a table of docs/. Cells are text."""
     hash_, date = commit()
     words = [os.path.relpath(sys.argv[0], ROOT) if os.path.exists(sys.argv[0]) else sys.argv[0], *sys.argv[1:]]
     for option in PLACES:

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Pictures beside Blender's Cycles, which reads the same glTF by its own importer: where do the two mean something else?
+"""Compares pictures with Blender's Cycles, which reads the same glTF by Blender's importer: where do the two interpret it differently?
 
-For each scene both render from eclat's camera under one environment map. Printed are the ratio of the means, and how far averages
-of 8 x 8 pixels lie apart, as parts of the picture's mean: in the mean, and 95 % of them less; how much of the mean eclat's own noise
-makes is beside it. Punctual lights are left out of both, since Blender measures them in other units. Needs PyPI's bpy (4.5 for
-Python 3.11), numpy, OpenEXR and pillow:
-CYCLES_PYTHON names the interpreter that has them."""
+Both render each scene from eclat's camera, under the same environment map. The script prints the ratio of the means. It also prints how much
+averages of 8 x 8 pixels differ, as fractions of the picture's mean: their mean, and the value that 95 % of them are below. Beside the mean
+it prints how much of it comes from eclat's own noise. Punctual lights are left out on both sides, since Blender measures them in other units.
+Needs PyPI's bpy (4.5 for Python 3.11), numpy, OpenEXR and pillow: CYCLES_PYTHON names the interpreter that has them."""
 import argparse
 import json
 import math
@@ -102,7 +101,7 @@ def to_png(numpy, rgb, scale):
 
 
 def compare(job):
-    """Means, and by how much block averages differ, in parts of the picture's mean; a PNG of both and of their difference."""
+    """Returns the means, and how much block averages differ as fractions of the picture's mean. Writes a PNG of both pictures and of their difference."""
     import numpy
     ours, theirs = (read_rgb(path).astype(float) for path in (job["ours"], job["theirs"]))
     rows, columns = ours.shape[0] // BLOCK, ours.shape[1] // BLOCK
@@ -126,10 +125,10 @@ def serve():
         job = json.loads(line)
         log = os.open(os.devnull, os.O_WRONLY)
         stdout = os.dup(1)
-        os.dup2(log, 1)  # Blender talks
+        os.dup2(log, 1)  # Blender prints a lot
         try:
             answer = blender_render(job) if job["do"] == "render" else compare(job)
-        except Exception as error:  # noqa: BLE001 - Blender raises whatever it likes
+        except Exception as error:  # noqa: BLE001 - Blender may raise anything
             answer = {"error": str(error).strip().splitlines()[-1]}
         os.dup2(stdout, 1)
         os.close(stdout)
@@ -148,7 +147,7 @@ class Cycles:
                         + (probe.stderr.strip().splitlines() or ["?"])[-1])
 
     def ask(self, **job):
-        """In a process of its own: Blender keeps what it has loaded, and may end its process."""
+        """Runs in a separate process: Blender keeps what it has loaded, and may end its process."""
         done = subprocess.run([self.python, os.path.abspath(__file__), "--serve"], input=json.dumps(job) + "\n", capture_output=True, text=True)
         lines = done.stdout.strip().splitlines()
         return json.loads(lines[-1]) if lines else {"error": f"Blender ended with {done.returncode}"}

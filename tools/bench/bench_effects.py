@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What it is worth to build only the effects that a scene calls for: specialised kernels against those for every effect, in turns.
+"""Measures what it gains to build only the effects that a scene calls for: specialised kernels and kernels with every effect take turns.
 See README.md."""
 import argparse
 import os
@@ -9,11 +9,11 @@ import tempfile
 import bench_common as common
 from bench_start import first_pixel
 
-PLAIN = ("cornell", "helmet") # slowed by under 3 % by effects they do not call for; the full build must cost them something
+PLAIN = ("cornell", "helmet") # effects that they do not call for must slow them by under 3 %; the full build must cost them something
 
 
 def scenes():
-    """Name, file, environment; those that are not here are left out."""
+    """Returns (name, file, environment) of each scene whose files are here."""
     own = [(name, os.path.join(common.ROOT, "scenes", name, name + ".gltf"), None) for name in ("lamps", "showcase", "glass")]
     helmet = common.shared("assets", "gltf", "DamagedHelmet", "glTF-Binary", "DamagedHelmet.glb")
     environment = common.shared("assets", "env", "pmndrs-assets", "studio.hdr")
@@ -26,7 +26,7 @@ def folder_bytes(folder, ending):
 
 
 class Scene:
-    """Renders one scene by any program, with caches of its own or the usual ones."""
+    """Renders one scene with any program, with its own caches or the usual ones."""
 
     def __init__(self, file, environment, options, folder):
         self.arguments = [file, "--size", f"{options.size}x{options.size}", "--lanes", options.lanes]
@@ -42,19 +42,19 @@ class Scene:
         return common.run_eclat(eclat, [*self.arguments, "--spp", str(spp or self.spp), *more], environment)
 
     def cold(self, eclat, which):
-        """With empty caches: until the first pixel, and how much code that made."""
+        """Renders with empty caches. Returns the time to the first pixel, and how much code was compiled."""
         shutil.rmtree(self.caches, ignore_errors=True)
         report = self.render(eclat, "--effects", which, spp=1, caches=True)
         return {"compile": report["kernel_seconds"], "first_pixel": first_pixel(report), "binary": folder_bytes(self.caches, ".bin"),
                 "code": folder_bytes(self.caches, ".so")}
 
     def warm(self, eclat, which):
-        """With the caches that a cold start has left."""
+        """Renders with the caches that a cold start has left."""
         return first_pixel(self.render(eclat, "--effects", which, spp=1, caches=True))
 
 
 def in_turns(scene, programs, runs):
-    """Samples a second of each (program, options), one after the other, `runs` times; the first time compiles and does not count."""
+    """Returns samples a second of each (program, options). They run one after the other, `runs` times; a first run compiles and does not count."""
     for eclat, more in programs:
         scene.render(eclat, *more, spp=1)
     reports = [[] for _ in programs]
@@ -65,7 +65,7 @@ def in_turns(scene, programs, runs):
 
 
 def ratio(reports, other):
-    """Rate of the first over that of another: of neighbouring runs."""
+    """Returns the rate of the first over that of another, from neighbouring runs."""
     return [a["samples_per_second"] / b["samples_per_second"] for a, b in zip(reports[0], reports[other])]
 
 

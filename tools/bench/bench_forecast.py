@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How good are forecasts? Renders scenes to error targets and compares what the pilot said with what it took.
+"""How good are forecasts? Renders scenes to error targets and compares what the pilot predicted with what was needed.
 
 usage: bench_forecast.py [--eclat build/eclat] [--runs N] [--size WxH] [SCENE TARGET ...]
 
-SCENE TARGET: a file and a percentage, any number of pairs; without any, 24 pairs of the scenes in scenes/. Prints a line a pair and
-the score: share of times and of sample counts inside the 95 % interval, and the median of the relative error. Let nothing else run.
+SCENE TARGET: a file and a percentage, any number of pairs; without any, 24 pairs of the scenes in scenes/. Prints a line for each pair, then the
+score: the share of times and of sample counts inside the 95 % interval, and the median relative error. Let nothing else run on the machine.
 """
 import argparse
 import json

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The host's share of a render: processor time of the program's main thread, which launches kernels, waits and takes in films, over that of all threads,
-of which a processor's OpenCL driver has the others. Linux alone."""
+"""Measures the host's share of a render: the processor time of the program's main thread over that of all threads. The main thread launches kernels,
+waits, and adds batches to the film; the other threads belong to the CPU's OpenCL driver. Linux only."""
 import argparse
 import glob
 import json
@@ -13,25 +13,25 @@ import bench_common as common
 
 MOST = 2.0  # per cent
 SPP = 4096
-FIRST_SECONDS = 0.5  # of all threads: preparation, which is left out
+FIRST_SECONDS = 0.5  # processor time of all threads that is taken for preparation and left out
 LEAST_SECONDS = 2.0
 
 
 def look(pid, seconds):
-    """Processor time of each thread so far; those that have ended keep theirs."""
+    """Updates the processor time of each thread; threads that have ended keep theirs. Returns that of the main thread and of all threads."""
     for path in glob.glob(f"/proc/{pid}/task/*/schedstat"):
         try:
             with open(path, encoding="utf-8") as file:
                 nanoseconds = int(file.read().split()[0])
         except (OSError, IndexError):
-            continue  # it has ended meanwhile
+            continue  # it has ended in the meantime
         thread = int(path.split("/")[4])
         seconds[thread] = max(seconds.get(thread, 0.0), 1e-9 * nanoseconds)
     return seconds.get(pid, 0.0), sum(seconds.values())
 
 
 def render(eclat, scene, wave, size, spp, environment):
-    """The report, and seconds of the main thread and of all: after the preparation, and shortly before the end."""
+    """Returns the report, and the seconds of the main thread and of all threads: after preparation, and shortly before the end."""
     with tempfile.TemporaryDirectory() as folder:
         command = [eclat, "render", scene, "--size", size, "--spp", str(spp), "--wave", str(wave), "-q", "--json", "-o", os.path.join(folder, "a.exr")]
         seconds, first, last = {}, None, None
@@ -44,7 +44,7 @@ def render(eclat, scene, wave, size, spp, environment):
 
 
 def measure(eclat, scene, wave, size, spp, environment):
-    """Seconds of the main thread and of all, and how many waves these were."""
+    """Returns the seconds of the main thread and of all threads, and the number of waves."""
     report, first, last = render(eclat, scene, wave, size, spp, environment)
     if not first or last[1] - first[1] < LEAST_SECONDS:
         common.fail("the render was over before there was anything to measure; give more --spp")

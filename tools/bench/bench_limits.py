@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Limits of time are kept: `eclat render --time`, Ctrl-C and `eclat cost --budget`, by the clock. Run it with kernels that are compiled."""
+"""Checks by the clock that time limits are kept: `eclat render --time`, Ctrl-C and `eclat cost --budget`. Run it once the kernels are compiled."""
 import argparse
 import json
 import os
@@ -11,7 +11,7 @@ import time
 import bench_common as common
 
 TIME, BUDGET = 5.0, 30.0  # seconds
-OVER = 1.1                # and no further
+OVER = 1.1                # times the limit, at most
 
 
 def render_seconds(eclat, folder, size="64x64"):
@@ -31,7 +31,7 @@ def larger_seconds(eclat, folder):
 
 def interrupted_seconds(eclat, folder):
     command = [eclat, "render", common.cornell_box(), "--size", "8192x4096", "-o", os.path.join(folder, "a.png"), "--json", "--quiet"]
-    listen = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # what is started in the background ignores it
+    listen = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # a process started in the background would ignore it
     render = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, preexec_fn=listen)
     time.sleep(TIME)
     render.send_signal(signal.SIGINT)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Time to the first pixel: with empty caches, with and without the kernels that were compiled when eclat was built; after a render of another scene;
-and with full caches. Time to a small error with empty caches. Memory on a million triangles. See README.md."""
+"""Measures the time to the first pixel: with empty caches, with and without the kernels that were compiled when eclat was built; after a render of
+another scene; and with full caches. Also the time to a small error with empty caches, and memory with a million triangles. See README.md."""
 import argparse
 import glob
 import os
@@ -12,17 +12,17 @@ import time
 
 import bench_common as common
 
-# Seconds to the first pixel: at the very first use, by scene; after any earlier render; and with all kernels there.
+# Most seconds to the first pixel: at the very first use, by scene; after any earlier render; and with all kernels compiled.
 FIRST = {"cornell-box": 1.8, "showcase": 3.0, "lamps": 4.0, "DamagedHelmet": 3.0}
 AFTER, WARM = 1.0, 0.3
 VIEW = {"first": 4.0, "after": 1.0}  # seconds to the preview's first picture
-ERROR, SOONER = "5%", 0.5  # of the time to this error that an earlier program takes, or this one with --compile first
+ERROR, SOONER = "5%", 0.5  # at most this share of the time that an earlier program, or this one with --compile first, takes to this error
 MEMORY = 600.0         # MB
 
 
 def first_pixel(report):
-    """Seconds from the start of the process: everything before the render, then its first finished wave. What the report
-    does not see (loading the program and its libraries) is the process's wall time less the report's own total."""
+    """Returns seconds from the start of the process to the end of the first wave. The report does not include loading the program and its
+    libraries: that is the process's wall time less the report's total."""
     outside = max(report["wall_seconds"] - report["total_seconds"], 0.0)
     return outside + report["load_seconds"] + report["first_pixel_seconds"]
 
@@ -34,7 +34,7 @@ def scenes():
 
 
 class Caches:
-    """Folders for the program's and the driver's kernels, which stay the same folders when they are emptied: the program knows them again."""
+    """Folders for the kernels of the program and the driver. Emptying keeps the folders themselves, so that the program recognises them."""
 
     def __init__(self, folder):
         self.folder, self.kept = os.path.join(folder, "caches"), os.path.join(folder, "kept")
@@ -54,7 +54,7 @@ class Caches:
         shutil.copytree(self.kept, self.folder, dirs_exist_ok=True)
 
     def wait(self):
-        """Until nothing is compiled into them any more."""
+        """Waits until nothing is compiled into them any more."""
         mark = os.fsencode("XDG_CACHE_HOME=" + self.environment["XDG_CACHE_HOME"])
         while any(self.is_compiler(path, mark) for path in glob.glob("/proc/[0-9]*")):
             time.sleep(0.2)
@@ -69,7 +69,7 @@ class Caches:
 
 
 def start(eclat, scene, folder, caches, size="512x512", **more):
-    """more: environment."""
+    """more: additional environment variables."""
     report = common.run_eclat(eclat, [scene, "--size", size, "--spp", "1", "-o", os.path.join(folder, "start.exr")], dict(caches.environment, **more))
     return first_pixel(report)
 
@@ -97,8 +97,8 @@ def measure_start(eclat, runs, folder):
 
 
 def measure_error(eclat, before, runs, folder):
-    """Seconds to a picture of a small error with empty caches, turn by turn: as renders begin by themselves, and with the earlier program, or where
-    there is none with the fast kernels from the first wave."""
+    """Returns seconds to a picture of a small error with empty caches. Two variants take turns: the default, and the earlier program, or, if there
+    is none, the default program with fast kernels from the first wave on."""
     caches = Caches(os.path.join(folder, "error"))
     times = {name: {"now": [], "before": []} for name in ("showcase", "lamps")}
     for name, found in times.items():
@@ -112,7 +112,7 @@ def measure_error(eclat, before, runs, folder):
 
 
 def first_light(eclat, scene, folder, caches, screen):
-    """Seconds from the start of the process to the preview's first picture, which is the rasteriser's."""
+    """Returns seconds from the start of the process to the preview's first picture, which the rasteriser makes."""
     script = os.path.join(folder, "settle.txt")
     with open(script, "w", encoding="utf-8") as file:
         file.write("settle\nquit\n")
@@ -122,7 +122,7 @@ def first_light(eclat, scene, folder, caches, screen):
 
 
 def measure_view(eclat, runs, folder):
-    """None where there is no screen to be had."""
+    """Returns None if there is no screen."""
     if not shutil.which("Xvfb"):
         return None
     read, write = os.pipe()

@@ -1,4 +1,4 @@
-"""Collects what the benchmarks left in a folder into one table: figure, value, target, met or not."""
+"""Collects the results that the benchmarks left in a folder into one table: figure, value, target, met or not."""
 import json
 import os
 import re
@@ -16,7 +16,7 @@ def load(folder, name):
 
 
 def traversal_rows(data):
-    """A kind of rays is as fast as the better of the two kernels: the pipeline measures and takes that one."""
+    """A kind of rays is as fast as the better of the two kernels, since the pipeline measures both and takes that one."""
     names = {"camera": "camera rays", "bounce": "diffuse bounce", "shadow": "shadow rays"}
     for kind, name in names.items():
         ours = [r for r in data["results"] if r["rays"] == kind and r["kernels"] == "embedded"]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What it takes to write a picture: seconds a million pixels and bytes a pixel of EXR and PNG at 2048 x 2048 and 4096 x 4096. With --before the
+"""Measures writing a picture: seconds per million pixels and bytes per pixel of EXR and PNG, at 2048 x 2048 and 4096 x 4096. With --before two
 programs take turns. See README.md."""
 import argparse
 import os
@@ -8,11 +8,11 @@ import tempfile
 
 import bench_common as common
 
-SECONDS, BYTES = 0.25, 20.0  # a million pixels, a pixel
+SECONDS, BYTES = 0.25, 20.0  # per million pixels, per pixel
 
 
 def write(eclat, folder, side, kind):
-    """Noise as a short render has it: eight replicates of one sample, direct light alone, which is soon rendered."""
+    """The picture is as noisy as a short render: eight replicates of one sample, with direct light only, since that renders quickly."""
     path = os.path.join(folder, "picture." + kind)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     report = common.run_eclat(eclat, [common.cornell_box(), "--size", f"{side}x{side}", "--spp", "8", "--max-depth", "2", "-o", path])

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How often do the bounds hold that eclat states? Renders scenes with many seeds and compares each picture with a reference.
+"""How often do eclat's stated bounds hold? Renders scenes with many seeds and compares each picture with a reference.
 
-SCENE is one of the names below; without any, all of them run. A render's true error is the root of the mean squared difference of a
-pixel's luminance from the reference's, less what noise of the reference makes of that, over the reference's mean luminance. A bound that
-is null, infinite or not there is one that was refused."""
+SCENE is one of the names below; without any, all of them run. A render's true error is the root mean square
+difference of pixel luminance from the reference, without the part that comes from the reference's own noise, over the reference's mean
+luminance. A bound that is null, infinite or absent counts as refused."""
 import argparse
 import concurrent.futures
 import hashlib
@@ -19,15 +19,15 @@ import bench_common as common
 LUMINANCE = (0.2126, 0.7152, 0.0722)
 STUDIO = ("assets", "env", "pmndrs-assets", "studio.hdr")
 SUN = ("assets", "env", "polyhaven", "qwantani_afternoon_puresky_1k.hdr")
-REFERENCE_SEED = 2 ** 31  # none of the renders that are judged has it
+REFERENCE_SEED = 2 ** 31  # no judged render has it
 CAP = 1024                # samples a pixel at which a render to an error gives up
 HELD, REFUSED = 0.95, 0.02
 
 
 class Scene:
-    """path: under scenes/, without .gltf. spp: of the reference. twin: a scene of the same picture whose light is found sooner.
-    harmless: its bound held in 19 of 20 renders or more at every budget before any was refused, so one is expected. Of Veach's
-    plates, the balls and the lamps few samples make the noise, and to refuse is right as well."""
+    """path: under scenes/, without .gltf. spp: of the reference. twin: a scene that gives the same picture, but whose light is found sooner.
+    harmless: a bound is expected, since before bounds could be refused it held in at least 19 of 20 renders at every budget. In Veach's
+    plates, the balls and the lamps, few samples make most of the noise, so a refusal is right there too."""
 
     def __init__(self, title, path, size, spp, environment=None, depth=None, twin=None, harmless=True):
         self.title, self.size, self.spp, self.environment, self.harmless = title, size, spp, environment, harmless
@@ -35,14 +35,14 @@ class Scene:
         self.options = ["--max-depth", str(depth)] if depth else []
 
     def place(self, size):
-        """Options of all renders, or None where the environment map is not there."""
+        """Returns the options of all renders, or None if the environment map is not there."""
         map_ = common.shared(*self.environment) if self.environment else None
         if self.environment and not map_:
             return None
         return self.options + ["--size", "{}x{}".format(*(size or self.size))] + (["--env", map_] if map_ else [])
 
 
-SCENES = {  # the first eight with sizes and depths of tests/stat/test_coverage.c
+SCENES = {  # the first eight have the sizes and depths of tests/stat/test_coverage.c
     "box": Scene("box of emitting walls of six materials", "furnace/box-materials", (32, 32), 1 << 16),
     "cornell-box": Scene("Cornell box", "cornell-box/cornell-box", (32, 32), 1 << 16, depth=5),
     "plates": Scene("GGX plates under an environment map", "furnace/plates", (32, 32), 1 << 16, STUDIO, depth=4),
@@ -97,7 +97,7 @@ def luminance(path):
 
 
 def digest(scene, place):
-    """Of all that makes the picture, so that a reference of another scene is not taken for one of this."""
+    """Returns a digest of all that determines the picture, so that the reference of another scene is not taken for this one's."""
     text = hashlib.sha256()
     stem = os.path.splitext(scene.reference_file)[0]
     for path in (stem + ".gltf", stem + ".bin"):
@@ -108,7 +108,7 @@ def digest(scene, place):
 
 
 class Reference:
-    """Luminance of the long render, its mean, and the error that it states of itself."""
+    """Luminance of the long render, its mean, and its stated error."""
 
     def __init__(self, eclat, name, options):
         scene = SCENES[name]
@@ -149,7 +149,7 @@ def one(eclat, scene, place, budget, seed, options, folder, reference):
 
 
 class Record:
-    """What is measured, in --json as soon as a budget of a scene is done: a run that was interrupted goes on from there."""
+    """The measurements, written to --json as soon as a budget of a scene is done: an interrupted run goes on from there."""
 
     def __init__(self, options):
         self.path, self.results = options.json, []
@@ -172,7 +172,7 @@ class Record:
 
 
 def measure(eclat, name, options, record):
-    """The scene's result, also in the record; None where it is skipped."""
+    """Returns the scene's result, which is also in the record; None if the scene is skipped."""
     scene = SCENES[name]
     place = scene.place(options.size)
     if place is None:
@@ -211,7 +211,7 @@ HEAD = ("| scene | reference | samples a pixel | bound, median | true error, med
 
 
 def lines(result):
-    """Of the table, one a budget."""
+    """Returns the lines of the table, one for each budget."""
     for k, c in enumerate(result["cells"]):
         first = (result["title"], per_cent(result["reference"]["error"])) if not k else ("", "")
         budget = f"`--error {c['budget']}`: {c['spp']:.0f}" if c["budget"].endswith("%") else c["budget"]
@@ -221,7 +221,7 @@ def lines(result):
 
 
 def brief(results):
-    """The manual's table: a line a scene, figures of the budgets with commas between."""
+    """Returns the manual's table: a line for each scene, the figures of its budgets separated by commas."""
     for r in results:
         stated, held, renders = (sum(c[k] for c in r["cells"]) for k in ("stated", "held", "count"))
         yield [r["title"], ", ".join(per_cent(c["bound"]) for c in r["cells"]), ", ".join(per_cent(c["true"]) for c in r["cells"]),
@@ -229,7 +229,7 @@ def brief(results):
 
 
 def rows_of(result):
-    """What is asked: of bounds that were stated at least 95 % hold; harmless scenes are refused one in under 2 % of renders."""
+    """Returns the requirements: at least 95 % of stated bounds hold; harmless scenes are refused a bound in under 2 % of renders."""
     stated, held, refused = (sum(c[k] for c in result["cells"]) for k in ("stated", "held", "refused"))
     share = held / stated if stated else None
     yield common.row(f"stated bounds that hold, {result['scene']}", per_cent(share), f">= {per_cent(HELD)}", share is None or share >= HELD)

@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 """usage: tools/bench/gpu_model.py [SCENE…] [--eclat FILE] [--json FILE]
 
-A model of how fast graphics cards could be at most, since none was at hand: a small picture is rendered in Oclgrind, which counts what kernels of
-one lane load, store and compute, and a roofline (Williams, Waterman, Patterson 2009) says what the bandwidth and the arithmetic of a card allow.
+Models how fast graphics cards could be at most, since none was at hand. Oclgrind renders a small picture and counts what kernels of one lane
+load, store and compute. A roofline (Williams, Waterman, Patterson 2009) then says what the bandwidth and the arithmetic of a card allow.
 
   SCENE       names of scenes/ (default: cornell-box showcase)
   --eclat     the program (default: build/eclat)
   --json FILE also write the figures there
 
-Oclgrind runs code that no compiler has optimised: what it loads twice is counted twice. Of operations only those that an optimised kernel has
-too are counted: arithmetic, comparisons, conversions, choices, built-in functions (a division or root as eight). Two bounds of bytes: all of them from
-memory, or nodes and triangles from caches and only queues from memory. A card does less than the model: its threads part ways, wait, and share."""
+Oclgrind runs unoptimised code: what the code loads twice is counted twice. Only those operations are counted that an optimised kernel has too:
+arithmetic, comparisons, conversions, selections, built-in functions (a division or root counts as eight). There are two bounds for bytes: all come
+from memory, or nodes and triangles come from caches and only queues from memory. A real card is slower than the model: its threads diverge, wait,
+and share resources."""
 import argparse
 import json
 import os
@@ -20,7 +21,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-# GB/s; 10^12 operations a second, half of the vendor's FP32 figure, which counts an fma as two.
+# GB/s; 10^12 operations a second: half of the vendor's FP32 figure, since that counts an fma as two.
 CARDS = {"H200": (4800, 33.5), "RTX 4070": (504, 14.6), "Iris Xe, 96 units": (68, 1.04)}
 PLAIN = {"fadd", "fsub", "fmul", "fneg", "fcmp", "icmp", "add", "sub", "mul", "and", "or", "xor", "shl", "lshr", "ashr", "select", "zext", "sext", "trunc",
          "sitofp", "uitofp", "fptosi", "fptoui"}
@@ -35,7 +36,7 @@ def number(text):
 
 
 def count(text):
-    """{kernel: [bytes of global and constant memory, operations]} of Oclgrind's histograms, summed over launches."""
+    """Returns {kernel: [bytes of global and constant memory, operations]} from Oclgrind's histograms, summed over launches."""
     found = {}
     for name, block in BLOCK.findall(text):
         sums = found.setdefault(name, [0, 0])
@@ -48,7 +49,7 @@ def count(text):
 
 
 def bounds(bytes_, operations, card):
-    """Units a second that bandwidth and arithmetic allow."""
+    """Returns the units per second that bandwidth and arithmetic allow."""
     bandwidth, rate = CARDS[card]
     return bandwidth * 1e9 / bytes_, rate * 1e12 / operations
 
@@ -68,7 +69,7 @@ def figures(eclat, scene, folder):
     rays, samples, counts = measure(eclat, scene, folder)
     in_tree = [sum(counts[name][k] for name in counts if name.startswith(IN_TREE)) for k in (0, 1)]
     total = [sum(sums[k] for sums in counts.values()) for k in (0, 1)]
-    queues = 4 * (7 + 3) * rays  # what traversal loads of a ray and stores of its hit
+    queues = 4 * (7 + 3) * rays  # what traversal loads for a ray and stores for its hit
     result = {"scene": scene, "rays_per_sample": rays / samples, "bytes_per_ray": total[0] / rays,
               "bytes_per_ray_cached": (total[0] - in_tree[0] + queues) / rays, "operations_per_ray": total[1] / rays,
               "traversal_operations_per_ray": in_tree[1] / rays, "cards": {}}

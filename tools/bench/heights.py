@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""usage: heights.py TRIANGLES OUT    A rough matt landscape of so many triangles, OUT/heights.gltf, and a map of ones for its sky,
-OUT/white.hdr, for race.py: large meshes."""
+"""usage: heights.py TRIANGLES OUT    Writes a rough matt landscape of so many triangles, OUT/heights.gltf, and an environment map of
+ones for its sky, OUT/white.hdr: a large mesh for race.py."""
 import json
 import os
 import sys
@@ -9,7 +9,7 @@ import numpy as np
 
 
 def heights(n):
-    """(n + 1, n + 1) heights: nine octaves of value noise."""
+    """Returns (n + 1, n + 1) heights: nine octaves of value noise."""
     random = np.random.default_rng(1)
     y, x = np.mgrid[0:n + 1, 0:n + 1] / n
     total = np.zeros((n + 1, n + 1))

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How much sooner eclat is at an error than Mitsuba 3 (llvm_ad_rgb): the same scene, as many samples, turn by turn. See README.md.
+"""How much sooner does eclat reach an error than Mitsuba 3 (llvm_ad_rgb)? Both render the same scene with the same number of samples, in turns. See README.md.
 
 SCENE is a .gltf with its files beside it, or one of the names below; without any, all of these run. Efficiency is
-1 / (error^2 * seconds), error the root of the mean variance of a pixel's luminance, over the mean luminance: variance from
-renders with other seeds on both sides. Printed is eclat's over that of the better one of Mitsuba's samplers."""
+1 / (error^2 * seconds). The error is the square root of the pixels' mean luminance variance, over the mean luminance; the variance comes from
+renders with different seeds on both sides. The script prints eclat's efficiency over that of the better one of Mitsuba's samplers."""
 import argparse
 import math
 import os
@@ -24,8 +24,8 @@ SCENES = {  # name: (scene, parts of the environment map's path under ../shared,
     "six-lamps": (os.path.join(OURS, "six-lamps", "six-lamps.gltf"), None, False),
     "spheres": (os.path.join(OURS, "spheres", "spheres.gltf"), POLYHAVEN, False),
 }
-EFFICIENCY = {"eclat": 1.2, "eclat, --error": 2.0}  # what each of these should reach on every scene
-RATE = {"cornell-box": 1.3, "dining-room": 1.15}    # samples a second over Mitsuba's, of the entrant "eclat"
+EFFICIENCY = {"eclat": 1.2, "eclat, --error": 2.0}  # what each entrant should reach on every scene
+RATE = {"cornell-box": 1.3, "dining-room": 1.15}    # samples a second of the entrant "eclat", over Mitsuba's
 
 
 def pair(text):
@@ -59,7 +59,7 @@ def parse():
 
 
 def scene_of(name, options):
-    """(path, environment map, diffuse), or a line that says what is missing."""
+    """Returns (path, environment map, diffuse), or a line that says what is missing."""
     path, environment, diffuse = SCENES.get(name, (name, None, False))
     if not path or not os.path.exists(path):
         return f"{name}: skipped, {'../shared/assets is not here' if name in SCENES else 'there is no such scene'}"
@@ -71,7 +71,7 @@ def scene_of(name, options):
 
 
 def ways_of(options, target):
-    """What eclat enters with: names and options."""
+    """Returns eclat's entrants: names and options."""
     ways = {"eclat": ["--spp", str(options.spp)]}
     if not options.no_adaptive:
         ways["eclat, --adaptive"] = ["--spp", str(options.spp), "--adaptive"]
@@ -84,7 +84,7 @@ def race(name, options, eclat):
     import mitsuba as mi
     import numpy as np
     mi.set_variant(race_mitsuba.VARIANT)
-    mi.set_log_level(mi.LogLevel.Error)  # multijitter's samples are rounded up, which the table says
+    mi.set_log_level(mi.LogLevel.Error)  # multijitter rounds samples up, which Mitsuba would warn of; the table says so
     import race_entrants
     import race_gltf
     import race_result
@@ -125,7 +125,7 @@ def race(name, options, eclat):
 
 
 def rows_of(result):
-    """Lines of the table of tools/bench/run."""
+    """Returns lines for the table of tools/bench/run."""
     def row(figure, value, target):
         return common.row(figure, f"{value:.2f} x", f">= {target} x" if target else "-", bool(value >= target) if target else None)
     ours = {n: e for n, e in result["entrants"].items() if not n.startswith("Mitsuba")}
@@ -135,7 +135,7 @@ def rows_of(result):
 
 
 def brief(results):
-    """The manual's table: names of its columns, and a line a scene."""
+    """Returns the manual's table: names of its columns, and a line for each scene."""
     ours = [n for n in results[0]["entrants"] if not n.startswith("Mitsuba")]
     yield ["scene", "samples per second", *(f"efficiency (trimmed), {n}" for n in ours), "mean (± 1 standard error)"]
     for r in results:

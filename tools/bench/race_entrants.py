@@ -1,4 +1,4 @@
-"""Who races: Mitsuba with one of its samplers, eclat with some options. Each renders one seed at a time."""
+"""The entrants of a race: Mitsuba with one of its samplers, eclat with some options. Each renders one seed at a time."""
 import os
 import resource
 import time
@@ -11,7 +11,7 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 class Lap:
-    """One render: luminance (height, width), mean of R, G and B, seconds of both clocks, samples a pixel, the stated error or None."""
+    """One render: luminance (height, width), mean of R, G and B, seconds by both clocks, samples a pixel, the stated error or None."""
 
     def __init__(self, rgb, cpu, wall, samples, stated=None, image=None):
         self.luminance, self.mean = rgb @ LUMINANCE, rgb.mean(axis=(0, 1))
@@ -24,7 +24,7 @@ def cpu_now():
 
 
 class Mitsuba:
-    """In this process. Its seconds are those of mi.render and the wait for its result; what compiles is over after two renders."""
+    """Runs in this process. Its seconds are those of mi.render and of the wait for its result. After two renders nothing is left to compile."""
 
     warm_ups = 2
 
@@ -39,12 +39,12 @@ class Mitsuba:
         dr.eval(image)
         dr.sync_thread()
         cpu, wall = cpu_now() - cpu, time.perf_counter() - wall
-        # multijitter takes a product of two numbers that are nearly equal: a few samples more
+        # multijitter needs a product of two nearly equal numbers: a few samples more
         return Lap(np.array(image)[..., :3].astype(float), cpu, wall, self.sensor.sampler().sample_count())
 
 
 class Eclat:
-    """A process for each render. Its seconds are those of rendering in its report, without set-up and compiling."""
+    """Runs a process for each render. Its seconds are the report's rendering time, without set-up and compiling."""
 
     warm_ups = 1
 

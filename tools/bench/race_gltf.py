@@ -1,5 +1,5 @@
-"""The part of glTF that races need: JSON and external buffers as numpy arrays, nodes with world matrices, and a copy with
-nothing but diffuse materials. What a race would show differently on its two sides is in untranslated()."""
+"""Reads the part of glTF that races need: JSON and external buffers as numpy arrays, nodes with world matrices, and a copy with
+only diffuse materials. untranslated() lists what the two sides of a race would render differently."""
 import json
 import os
 import shutil
@@ -26,11 +26,11 @@ class Gltf:
         return os.path.join(self.folder, urllib.parse.unquote(uri))
 
     def image(self, use):
-        """Path of the image that a material's texture is."""
+        """Returns the path of the image that a material's texture uses."""
         return self.file(self.json["images"][self.json["textures"][use["index"]]["source"]]["uri"])
 
     def accessor(self, index):
-        """Rows of numbers, as stored: (count, width)."""
+        """Returns rows of numbers, as stored: (count, width)."""
         a = self.json["accessors"][index]
         view = self.json["bufferViews"][a["bufferView"]]
         kind, width = np.dtype(COMPONENTS[a["componentType"]]), WIDTHS[a["type"]]
@@ -39,7 +39,7 @@ class Gltf:
         return rows.copy().view(kind)
 
     def nodes(self):
-        """(node, world matrix), depth first in the file's order."""
+        """Yields (node, world matrix), depth first in the file's order."""
         stack = [(i, np.eye(4)) for i in reversed(self.json["scenes"][self.json.get("scene", 0)]["nodes"])]
         while stack:
             index, parent = stack.pop()
@@ -65,7 +65,7 @@ def matrix(node):
 
 
 def untranslated(gltf):
-    """Names of what these scenes' translation leaves out, of a document that calls for it."""
+    """Returns names of features that the document uses and the translation leaves out."""
     translated = {LAMP, SPECULAR, "KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume"}
     left = set(gltf.json.get("extensionsUsed", [])) - translated
     for m in gltf.json.get("materials", []):
@@ -77,7 +77,7 @@ def untranslated(gltf):
 
 
 def write_diffuse(gltf, folder):
-    """The document with diffuse materials alone, and the files that it names, in `folder`; returns its path."""
+    """Writes the document with only diffuse materials, and the files that it names, into `folder`. Returns its path."""
     document = json.loads(json.dumps(gltf.json))
     for m in document.setdefault("materials", []):
         surface = m.setdefault("pbrMetallicRoughness", {})

@@ -1,4 +1,4 @@
-"""Mitsuba 3's side of a race: finding it and LLVM, and a glTF scene as it takes scenes."""
+"""Mitsuba 3's side of a race: finds Mitsuba and LLVM, and translates a glTF scene for it."""
 import glob
 import math
 import os
@@ -21,7 +21,7 @@ def find_llvm():
 
 
 def enter(fail):
-    """Makes sure that mitsuba can be imported: here, or by starting the program again in $MITSUBA_PYTHON. Else fail(line)."""
+    """Makes sure that mitsuba can be imported: here, or by starting the program again with $MITSUBA_PYTHON. Otherwise calls fail(line)."""
     if not os.environ.get("DRJIT_LIBLLVM_PATH"):
         llvm = find_llvm()
         if not llvm:
@@ -45,7 +45,7 @@ def texture(gltf, use, factor):
 
 
 def bsdf(gltf, m, diffuse):
-    """Mitsuba's nearest of a material. Diffuse ones are the same; `principled` has GGX as glTF does and another diffuse lobe."""
+    """Returns Mitsuba's nearest equivalent of a material. Diffuse ones are the same; `principled` has glTF's GGX, but another diffuse lobe."""
     surface, extensions = m.get("pbrMetallicRoughness", {}), m.get("extensions", {})
     factor = surface.get("baseColorFactor", [1, 1, 1, 1])[:3]
     base = texture(gltf, surface["baseColorTexture"], factor) if "baseColorTexture" in surface else {"type": "rgb", "value": factor}
@@ -95,7 +95,7 @@ def mesh(mi, gltf, name, primitive, world, diffuse):
 
 def sensor(mi, camera, world, size):
     import numpy as np
-    # A camera looks along -z in glTF and along +z, with x to the left, in Mitsuba.
+    # In glTF a camera looks along -z; in Mitsuba along +z, with x to the left.
     return {"type": "perspective", "fov_axis": "y", "fov": math.degrees(camera["perspective"]["yfov"]), "near_clip": 1e-4, "far_clip": 1e5,
             "to_world": mi.ScalarTransform4f(world @ np.diag([-1.0, 1, -1, 1])),
             "film": {"type": "hdrfilm", "width": size[0], "height": size[1], "rfilter": {"type": "box"}, "pixel_format": "rgb",
@@ -103,7 +103,7 @@ def sensor(mi, camera, world, size):
 
 
 def scene(mi, gltf, size, depth, environment, diffuse):
-    """(scene, the dictionary of its sensor without a sampler, number of triangles). Roulette from the sixth segment on, as eclat."""
+    """Returns (scene, the dictionary of its sensor without a sampler, number of triangles). Roulette starts at the sixth segment, as in eclat."""
     parts, camera, triangles = {"type": "scene", "integrator": {"type": "path", "max_depth": depth, "rr_depth": 5}}, None, 0
     for node, world in gltf.nodes():
         if "camera" in node and camera is None:
@@ -114,6 +114,6 @@ def scene(mi, gltf, size, depth, environment, diffuse):
                 parts[name], count = mesh(mi, gltf, name, primitive, world, diffuse)
                 triangles += count
     if environment:
-        # Ours: u = 0.5 + atan2(z, x) / 2 pi. Mitsuba's: u = atan2(x, -z) / 2 pi. A quarter turn about y makes them one.
+        # Ours: u = 0.5 + atan2(z, x) / 2 pi. Mitsuba's: u = atan2(x, -z) / 2 pi. A quarter turn about y makes them equal.
         parts["environment"] = {"type": "envmap", "filename": environment, "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], 90.0)}
     return mi.load_dict(parts), camera, triangles

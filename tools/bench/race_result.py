@@ -1,19 +1,19 @@
-"""What the laps of a race say: errors, rates, efficiencies, whether the pictures agree."""
+"""Evaluates the laps of a race: errors, rates, efficiencies, whether the pictures agree."""
 import math
 
 import numpy as np
 
 
 def errors(images):
-    """Error of one render from the spread of several, and that without the worst 1 % of pixels, where a few bright samples
-    decide: both as parts of the mean luminance. images: (renders, height, width)."""
+    """Returns the error of one render, from the spread of several, and the same without the worst 1 % of pixels, where a few bright
+    samples dominate. Both are fractions of the mean luminance. images: (renders, height, width)."""
     variance, mean = images.var(axis=0, ddof=1), images.mean()
     kept = np.sort(variance.ravel())[:max(1, int(0.99 * variance.size))]
     return math.sqrt(variance.mean()) / mean, math.sqrt(kept.mean()) / mean
 
 
 def true_error(images, reference):
-    """Root mean square of what renders differ from the reference by, without what the reference's own error makes of it."""
+    """Returns the root mean square difference of renders from the reference, without the part that comes from the reference's own error."""
     squared = ((images - reference.luminance) ** 2).mean() - reference.variance.mean()
     return math.sqrt(max(squared, 0.0)) / reference.luminance.mean()
 
@@ -36,7 +36,7 @@ def measure(laps, reference, clock):
 
 
 def compare(laps, reference, clock):
-    """Of each entrant what was measured, and its ratios to the better one of Mitsuba's entrants."""
+    """Returns each entrant's measurements, and their ratios to the better one of Mitsuba's entrants."""
     entrants = {name: measure(list_, reference, clock) for name, list_ in laps.items()}
     theirs = [e for name, e in entrants.items() if name.startswith("Mitsuba")]
     mean = sum(e["luminance"] for e in theirs) / len(theirs)

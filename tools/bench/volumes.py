@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """usage: tools/bench/volumes.py [--spp N] [--size N]
-Light inside bodies and in fog against Mitsuba 3's volpathmis, on three scenes of the same geometry: a block of milky glass, a cloud in a block of index 1, and a lamp, a block and
-fog in a ball. Of each 8 x 8 pixels the difference over its standard error, which is to be normally distributed: mean 0, deviation 1. By hand: it
-takes minutes. Needs mitsuba and numpy, or a Python that has them in MITSUBA_PYTHON; eclat in $ECLAT, or build/eclat."""
+Compares light inside bodies and in fog with Mitsuba 3's volpathmis, on three scenes of the same geometry: a block of milky glass, a cloud in a
+block of index 1, and a lamp, a block and fog in a ball. For each block of 8 x 8 pixels it takes the difference over its standard error, which
+should be normally distributed: mean 0, deviation 1. Run it by hand: it takes minutes. Needs mitsuba and numpy, or MITSUBA_PYTHON with the path of a
+Python that has them; eclat in $ECLAT, or build/eclat."""
 import argparse
 import json
 import math
@@ -31,7 +32,7 @@ EYE, TARGET, FOV, SKY = [1.1, 0.9, 2.4], [0, 0, 0], 30, [0.7, 0.85, 1]
 
 
 def eclat_scene(kind, path):
-    """Writes it; options of the render."""
+    """Writes the scene. Returns options of the render."""
     materials = [MATT, LAMP] if kind == "fog" else [body(*[kind[k] for k in ("albedo", "density", "g", "ior")])]
     scene = Scene(*materials)
     for name in {name for m in materials for name in m["extensions"]}:
@@ -73,7 +74,7 @@ def medium(mi, albedo, density, g):
 
 
 def with_mitsuba(mi, kind, size, spp, runs):
-    """Pictures of `runs` seeds."""
+    """Returns pictures of `runs` seeds."""
     import numpy as np
     parts = {"type": "scene", "integrator": {"type": "volpathmis", "max_depth": -1, "rr_depth": 1000},
              "sky": {"type": "constant", "radiance": {"type": "rgb", "value": SKY}}}
@@ -98,7 +99,7 @@ def with_mitsuba(mi, kind, size, spp, runs):
 
 
 def blocks(np, picture, side=8):
-    """Means of squares of pixels."""
+    """Returns the means of square blocks of pixels."""
     n = picture.shape[0] // side
     return picture.reshape(n, side, n, side, 3).mean(axis=(1, 3))
 
@@ -111,7 +112,7 @@ def main():
     race_mitsuba.enter(common.fail)
     import mitsuba as mi
     import numpy as np
-    mi.set_variant("scalar_rgb")  # which needs no LLVM
+    mi.set_variant("scalar_rgb")  # needs no LLVM
     runs = 8
     for name, kind in ("milk", MILK), ("cloud", CLOUD), ("fog", "fog"):
         with tempfile.TemporaryDirectory() as folder:
@@ -120,7 +121,7 @@ def main():
         ours, variance = blocks(np, stack("")), blocks(np, stack("stderr.") ** 2) / 64
         theirs = np.stack([blocks(np, p) for p in with_mitsuba(mi, kind, options.size, options.spp // runs, runs)])
         variance += theirs.var(axis=0, ddof=1) / runs
-        noisy = variance > 1e-10  # others show the sky alone
+        noisy = variance > 1e-10  # others show only the sky
         z = (ours - theirs.mean(axis=0))[noisy] / np.sqrt(variance[noisy])
         print(f"{name}: eclat {ours.mean(axis=(0, 1)).round(5)}, Mitsuba {theirs.mean(axis=(0, 1, 2)).round(5)}; {z.size} differences over their errors: mean {z.mean():.2f}, "
               f"deviation {z.std():.2f}, largest {np.abs(z).max():.1f}", flush=True)
