@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """usage: tools/blender/make_options.py [--check]
 Writes tools/blender/eclat_blender/options.json: the program's table of options, which the add-on's panels show as help. ECLAT_LIBRARY names the
-library (default: libeclat.so in the build folder). --check only says whether the file is fresh."""
+library (default: libeclat.so in the build folder). --check only says whether the file is up to date."""
 import ctypes
 import json
 import os

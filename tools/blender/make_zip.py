@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Packs the add-on as Blender installs it."""
+"""Packs the add-on into the zip that Blender installs."""
 import argparse
 import os
 import zipfile
@@ -17,7 +17,7 @@ def main():
     files = sorted(name for name in os.listdir(SOURCE) if name.endswith((".py", ".json", ".toml")))
     with zipfile.ZipFile(path + ".part", "w", zipfile.ZIP_DEFLATED) as packed:
         for name, source in [(name, os.path.join(SOURCE, name)) for name in files] + [("LICENSE", LICENSE)]:
-            with open(source, "rb") as file: # the same bytes whenever it is made
+            with open(source, "rb") as file: # without its time, so that the zip always has the same bytes
                 packed.writestr(zipfile.ZipInfo(name), file.read(), zipfile.ZIP_DEFLATED)
     os.replace(path + ".part", path)
     print(path)

@@ -1,4 +1,4 @@
-"""eclat as a render engine. Modules that import bpy are loaded by register(), so that the others can be used and tested without Blender."""
+"""eclat as a render engine for Blender. register() loads the modules that import bpy, so that the others can be used and tested without Blender."""
 
 
 def register():

@@ -1,11 +1,11 @@
-"""Blender's camera in terms of glTF's and of options of eclat. Pure functions of numbers."""
+"""Translates Blender's camera into a glTF camera and options of eclat. Pure functions of numbers."""
 import math
 from typing import NamedTuple, Optional, Tuple
 
 from .options import number
 from .trouble import Trouble
 
-SENSOR_HEIGHT = 0.024  # of the option --fstop, in metres
+SENSOR_HEIGHT = 0.024  # that the option --fstop assumes, in metres
 
 
 class Frame(NamedTuple):
@@ -29,7 +29,7 @@ class Lens(NamedTuple):
 
 
 class Window(NamedTuple):
-    """What of the image plane is seen. Units: of perspective, at distance 1; else metres."""
+    """The visible part of the image plane: for a perspective camera at distance 1, otherwise in metres."""
     left: float
     right: float
     bottom: float
@@ -37,7 +37,7 @@ class Window(NamedTuple):
 
 
 def plane(lens, frame):
-    """Half width and half height of the frame about the axis, and the shift of its centre."""
+    """Returns the half width and half height of the frame about the axis, and the shift of its centre."""
     tall = frame.height * frame.pixel_aspect
     across = lens.sensor_fit == "HORIZONTAL" or (lens.sensor_fit == "AUTO" and frame.width >= tall)
     fitted = frame.width if across else tall
@@ -56,7 +56,7 @@ def window(lens, frame):
 
 
 def size(frame):
-    """Pixels that are rendered: those of the border, rounded as Blender rounds it."""
+    """Returns the size in pixels of what is rendered: the border, rounded as Blender rounds it."""
     if not frame.border:
         return frame.width, frame.height
     left, right, bottom, top = frame.border
@@ -64,7 +64,7 @@ def size(frame):
 
 
 def gltf_camera(lens, frame):
-    """The entry of glTF's "cameras"."""
+    """Returns the entry for glTF's "cameras"."""
     half_width, half_height, _, _ = plane(lens, frame)
     if lens.kind == "ORTHO":
         return {"type": "orthographic", "orthographic": {"xmag": half_width, "ymag": half_height, "znear": 0.01, "zfar": 1000.0}}
@@ -74,7 +74,7 @@ def gltf_camera(lens, frame):
 
 
 def words(lens, frame):
-    """Options that say what glTF does not: the shift, the border, the shape of pixels, the lens."""
+    """Returns the options for what glTF cannot express: the shift, the border, the shape of pixels, the lens."""
     width, height = size(frame)
     found = [f"--size={width}x{height}"]
     if any(lens.shift) or frame.border or frame.pixel_aspect != 1:
@@ -86,14 +86,14 @@ def words(lens, frame):
 
 
 def fstop(lens, frame):
-    """eclat takes the focal length from the field of view, for a sensor 24 mm high; the aperture is to be as wide as Blender's."""
+    """Returns the f-number that makes the aperture as wide as Blender's: eclat computes the focal length from the field of view, for a sensor 24 mm high."""
     _, half_height, _, _ = plane(lens, frame)
     aperture = lens.focal_length * 1e-3 / lens.fstop
     return SENSOR_HEIGHT / (2 * half_height) / aperture
 
 
 def along_axis(lens, frame):
-    """Rows from the top: the cosine between each pixel's ray and the axis, by which a distance becomes a depth."""
+    """Returns the cosine between each pixel's ray and the axis, rows from the top: it turns a distance into a depth."""
     import numpy
     width, height = size(frame)
     if lens.kind == "ORTHO":

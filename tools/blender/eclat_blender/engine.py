@@ -8,10 +8,10 @@ from .trouble import Trouble
 class Engine(bpy.types.RenderEngine):
     bl_idname, bl_label = "ECLAT", "eclat"
     bl_use_preview = False
-    bl_use_eevee_viewport = True           # of material previews
+    bl_use_eevee_viewport = True           # for material previews
     bl_use_shading_nodes_custom = False
     bl_use_postprocess = True
-    has_begun = False                      # to draw a viewport
+    has_begun = False                      # has begun to draw a viewport
 
     def update_render_passes(self, scene=None, renderlayer=None):
         self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
@@ -29,11 +29,11 @@ class Engine(bpy.types.RenderEngine):
             self.fail(str(why))
         except OSError as why:
             self.fail(f"{why.filename}: {why.strerror}" if why.filename else str(why))
-        except Exception as why:  # no traceback, whatever it is
+        except Exception as why:  # whatever it is, the user gets a line, not a traceback
             self.fail(f"internal error: {type(why).__name__}: {why}")
 
     def fail(self, line):
-        """Blender writes no picture then, and renders no further frame."""
+        """Reports a failure to Blender, which then writes no picture and renders no more frames."""
         self.report({"ERROR"}, line)
 
     def view_update(self, context, depsgraph):

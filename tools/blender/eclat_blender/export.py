@@ -1,4 +1,4 @@
-"""Meshes and materials by Blender's own glTF exporter; camera and lights, which glTF knows less of, beside them."""
+"""Exports a scene: meshes and materials by Blender's own glTF exporter; camera and lights by this add-on, since glTF expresses less of them."""
 import contextlib
 import os
 
@@ -7,14 +7,14 @@ import bpy
 from . import camera, gather, glb, lights, materials, motion
 from .trouble import Trouble
 
-# What deforms a mesh is in its vertices: the exporter's skins and morph targets would be less than Blender's.
+# Deformations are applied to the vertices: the exporter's skins and morph targets would lose some of what Blender can do.
 EXPORT = dict(export_format="GLB", use_active_scene=True, export_yup=True, export_apply=True, export_animations=False, export_skins=False,
               export_morph=False, export_current_frame=True, export_cameras=False, export_lights=False, export_extras=False, export_tangents=False,
               export_gn_mesh=True, check_existing=False)
 
 
 def exposure(scene):
-    """Frames before and after the current one between which the shutter is open; None: there is no motion blur."""
+    """Returns when the shutter opens and closes, in frames relative to the current one; None: there is no motion blur."""
     render = scene.render
     if not render.use_motion_blur or render.motion_blur_shutter <= 0:
         return None
@@ -58,7 +58,7 @@ def set_frame(scene, time):
 
 
 def moment(scene, folder, frame, for_render):
-    """The scene as it is now: document, buffer, lens, names of what was lost."""
+    """Returns the scene as it is now: document, buffer, lens, names of what was lost."""
     document, buffer = meshes(folder, for_render)
     depsgraph = bpy.context.evaluated_depsgraph_get()
     eye = gather.camera_of(scene, depsgraph) if for_render or scene.camera else None
@@ -95,14 +95,14 @@ def exporter_is_there():
 
 @contextlib.contextmanager
 def quiet():
-    """The exporter tells its progress by the logger of its name and by print."""
+    """Silences the exporter, which reports its progress by a logger and by print."""
     with open(os.devnull, "w", encoding="utf-8") as nowhere, contextlib.redirect_stdout(nowhere):
         yield
 
 
 @contextlib.contextmanager
 def as_active(scene, layer):
-    """The exporter takes what the window shows."""
+    """Makes a scene and layer the active ones: the exporter takes what the window shows."""
     window = bpy.context.window
     if window is None:
         raise Trouble("Blender has no window that could show the scene, which its glTF exporter needs")
@@ -118,7 +118,7 @@ def as_active(scene, layer):
 
 @contextlib.contextmanager
 def rendered_state(scene):
-    """Modifiers and visibility as in renders, since the exporter takes them as in viewports."""
+    """Sets modifiers and visibility as in renders, since the exporter takes those of viewports."""
     changed = []
 
     def change(owner, name, value):

@@ -1,15 +1,15 @@
-"""Reads the EXR files that eclat writes, and writes plain ones. NumPy alone."""
+"""Reads the EXR files that eclat writes, and writes plain ones. Needs only NumPy."""
 import struct
 import zlib
 
 import numpy
 
 TYPES = {0: numpy.dtype("<u4"), 1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
-ROWS = {0: 1, 2: 1, 3: 16}  # of a block, by compression: none, ZIPS, ZIP
+ROWS = {0: 1, 2: 1, 3: 16}  # in a block, by compression: none, ZIPS, ZIP
 
 
 def read(path):
-    """(attributes, {channel: float32 array, rows from the top})."""
+    """Returns (attributes, {channel: float32 array, rows from the top})."""
     with open(path, "rb") as file:
         data = file.read()
     if data[:4] != b"\x76\x2f\x31\x01":
@@ -66,7 +66,7 @@ def decode(kind, value):
 
 
 def unzip(block):
-    """zlib, then the byte predictor, then the two halves woven together again."""
+    """Undoes zlib, then the byte predictor, then interleaves the two halves again."""
     packed = numpy.frombuffer(zlib.decompress(block), numpy.uint8).copy()
     packed[1:] -= 128
     packed = numpy.cumsum(packed, dtype=numpy.uint8)

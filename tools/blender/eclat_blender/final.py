@@ -1,4 +1,4 @@
-"""A final render: exports, runs the program, shows what it has so far, hands over passes and the error."""
+"""A final render: exports the scene, runs the program, shows the picture so far, hands over the passes and the error."""
 import contextlib
 import os
 import shlex
@@ -13,7 +13,7 @@ from .process import Process, is_known
 teller = losses.Teller()
 
 
-# What Blender is asked and told, in one place.
+# All questions and messages to Blender, in one place.
 
 def is_cancelled(engine):
     return engine.test_break()
@@ -28,7 +28,7 @@ def report(engine, kind, line):
 
 
 def prepare(scene, layer, is_animation, folder):
-    """In the main thread. Words for `eclat render` with the scene's path first, lens, frame, passes, what was lost."""
+    """Runs in the main thread. Returns the arguments of `eclat render`, the scene's path first; lens, frame, passes, and what was lost."""
     path, shutter, lens, frame, lost = export.scene_to_file(scene, layer, folder)
     environment, of_world = world.words(scene.world, folder)
     view_layer = scene.view_layers[layer]
@@ -64,7 +64,7 @@ def render(engine, depsgraph):
 
 @contextlib.contextmanager
 def place(scene, layer):
-    """A folder for the files of this frame: one that is deleted, or one below what the user has named."""
+    """Yields a folder for the files of this frame: a temporary one, or one inside the folder that the user has named."""
     if scene.eclat.keep:
         kept = os.path.join(bpy.path.abspath(scene.eclat.keep), f"{bpy.path.clean_name(layer)}.{scene.frame_current:04d}")
         os.makedirs(kept, exist_ok=True)
@@ -81,7 +81,7 @@ def place(scene, layer):
 
 
 def follow(engine, process, layer, frame, samples):
-    """Until the program ends. samples: that end it, 0: others do."""
+    """Follows the program until it ends. samples: the number at which it ends; 0: another limit ends it."""
     while process.is_running():
         process.wait(0.05)
         if is_cancelled(engine):
@@ -111,7 +111,7 @@ def deliver(engine, process, layer, lens, frame, wanted):
 
 
 def stamp(attributes):
-    """Metadata of the picture, as EXR and PNG files keep it: all that eclat's own file says of itself."""
+    """Returns metadata of the picture for EXR and PNG files: all that eclat's own file says about itself."""
     found = {name: value for name, value in attributes.items() if name.startswith("eclat.")}
     return {name: value if isinstance(value, str) else f"{value:.9g}" for name, value in found.items() if isinstance(value, str) or is_known(value)}
 

@@ -1,4 +1,4 @@
-"""Blender's camera and lights as the plain data of camera.py and lights.py."""
+"""Reads Blender's camera and lights into the plain data of camera.py and lights.py."""
 import math
 
 from mathutils import Matrix
@@ -12,7 +12,7 @@ TO_GLTF = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))  # y
 
 
 def columns(matrix):
-    """World matrix of a thing that looks along its -z, in glTF's axes."""
+    """Returns the world matrix, in glTF's axes, of a thing that looks along its -z."""
     return tuple((TO_GLTF @ matrix)[row][column] for column in range(4) for row in range(4))
 
 
@@ -39,7 +39,7 @@ def lens(camera_object):
 
 
 def focus(camera_object):
-    """Metres along the axis."""
+    """Returns the focus distance in metres along the axis."""
     dof = camera_object.data.dof
     if dof.focus_object is None:
         return dof.focus_distance
@@ -50,7 +50,7 @@ def focus(camera_object):
 
 
 def lights(depsgraph, for_render):
-    """Those that shine, instances too; and names of what glTF lacks of them."""
+    """Returns the lights that shine, instances included, and names of the properties that glTF lacks."""
     found, lost = [], []
     for instance in depsgraph.object_instances:
         one = instance.object
@@ -74,7 +74,7 @@ def light(one, matrix, lost):
 
 
 def unit(data, matrix):
-    """Of Blender 4.5 and later: stops of exposure; and power as it is for a light of 1 m2 (or radius 1 m), whatever its size."""
+    """Returns the factor of two settings of Blender 4.5 and later: exposure in stops, and power given for a light of 1 m2 (or radius 1 m) whatever its size."""
     factor = 2.0 ** getattr(data, "exposure", 0.0)
     if not getattr(data, "normalize", True):
         if data.type == "AREA":
@@ -87,7 +87,7 @@ def unit(data, matrix):
 
 
 def shade(data, lost):
-    """Colour, and a factor: the light's own, its temperature, and its emission node."""
+    """Returns a colour and a factor, from the light's own colour, its temperature and its emission node."""
     color = list(data.color)
     if getattr(data, "use_temperature", False):
         color = [c * t for c, t in zip(color, data.temperature_color)]

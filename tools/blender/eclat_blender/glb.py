@@ -1,10 +1,10 @@
-"""glTF in its binary form, as a document and its buffer."""
+"""Reads and writes binary glTF, as a document and its buffer."""
 import json
 import struct
 
 
 def read(path):
-    """(document, bytearray)."""
+    """Returns (document, bytearray)."""
     with open(path, "rb") as file:
         data = file.read()
     at, document, buffer = 12, None, b""
@@ -33,12 +33,12 @@ def write(path, document, buffer):
 
 
 def empty():
-    """A document that a scene without meshes begins with."""
+    """Returns an empty document, for a scene without meshes."""
     return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": []}, bytearray()
 
 
 def add_floats(document, buffer, values, kind, bounds=True):
-    """values: an array of rows of float32. Returns the number of the accessor."""
+    """values: an array of rows of float32. Returns the index of the accessor."""
     import numpy
     values = numpy.ascontiguousarray(values, "<f4")
     rows = values.reshape(len(values), -1)
@@ -54,7 +54,7 @@ def add_floats(document, buffer, values, kind, bounds=True):
 
 
 def floats(document, buffer, index):
-    """The rows of an accessor of floats, which the exporter never interleaves."""
+    """Returns the rows of an accessor of floats, which the exporter never interleaves."""
     import numpy
     accessor = document["accessors"][index]
     view = document["bufferViews"][accessor["bufferView"]]

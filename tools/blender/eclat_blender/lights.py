@@ -1,10 +1,10 @@
-"""Blender's lights as glTF's: points, spots and suns of KHR_lights_punctual, area lights as emissive triangles."""
+"""Translates Blender's lights into glTF: points, spots and suns by KHR_lights_punctual, area lights as emissive triangles."""
 import math
 from typing import NamedTuple, Tuple
 
 from . import glb
 
-ROUND_SIDES = 64  # corners of a disk; its radiance is raised by what it lacks of its area
+ROUND_SIDES = 64  # corners of a disk; its radiance is raised to make up for the missing area
 
 
 class Light(NamedTuple):
@@ -12,10 +12,10 @@ class Light(NamedTuple):
     kind: str                          # "POINT", "SPOT", "SUN" or "AREA"
     matrix: Tuple[float, ...]          # 16 numbers, column by column, in glTF's axes; it shines along its -z
     color: Tuple[float, float, float]  # with all factors but the energy
-    energy: float                      # watts; of a sun W/m2
-    cone: float = math.pi              # of a spot: the whole angle, and how much of it is soft
+    energy: float                      # watts; for a sun W/m2
+    cone: float = math.pi              # for a spot: the whole angle, and how much of it is soft
     blend: float = 0.0
-    shape: str = "SQUARE"              # of an area light: or "RECTANGLE", "DISK", "ELLIPSE"
+    shape: str = "SQUARE"              # for an area light: or "RECTANGLE", "DISK", "ELLIPSE"
     size: Tuple[float, float] = (1.0, 1.0)
 
 
@@ -27,13 +27,13 @@ def add(document, buffer, light):
 
 
 def peak(color):
-    """A factor, and the colour that it multiplies, none of whose channels is above 1."""
+    """Returns a factor and the colour that it multiplies, with no channel above 1."""
     most = max(color)
     return (most, [c / most for c in color]) if most > 0 else (0.0, [0.0, 0.0, 0.0])
 
 
 def rigid(matrix):
-    """Without scale: what glTF's lights know nothing of."""
+    """Returns the matrix without scale, which glTF's lights ignore."""
     columns = [matrix[4 * k:4 * k + 3] for k in range(3)]
     lengths = [math.sqrt(sum(v * v for v in column)) or 1.0 for column in columns]
     turned = [[v / length for v in column] + [0.0] for column, length in zip(columns, lengths)]
@@ -41,7 +41,7 @@ def rigid(matrix):
 
 
 def add_punctual(document, light):
-    """A point of P watts has P / 4 pi W/sr to all sides, and a spot the same within its cone."""
+    """Adds a point, spot or sun. A point of P watts has P / 4 pi W/sr in all directions, and a spot the same within its cone."""
     factor, color = peak(light.color)
     entry = {"name": light.name, "type": {"POINT": "point", "SPOT": "spot", "SUN": "directional"}[light.kind], "color": color,
              "intensity": light.energy * factor / (1 if light.kind == "SUN" else 4 * math.pi)}
@@ -54,15 +54,15 @@ def add_punctual(document, light):
 
 
 def cone(light):
-    """Inner and outer angle. Towards the rim Blender falls off by 3 t^2 - 2 t^3 over a share, blend, of what the cosine has, glTF by t^2: over 3/4 of
-    that as much is lost."""
+    """Returns the inner and outer angle. Towards the rim Blender falls off by 3 t^2 - 2 t^3, over a share (blend) of the cosine's range. glTF falls off
+    by t^2: over 3/4 of that range it loses as much light."""
     outer = min(light.cone / 2, math.pi / 2)
     inner = math.acos(min(1.0, math.cos(outer) + 0.75 * light.blend * (1 - math.cos(outer))))
     return max(0.0, min(inner, outer - 1e-4)), outer
 
 
 def outline(shape, size):
-    """Corners in the light's own plane, counter-clockwise as seen from its front, which is -z."""
+    """Returns the corners in the light's own plane, counter-clockwise as seen from its front, which is -z."""
     x, y = size[0] / 2, (size[1] if shape in ("RECTANGLE", "ELLIPSE") else size[0]) / 2
     if shape in ("SQUARE", "RECTANGLE"):
         return [(-x, -y), (-x, y), (x, y), (x, -y)]
@@ -70,7 +70,7 @@ def outline(shape, size):
 
 
 def world_area(corners, matrix):
-    """Of a convex outline under the matrix."""
+    """Returns the area of a convex outline under the matrix."""
     a, b = matrix[0:3], matrix[4:7]
     normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     flat = sum(x * v - u * y for (x, y), (u, v) in zip(corners, corners[1:] + corners[:1])) / 2
@@ -78,7 +78,7 @@ def world_area(corners, matrix):
 
 
 def add_area(document, buffer, light):
-    """P watts from one side, the same to all directions: a radiance of P / (pi A). What reflects nothing and shines from its front alone is a material of glTF's."""
+    """Adds P watts from one side, with the same radiance in all directions: P / (pi A). A glTF material can reflect nothing and shine from its front only."""
     corners = outline(light.shape, light.size)
     area = world_area(corners, light.matrix)
     if not area > 0:

@@ -1,4 +1,4 @@
-"""What of a scene glTF, its exporter or eclat cannot carry, by name."""
+"""Lists by name what glTF, its exporter or eclat cannot carry over from a scene."""
 CARRIED = {
     "ShaderNodeOutputMaterial", "ShaderNodeBsdfPrincipled", "ShaderNodeEmission", "ShaderNodeTexImage", "ShaderNodeUVMap", "ShaderNodeTexCoord",
     "ShaderNodeMapping", "ShaderNodeNormalMap", "ShaderNodeSeparateColor", "ShaderNodeSeparateRGB", "ShaderNodeCombineColor", "ShaderNodeVertexColor",
@@ -9,7 +9,7 @@ KINDS = {"VOLUME": "volumes", "CURVES": "hair curves", "GPENCIL": "grease pencil
 
 
 def of_scene(scene, for_render=True):
-    """A line for each thing."""
+    """Returns a line for each thing that is lost."""
     found = []
     used = [one for one in scene.objects if not (one.hide_render if for_render else one.hide_viewport)]
     for one in used:
@@ -47,7 +47,7 @@ def of_material(material):
 
 
 def before(socket, seen):
-    """Nodes that a socket depends on."""
+    """Returns the nodes that a socket depends on."""
     for link in socket.links:
         if link.from_node not in seen:
             seen.add(link.from_node)

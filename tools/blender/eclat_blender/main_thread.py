@@ -1,16 +1,16 @@
-"""Operators are for Blender's main thread; renders of a window run in another."""
+"""Runs functions in Blender's main thread: operators need it, but renders of a window run in another thread."""
 import threading
 
 import bpy
 
 
 def defer(function):
-    """Runs it in the main thread, between two events."""
+    """Runs a function in the main thread, between two events."""
     bpy.app.timers.register(function)
 
 
 def call(function, is_cancelled=lambda: False):
-    """function() there; its result, or its exception, here. None where it was cancelled before it began."""
+    """Runs function() in the main thread and waits. Returns its result or raises its exception here; returns None if it was cancelled before it began."""
     if threading.current_thread() is threading.main_thread():
         return function()
     ended, began, outcome = threading.Event(), threading.Lock(), {}
@@ -20,7 +20,7 @@ def call(function, is_cancelled=lambda: False):
             return None
         try:
             outcome["result"] = function()
-        except BaseException as why:  # goes on in the thread that waits
+        except BaseException as why:  # raised again in the thread that waits
             outcome["why"] = why
         ended.set()
         return None

@@ -1,11 +1,11 @@
-"""Materials of a glTF document as Blender means them. Pure functions."""
+"""Changes the materials of a glTF document to what Blender means. Pure functions."""
 import math
 
 from . import glb
 
 
 def make_solid(document):
-    """Blender's transmission is that of a body, which refracts; glTF's is that of a thin wall unless there is a volume too."""
+    """Adds a volume to transmission: in Blender it means a body, which refracts; in glTF it means a thin wall unless there is a volume too."""
     for material in document.get("materials", []):
         extensions = material.get("extensions", {})
         share = extensions.get("KHR_materials_transmission", {}).get("transmissionFactor", 0)
@@ -18,6 +18,6 @@ def make_solid(document):
 
 
 def tint_once(base):
-    """A path through a body meets two faces: Blender's Principled BSDF tints it by the base colour at both together, glTF at each."""
+    """Takes the root of the base colour. A path through a body meets two faces: Blender tints it by the base colour once for both, glTF at each."""
     if "baseColorTexture" not in base and "baseColorFactor" in base:
         base["baseColorFactor"] = [*map(math.sqrt, base["baseColorFactor"][:3]), base["baseColorFactor"][3]]

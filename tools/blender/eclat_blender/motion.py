@@ -1,4 +1,4 @@
-"""The same scene at several moments as one document with an animation: nodes move, meshes change shape, the camera zooms. Pure functions."""
+"""Merges a scene at several moments into one document with an animation: nodes move, meshes change shape, the camera zooms. Pure functions."""
 import math
 
 from . import glb
@@ -8,8 +8,8 @@ KIND = {"translation": "VEC3", "rotation": "VEC4", "scale": "VEC3"}
 
 
 def merge(moments, times):
-    """moments: (document, buffer) at each of `times`, in seconds from 0. Returns the first with an animation, and names of what was left as it is
-    at that moment, since it is not the same thing at the others."""
+    """moments: (document, buffer) at each of `times`, in seconds from 0. Returns the first document with an
+    animation, and names of things that keep their first state, since they are not the same thing at other moments."""
     document, buffer = moments[0]
     others = [other for other, _ in moments[1:]]
     if any(shape_of(other) != shape_of(document) for other in others):
@@ -44,13 +44,13 @@ def merge(moments, times):
 
 
 def shape_of(document):
-    """What two moments must have in common."""
+    """Returns what two moments must have in common."""
     return [(node.get("name"), node.get("mesh"), node.get("camera"), node.get("children"), node.get("extensions", {}).get("KHR_lights_punctual"))
             for node in document["nodes"]], [len(mesh["primitives"]) for mesh in document.get("meshes", [])]
 
 
 def placing(node):
-    """Translation, rotation and scale, of a matrix too."""
+    """Returns translation, rotation and scale, also from a matrix."""
     if "matrix" not in node:
         return {path: list(node.get(path, value)) for path, value in IDENTITY.items()}
     m = node["matrix"]
@@ -65,7 +65,7 @@ def placing(node):
 
 
 def quaternion(c):
-    """Of an orthonormal frame by columns, x y z w; by the largest of the four (Shepperd 1978)."""
+    """Returns the quaternion x y z w of an orthonormal frame given by columns; computed from the largest of the four (Shepperd 1978)."""
     trace = c[0][0] + c[1][1] + c[2][2]
     values = [c[0][0], c[1][1], c[2][2], trace]
     k = values.index(max(values))
@@ -81,7 +81,7 @@ def quaternion(c):
 
 
 def deform(index, mesh, moments):
-    """Gives the mesh a morph target for each moment but the first. True, False where nothing changes, "other" where that cannot be."""
+    """Gives the mesh a morph target for each moment but the first. Returns True, False if nothing changes, "other" if it cannot be done."""
     document, buffer = moments[0]
     made = []
     for number, primitive in enumerate(mesh["primitives"]):

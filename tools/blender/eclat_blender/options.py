@@ -1,5 +1,5 @@
-"""Which options of `eclat render` the panels have, and how settings become words of a command line. What each option means is in options.json,
-made from the program's own table by tools/blender/make_options.py."""
+"""Lists the options of `eclat render` that the panels have, and turns settings into words of a command line. options.json describes each option;
+tools/blender/make_options.py makes it from the program's own table."""
 import json
 import os
 from typing import NamedTuple
@@ -12,7 +12,7 @@ class Row(NamedTuple):
     label: str
     panel: str
     kind: str     # "int", "real", "choice" or "text"
-    first: object # the value of a new scene
+    first: object # the value in a new scene
     unset: object # the value with which the option is left out
     least: float = 0
     most: float = 2**31 - 1
@@ -42,12 +42,12 @@ PANELS = (("limits", "When to Stop"), ("transport", "Light Transport"), ("pictur
 
 
 def identifier(option):
-    """Its name as a property."""
+    """Returns the option's name as a property."""
     return option.replace("-", "_")
 
 
 def table():
-    """{option: {"help", "otherwise", "choices"}} of the program that this add-on was made with."""
+    """Returns {option: {"help", "otherwise", "choices"}} of the program that this add-on was made with."""
     with open(os.path.join(HERE, "options.json"), encoding="utf-8") as file:
         return json.load(file)
 
@@ -57,12 +57,12 @@ def description(entry):
 
 
 def number(value):
-    """Nine digits, as few as needed: what single precision holds."""
+    """Formats with at most nine digits, which is what single precision needs."""
     return f"{value:.9g}"
 
 
 def words(settings):
-    """settings: {identifier: value}. Options that are as the program has them anyway are left out."""
+    """settings: {identifier: value}. Options with the program's default value are left out."""
     found = []
     for row in ROWS:
         value = settings.get(identifier(row.option), row.unset)

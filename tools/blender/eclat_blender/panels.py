@@ -1,4 +1,4 @@
-"""Panels: options of eclat, its passes; and those of Blender's own that say something to it."""
+"""Panels: eclat's options and passes, and those of Blender's own panels that affect eclat."""
 import bpy
 
 from . import options
@@ -59,7 +59,7 @@ class ECLAT_PT_passes(Panel):
 
 
 CLASSES = (*OPTIONS, ECLAT_PT_motion, ECLAT_PT_passes)
-# Settings of EEVEE that the exporter or this add-on looks at.
+# Settings of EEVEE that the exporter or this add-on reads.
 EEVEES = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light", "DATA_PT_camera_dof",
           "DATA_PT_camera_dof_aperture", "DATA_PT_EEVEE_light_distance", "EEVEE_NEXT_MATERIAL_PT_surface"}
 shared = []

@@ -1,11 +1,11 @@
-"""What eclat knows of each pixel as Blender's passes. Pure functions of planes."""
+"""Turns eclat's channels into Blender's passes. Pure functions of planes."""
 import numpy
 
-FAR = 1e10  # Blender's depth of nothing
+FAR = 1e10  # Blender's depth where there is no surface
 
 
 def combined(planes):
-    """Linear radiance; opaque, since the environment is in it. Rows from the bottom, as Blender has them."""
+    """Returns linear radiance; opaque, since the environment is in it. Rows from the bottom, as in Blender."""
     shape = planes["R"].shape
     return numpy.stack([planes["R"], planes["G"], planes["B"], numpy.ones(shape, numpy.float32)], -1)[::-1]
 
@@ -15,19 +15,19 @@ def layer(planes, name, channels="RGB"):
 
 
 def depth(planes, along):
-    """Along the camera's axis, as other engines have it. along: camera.along_axis."""
+    """Returns the depth along the camera's axis, as other engines do. along: camera.along_axis."""
     distance = planes["depth.Z"]
     seen = (planes["A"] > 0) & (distance > 0) & numpy.isfinite(distance)
     return numpy.where(seen, distance * along, FAR)[::-1, :, None]
 
 
 def normal(planes):
-    """In Blender's axes, z up."""
+    """Returns the normal in Blender's axes, z up."""
     x, y, z = (planes[f"normal.{axis}"] for axis in "XYZ")
     return numpy.stack([x, -z, y], -1)[::-1]
 
 
-# Name of the pass, channels, their names, Blender's kind, layers of the EXR that it needs, how it is made.
+# Name of the pass, channels, their names, Blender's kind, layers of the EXR that it needs, function that makes it.
 TABLE = {
     "Depth": (1, "Z", "VALUE", ("depth", "A"), depth),
     "Normal": (3, "XYZ", "VECTOR", ("normal",), lambda planes, along: normal(planes)),
@@ -41,12 +41,12 @@ TABLE = {
 
 
 def channels(names):
-    """The option --channels for these passes."""
+    """Returns the option --channels for these passes."""
     return "--channels=" + ",".join(["default", *sorted({layer for name in names for layer in TABLE[name][3]} - {"A", "stderr", "samples"})])
 
 
 def make(name, planes, along):
-    """The pass, or None where the picture lacks it: a single sample has no standard error."""
+    """Returns the pass, or None if the picture lacks it: a single sample has no standard error."""
     try:
         return numpy.ascontiguousarray(TABLE[name][4](planes, along), numpy.float32)
     except KeyError:

@@ -1,4 +1,4 @@
-"""Where the program is."""
+"""The preference that says where the program is."""
 import bpy
 
 
@@ -14,7 +14,7 @@ class Preferences(bpy.types.AddonPreferences):
 
 
 def program():
-    """What is named there; nothing where the add-on was registered by a script."""
+    """Returns the preference; nothing if a script registered the add-on."""
     addon = bpy.context.preferences.addons.get(__package__)
     return addon.preferences.program if addon and addon.preferences else ""
 

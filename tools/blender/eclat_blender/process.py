@@ -1,4 +1,4 @@
-"""A running eclat: what it says, the pictures that it makes on the way, its end."""
+"""A running eclat process: its messages, its intermediate pictures, its result."""
 import os
 import signal
 import subprocess
@@ -10,7 +10,7 @@ from .trouble import Trouble
 
 
 class Shot(NamedTuple):
-    """A picture, on the way or at the end."""
+    """An intermediate or final picture."""
     attributes: dict
     planes: dict
 
@@ -32,7 +32,7 @@ def is_known(value):
 
 
 class Process:
-    """command: program and words, without outputs. every: seconds between pictures on the way."""
+    """command: program and words, without outputs. every: seconds between intermediate pictures."""
 
     def __init__(self, command, folder, every=1.0, environment=None):
         self.final, self.way = os.path.join(folder, "picture.exr"), os.path.join(folder, "snapshot.exr")
@@ -50,7 +50,7 @@ class Process:
         return self.process.poll() is None
 
     def wait(self, seconds):
-        """Until it ends, but not longer than that."""
+        """Waits until it ends, but no longer than that."""
         try:
             self.process.wait(seconds)
         except subprocess.TimeoutExpired:
@@ -74,13 +74,13 @@ class Process:
         return [line[len("eclat: "):] if line.startswith("eclat: ") else line for line in text.splitlines()]
 
     def news(self):
-        """Lines that were not asked for before."""
+        """Returns the lines that are new since the last call."""
         found = self.lines()
         new, self.told = found[self.told:], len(found)
         return new
 
     def look(self) -> Optional[Shot]:
-        """The latest picture on the way, if it was not seen before."""
+        """Returns the latest intermediate picture, or None if it was returned before."""
         try:
             status = os.stat(self.way)
             if (status.st_ino, status.st_mtime_ns) == self.seen:
@@ -91,7 +91,7 @@ class Process:
             return None
 
     def result(self) -> Optional[Shot]:
-        """Once it has ended: the picture; None where it was stopped before there was one."""
+        """Call once it has ended. Returns the picture; None if it was stopped before there was one."""
         if os.path.exists(self.final):
             return Shot(*exr.read(self.final))
         if self.was_stopped:

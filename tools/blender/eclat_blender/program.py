@@ -9,7 +9,7 @@ LOOKED = "the add-on's preferences, the environment variable ECLAT, an installed
 
 
 def in_package():
-    """Of the Python package eclat, where that brings the program; looked for without importing it."""
+    """Returns the program in the Python package eclat, if that brings one. Does not import the package."""
     found = importlib.util.find_spec("eclat")
     for folder in (found.submodule_search_locations or []) if found else []:
         for parts in (("eclat",), ("bin", "eclat"), ("_bin", "eclat")):
@@ -20,7 +20,7 @@ def in_package():
 
 
 def find(preferred="", environment=os.environ):
-    """The path of the program. What is named and does not work is an error, not passed over."""
+    """Returns the path of the program. If a named one does not work, that is an error: no other one is tried."""
     for path, source in ((preferred, "the add-on's preferences"), (environment.get("ECLAT", ""), "the environment variable ECLAT")):
         if not path:
             continue

@@ -1,4 +1,4 @@
-"""Settings of a scene, and passes of a view layer, as Blender's properties."""
+"""Settings of a scene and passes of a view layer, as Blender properties."""
 import bpy
 
 from . import options
@@ -18,7 +18,7 @@ def of_row(row, entry):
 
 
 class Settings(bpy.types.PropertyGroup):
-    """scene.eclat: an option of `eclat render` each, and what belongs to the add-on alone."""
+    """scene.eclat: a property for each option of `eclat render`, and those of the add-on itself."""
     __annotations__ = {options.identifier(row.option): of_row(row, options.table()[row.option]) for row in options.ROWS}
     __annotations__.update(
         seed_is_frame=bpy.props.BoolProperty(name="Seed by Frame", default=True, description="Add the number of the frame to the seed of an animation's frames"),
@@ -40,7 +40,7 @@ class Passes(bpy.types.PropertyGroup):
 
 
 def of_scene(settings, frame=None):
-    """What options.words takes; frame: of an animation."""
+    """Returns the argument of options.words. frame: of an animation."""
     values = {options.identifier(row.option): getattr(settings, options.identifier(row.option)) for row in options.ROWS}
     if frame is not None and settings.seed_is_frame:
         values["seed"] += frame
@@ -50,7 +50,7 @@ def of_scene(settings, frame=None):
 
 
 def passes_of(layer):
-    """Names of passes.TABLE that the view layer wants, beside Combined."""
+    """Returns the names in passes.TABLE that the view layer wants, besides Combined."""
     wanted = (("Depth", layer.use_pass_z), ("Normal", layer.use_pass_normal), ("DiffCol", layer.use_pass_diffuse_color), ("Albedo", layer.eclat.use_albedo),
               ("Standard Error", layer.eclat.use_standard_error), ("Low 95", layer.eclat.use_interval), ("High 95", layer.eclat.use_interval),
               ("Samples", layer.eclat.use_samples))

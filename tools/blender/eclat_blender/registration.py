@@ -1,4 +1,4 @@
-"""What Blender is told of this add-on."""
+"""Registers this add-on with Blender."""
 import bpy
 
 from . import engine, panels, preferences, properties, viewport

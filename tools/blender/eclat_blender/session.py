@@ -1,4 +1,4 @@
-"""Renders of one scene from ever new viewpoints, each in a process of its own that the next one ends. Nothing here waits."""
+"""Renders one scene from changing viewpoints. Each render is a process of its own, which the next render ends. Nothing here waits."""
 import os
 import shutil
 import tempfile
@@ -6,21 +6,21 @@ import tempfile
 from .process import Process
 from .trouble import Trouble
 
-COARSE = 4 # pixels of a side that a sample of the first picture stands for
+COARSE = 4 # pixels along each axis that one pixel of the first picture covers
 
 
 class Session:
     def __init__(self, program, environment=None):
         self.program, self.environment = program, environment
         self.folder = tempfile.mkdtemp(prefix="eclat-viewport-")
-        self.shown = None    # what is being made: scene, view, size, samples
+        self.shown = None    # what is being rendered: scene, view, size, samples
         self.process = None
-        self.left = []       # (size, samples) of the pictures that are still to be made, the next one first
+        self.left = []       # (size, samples) of the pictures still to be rendered, the next one first
         self.number = 0
         self.status = ""
 
     def show(self, scene, view, size, samples):
-        """scene, view: words. Begins afresh if these are others than before."""
+        """scene, view: words of the command line. Starts again if anything has changed."""
         if (scene, view, size, samples) == self.shown:
             return
         self.shown = scene, view, size, samples
@@ -40,7 +40,7 @@ class Session:
         self.process = Process(words, place, every=0.3, environment=self.environment)
 
     def poll(self):
-        """A picture that was not there before, or None. Raises Trouble once where the program fails."""
+        """Returns a new picture, or None. Raises Trouble once if the program fails."""
         process = self.process
         if process is None:
             return None

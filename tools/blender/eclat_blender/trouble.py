@@ -1,4 +1,4 @@
-"""What ends a render with one line for the user."""
+"""The exception that ends a render, with one line for the user."""
 
 
 class Trouble(Exception):

@@ -1,13 +1,13 @@
-"""The view of a 3D viewport as options of eclat. Pure functions of matrices, as rows of numbers."""
+"""Turns the view of a 3D viewport into options of eclat. Pure functions of matrices, given as rows of numbers."""
 import math
 
 from .options import number
 
-BACK = 20  # heights of the view by which parallel rays begin before the viewpoint
+BACK = 20  # parallel rays start so many view heights behind the viewpoint
 
 
 def window(projection):
-    """Left, right, bottom, top of the image plane, at distance 1 or, of parallel rays, in metres."""
+    """Returns left, right, bottom, top of the image plane: at distance 1 or, for parallel rays, in metres."""
     p = projection
     if p[3][3] == 1:  # parallel
         return tuple((sign - p[axis][3]) / p[axis][axis] for axis in (0, 1) for sign in (-1, 1))
@@ -19,7 +19,7 @@ def gltf(v):
 
 
 def words(camera, projection, size):
-    """camera: from its own axes to the world's, of a camera that looks along its -z; size: pixels of the picture."""
+    """camera: matrix from the camera's axes to the world's; the camera looks along its -z. size: of the picture in pixels."""
     left, right, bottom, top = window(projection)
     half = (top - bottom) / 2
     is_parallel = projection[3][3] == 1

@@ -1,4 +1,4 @@
-"""The rendered view of a 3D viewport. Drawing never waits: scenes are exported between events, and a process renders them."""
+"""The rendered view of a 3D viewport. Drawing never waits: scenes are exported between events, and another process renders them."""
 import atexit
 import hashlib
 import os
@@ -11,11 +11,11 @@ from .trouble import Trouble
 
 PAUSE = 0.3 # seconds without a change after which a scene is exported again
 teller = losses.Teller()
-shown = {} # by the space that draws them: an export makes Blender replace the engine
+shown = {} # viewports by the space that draws them, since an export makes Blender replace the engine
 
 
 def of(space, engine):
-    """The space's own, which lasts while it shows rendered views."""
+    """Returns the viewport of a space, which lasts as long as the space shows rendered views."""
     key = space.as_pointer()
     viewport = shown[key] = shown.get(key) or Viewport(key)
     if not engine.has_begun:
@@ -27,21 +27,21 @@ def of(space, engine):
 class Viewport:
     def __init__(self, key):
         self.key = key
-        self.engines = self.looked_at = 0 # so many have drawn it; so many of them have had a first look at the scene
+        self.engines = self.looked_at = 0 # how many engines have drawn it; how many of them have had a first look at the scene
         self.session = self.scene_words = self.texture = self.place = None
         self.changed_at, self.exported_at = time.monotonic(), None
         self.trouble = ""
         bpy.app.timers.register(self.tick, first_interval=0.01)
 
     def update(self, depsgraph):
-        """Something of the scene has changed, unless this is a new engine's first look, or what an export itself has touched."""
+        """Notes that the scene has changed, unless this is a new engine's first look, or the change comes from an export."""
         self.place = depsgraph.scene.original, depsgraph.view_layer.name
         is_first, self.looked_at = self.looked_at < self.engines, self.engines
         if not is_first and (self.exported_at is None or time.monotonic() - self.exported_at > PAUSE):
             self.changed_at = time.monotonic()
 
     def tick(self):
-        """Between events. Returns the seconds until the next time; None once the space shows something else."""
+        """Called between events. Returns the seconds until the next call; None once the space shows something else."""
         if not any(space.as_pointer() == self.key and space.shading.type == "RENDERED" for space in views()):
             self.close()
         if shown.get(self.key) is not self:
@@ -117,7 +117,7 @@ def close_all():
 
 
 def kept_as(path):
-    """The same scene under the same name, so that nothing begins afresh where an export brings nothing new."""
+    """Gives the same scene the same name, so that nothing starts again if an export brings nothing new."""
     with open(path, "rb") as file:
         name = f"{hashlib.sha256(file.read()).hexdigest()[:16]}.glb"
     kept = os.path.join(os.path.dirname(path), name)
@@ -126,7 +126,7 @@ def kept_as(path):
 
 
 def views():
-    """Spaces of all 3D views on the screen."""
+    """Returns the spaces of all 3D views on the screen."""
     return [area.spaces.active for area in areas()]
 
 

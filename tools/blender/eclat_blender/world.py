@@ -1,4 +1,4 @@
-"""The world as the option --env: a colour, or an equirectangular picture with its strength and rotation."""
+"""Turns the world into the option --env: a colour, or an equirectangular picture with its strength and rotation."""
 import math
 import os
 
@@ -9,7 +9,7 @@ from .options import number
 
 
 def words(world, folder):
-    """Options, and names of what they do not carry. A picture that is no .hdr or .exr file by itself is written into the folder."""
+    """Returns options, and names of what they cannot express. A picture that is not already an .hdr or .exr file is written into the folder."""
     if world is None:
         return ["--env=0,0,0"], []
     tree = nodes.tree(world)
@@ -43,7 +43,7 @@ def constant(color):
 
 
 def linked(socket):
-    """The node that a socket gets its value from, past reroutes."""
+    """Returns the node that a socket gets its value from, behind any reroutes."""
     while socket is not None and socket.is_linked:
         node = socket.links[0].from_node
         if node.bl_idname != "NodeReroute":
@@ -60,7 +60,7 @@ def surface(tree):
 
 
 def rotation(world, mapping):
-    """Degrees by which the picture turns counter-clockwise: a mapping turns the direction that is looked up, the other way round."""
+    """Returns the degrees by which the picture turns counter-clockwise. A mapping node turns the lookup direction, so its angle has the opposite sign."""
     if mapping is None or mapping.bl_idname == "ShaderNodeTexCoord":
         return 0.0, []
     if mapping.bl_idname != "ShaderNodeMapping":
@@ -87,7 +87,7 @@ LINEAR = ("Linear Rec.709", "Linear", "Non-Color", "Linear BT.709")
 
 
 def pixels(image):
-    """Linear, rows from the top."""
+    """Returns linear pixels, rows from the top."""
     width, height = image.size
     values = numpy.empty(width * height * 4, numpy.float32)
     image.pixels.foreach_get(values)
