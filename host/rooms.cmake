@@ -1,8 +1,8 @@
-# Rooms: the folders of host/, each a static library, with the rooms that it may use. Data flows down this list and nothing refers back: the linker
-# sees to it (room_NAME_alone is NAME with these rooms and what they use), and tests/cli/test_neighbours.py looks at every include and symbol.
+# Rooms: the folders of host/. Each is a static library, listed with the rooms that it may use. A room uses only rooms above it. The linker
+# checks this (room_NAME_alone links NAME with these rooms and what they use), and tests/cli/test_neighbours.py checks every include and symbol.
 set(rooms "")
 
-# Sources beside those of the folder: NAME_more. In place of them: NAME_only.
+# NAME_more: sources in addition to those of the folder. NAME_only: sources instead of them.
 function(eclat_room name)
   file(GLOB sources CONFIGURE_DEPENDS host/${name}/*.c host/${name}/*.cpp)
   if(${name}_only)
@@ -28,7 +28,7 @@ set(image_more ${encoder_sources})
 set(cl_more ${embedded_kernels})
 set(cost_more ${embedded_page})
 set(jobs_more ${embedded_gallery})
-set(ranks_only launcher.c mpi_load.c plan.c) # the others are the module eclat-mpi
+set(ranks_only launcher.c mpi_load.c plan.c) # the other files are in the module eclat-mpi
 
 eclat_room(base)
 eclat_room(film base)
@@ -52,7 +52,7 @@ eclat_room(live base cl denoise device film gltf image jobs pack render report s
 eclat_room(commands accel base cl cost device film gltf image jobs ranks report scene selftest)
 eclat_room(lib base cl commands film jobs live ranks report scene)
 
-# Rooms that know nothing of OpenCL, once more as a library by other compiler options. A second argument is a pattern that chooses among their files.
+# Makes another library of the rooms that know nothing of OpenCL, for other compiler options. A second argument is a pattern that selects files.
 set(host_rooms base film image denoise scene gltf accel pack)
 function(eclat_host_library name)
   foreach(room ${host_rooms})
