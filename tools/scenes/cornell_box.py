@@ -46,7 +46,7 @@ def linear_srgb(xyz):
 
 
 def integrate(power):
-    """XYZ of a spectrum over 400..700 nm, and the integral of y alone."""
+    """Returns XYZ of a spectrum over 400..700 nm, and the integral of y alone."""
     total = [0.0, 0.0, 0.0]
     flat = 0.0
     for nm in range(400, 701):
@@ -57,7 +57,7 @@ def integrate(power):
 
 
 def reflectance(values):
-    """Linear sRGB of a paint: its colour under D65 over that of a perfect white under D65. A grey paint stays grey."""
+    """Returns the linear sRGB of a paint: its colour under D65 over that of a perfect white under D65. A grey paint stays grey."""
     table = [(400 + 4 * i, float(v)) for i, v in enumerate(values.split())]
     d65 = [(400 + 10 * i, v) for i, v in enumerate(D65)]
     paint, _ = integrate(lambda nm: between(table, nm) * between(d65, nm))
@@ -66,7 +66,7 @@ def reflectance(values):
 
 
 def adapted(xyz):
-    """Bradford adaptation from 4000 K to D65: a camera at its preset for fluorescent lamps. The light stays warm, not orange."""
+    """Adapts (Bradford) from 4000 K to D65, like a camera at its preset for fluorescent lamps. The light stays warm, not orange."""
     cone = ((0.8951, 0.2664, -0.1614), (-0.7502, 1.7135, 0.0367), (0.0389, -0.0685, 1.0296))
     back = ((0.9869929, -0.1470543, 0.1599627), (0.4323053, 0.5183603, 0.0492912), (-0.0085287, 0.0400428, 0.9684867))
     times = lambda m, v: [sum(a * b for a, b in zip(row, v)) for row in m]
@@ -75,8 +75,8 @@ def adapted(xyz):
 
 
 def emission():
-    """Linear sRGB of the lamp. The published values have no unit: here a flat spectrum of value 1 would have the luminance
-    BRIGHTNESS, which exposes the picture well as it is."""
+    """Returns the linear sRGB of the lamp. The published values have no unit. Here a flat spectrum of value 1 would have the luminance
+    BRIGHTNESS, which exposes the picture well."""
     xyz, flat = integrate(lambda nm: between(LIGHT, nm))
     return [round(BRIGHTNESS * c / flat, 3) for c in linear_srgb(adapted(xyz))]
 
@@ -85,7 +85,7 @@ def metres(points):
     return [tuple(x / 1000.0 for x in p) for p in points]
 
 
-# Corners in millimetres as published, each listed so that it is counter-clockwise seen from inside the box.
+# Corners in millimetres as published; each face is counter-clockwise as seen from inside the box.
 FLOOR = [(552.8, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 559.2), (549.6, 0.0, 559.2)]
 CEILING = [(556.0, 548.8, 0.0), (556.0, 548.8, 559.2), (0.0, 548.8, 559.2), (0.0, 548.8, 0.0)]
 LAMP = [(343.0, 548.8, 227.0), (343.0, 548.8, 332.0), (213.0, 548.8, 332.0), (213.0, 548.8, 227.0)]
@@ -97,7 +97,7 @@ TALL_BLOCK = ([(423.0, 247.0), (265.0, 296.0), (314.0, 456.0), (472.0, 406.0)], 
 
 
 def block(corners, height):
-    """Top and four sides; the bottom stands on the floor."""
+    """Returns the top and four sides; the bottom stands on the floor."""
     out = polygon(*metres([(x, height, z) for x, z in corners]))
     for (x0, z0), (x1, z1) in zip(corners, corners[1:] + corners[:1]):
         out.append(polygon(*metres([(x0, 0.0, z0), (x1, 0.0, z1), (x1, height, z1), (x0, height, z0)])))
@@ -105,7 +105,7 @@ def block(corners, height):
 
 
 def two_triangles(corners):
-    """The left wall's published corners do not lie in one plane: each half gets its own normal."""
+    """Splits the left wall: its published corners do not lie in one plane, so each half gets its own normal."""
     a, b, c, d = metres(corners)
     return polygon(a, b, c).append(polygon(a, c, d))
 

@@ -7,7 +7,7 @@ from scenes.mesh import box, icosphere, lathe, quad
 from scenes.showcase import panel
 
 WHITE = (1.0, 1.0, 1.0)
-OVERLAP = 0.004  # of the liquid and the wall that holds it
+OVERLAP = 0.004  # by which the liquid reaches into the wall that holds it
 
 
 def inner_radius(y):

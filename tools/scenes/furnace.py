@@ -16,7 +16,7 @@ def closed_box(folder, albedo):
 
 
 def mixed_box(folder):
-    """Six walls, six materials, all emitting 1. Not a known number, but all light strategies must agree on it."""
+    """Six walls of six materials, all emitting 1. The value is not known, but all light strategies must agree on it."""
     g = Gltf()
     look = dict(emission=(1.0, 1.0, 1.0))
     materials = [g.material("matt", (0.5, 0.5, 0.5), lambert=True, **look),
@@ -48,7 +48,7 @@ def spheres(folder):
 
 
 def plates(folder):
-    """Coplanar plates seen at a fixed angle, so that every pixel of one has the same directional albedo."""
+    """Coplanar plates seen at a fixed angle, so that every pixel of a plate has the same directional albedo."""
     g = Gltf()
     looks = [("lambert-0.8", (0.8,) * 3, dict(lambert=True)), ("metal-alpha-0.1", (1.0,) * 3, dict(metallic=1.0, roughness=math.sqrt(0.1))),
              ("metal-alpha-0.5", (1.0,) * 3, dict(metallic=1.0, roughness=math.sqrt(0.5))),

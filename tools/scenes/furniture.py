@@ -1,4 +1,4 @@
-"""Furniture of a few formulas each: shapes that stand on y = 0 at the origin, in metres."""
+"""Furniture made by a few formulas each: shapes that stand on y = 0 at the origin, in metres."""
 import math
 
 from scenes.gltf import normalize
@@ -8,7 +8,7 @@ GOLDEN = (math.sqrt(5) - 1) / 2
 
 
 def bare(shape):
-    """Without texture coordinates, so that shapes of all kinds can be joined."""
+    """Removes texture coordinates, so that shapes of all kinds can be joined."""
     shape.uvs, shape.tangents = [], []
     return shape
 
@@ -60,7 +60,7 @@ def table(half_x, half_z, height):
 
 
 def chair(slats=7):
-    """Its back, at -z, is an arc of slats."""
+    """A chair. Its back, at -z, is an arc of slats."""
     out = joined(legs(0.18, 0.18, 0.44, 0.02, 0.014), board((-0.22, 0.44, -0.22), (0.22, 0.47, 0.22)))
     for k in range(slats):
         x = 0.2 * (2 * k / (slats - 1) - 1)
@@ -70,7 +70,7 @@ def chair(slats=7):
 
 
 def sofa(seats=3, width=0.62):
-    """Along x, its back at -z: frame and cushions."""
+    """A sofa along x, with its back at -z: frame and cushions."""
     half = seats * width / 2
     frame = joined(board((-half - 0.1, 0.08, -0.42), (half + 0.1, 0.26, 0.42)), board((-half - 0.1, 0.26, -0.42), (half + 0.1, 0.78, -0.3)),
                    board((-half - 0.14, 0.08, -0.42), (-half, 0.58, 0.42)), board((half, 0.08, -0.42), (half + 0.14, 0.58, 0.42)))
@@ -83,7 +83,7 @@ def sofa(seats=3, width=0.62):
 
 
 def shelf(width, height, depth, boards):
-    """Open to +z."""
+    """A shelf, open to +z."""
     out = board((-width / 2, 0.0, -depth / 2), (width / 2, height, -depth / 2 + 0.02))
     for x in (-width / 2, width / 2 - 0.025):
         out.append(board((x, 0.0, -depth / 2), (x + 0.025, height, depth / 2)))
@@ -94,7 +94,7 @@ def shelf(width, height, depth, boards):
 
 
 def books(width, height, depth, boards, covers=4):
-    """A mesh for each cover; widths, heights and gaps from multiples of the golden ratio."""
+    """A mesh for each cover colour; widths, heights and gaps come from multiples of the golden ratio."""
     out = [Mesh() for _ in range(covers)]
     count = 0
     for k in range(boards - 1):
@@ -109,7 +109,7 @@ def books(width, height, depth, boards, covers=4):
 
 
 def bowl(radius, height, wall=0.008, steps=10):
-    """Outside from the foot to the rim, then inside back to the middle."""
+    """A bowl: outside from the foot to the rim, then inside back to the middle."""
     def at(t, shrink):
         return (max(radius - shrink, 0.0) * math.sin(math.pi / 2 * t), height * (1 - math.cos(math.pi / 2 * t)) + shrink * (1 - t))
     outer, inner = [at(k / steps, 0.0) for k in range(steps + 1)], [at(k / steps, wall) for k in range(steps, -1, -1)]
@@ -117,13 +117,13 @@ def bowl(radius, height, wall=0.008, steps=10):
 
 
 def vase(height, steps=24):
-    """Closed at the top: its mouth is dark anyway."""
+    """A vase, closed at the top: its mouth is dark anyway."""
     profile = [(0.0, 0.0)] + [(height * (0.16 + 0.1 * math.sin(2 * math.pi * (0.9 * k / steps + 0.02))), height * k / steps) for k in range(steps + 1)]
     return lathe(profile + [(0.0, height)], 40)
 
 
 def foliage(leaves=70):
-    """Rhombic leaves on a spiral of golden angles; seen from both sides."""
+    """Rhombic leaves on a spiral of golden angles, visible from both sides."""
     out = Mesh()
     for k in range(leaves):
         turn, rise = 2 * math.pi * k * GOLDEN, (k + 0.5) / leaves

@@ -1,5 +1,5 @@
-"""What light does at glass: a clear ball and a frosted one, a star in amber, a block of coloured glass, a thin pane, lit by large lamps
-so that what they throw on the floor is found by paths."""
+"""How glass acts on light: a clear ball and a frosted one, a star in amber, a block of coloured glass, a thin pane. The lamps are large,
+so that paths find their caustics on the floor."""
 import math
 
 from scenes.gltf import Gltf, axis_angle

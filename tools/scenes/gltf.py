@@ -1,4 +1,4 @@
-"""Writes glTF 2.0: one .gltf, one .bin, float32, one buffer view an accessor, everything named."""
+"""Writes glTF 2.0: one .gltf, one .bin, float32, one buffer view per accessor, everything named."""
 import json
 import math
 import os
@@ -17,12 +17,12 @@ _TYPE = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
 def float32(x):
-    """The nearest float32, as a Python float: what the buffer holds, so that min and max are exact."""
+    """Returns the nearest float32 as a Python float. It is the value in the buffer, so min and max are exact."""
     return struct.unpack("<f", struct.pack("<f", x))[0]
 
 
 def clean(x):
-    """A number for the JSON part: short, and never -0."""
+    """Returns a number for the JSON part: short, and never -0."""
     return round(float(x), 7) + 0.0
 
 
@@ -66,7 +66,7 @@ class Gltf:
         return self._add("accessors", item)
 
     def texture(self, name, png, wrap=(REPEAT, REPEAT), mag=LINEAR):
-        """png: the file's bytes. The same name twice is the same image."""
+        """png: the file's bytes. Textures of the same name share an image."""
         images = self.doc.get("images", [])
         image = next((i for i, x in enumerate(images) if x["name"] == name), None)
         if image is None:
@@ -97,7 +97,7 @@ class Gltf:
                  specular=None, double_sided=False, alpha_mode=None, cutoff=None, unlit=False, base_texture=None,
                  metallic_roughness_texture=None, normal_texture=None, normal_scale=None, emission_texture=None, transmission=None, ior=None, body=False, attenuation=None, extensions=None):
         """emission is radiance. lambert: no dielectric reflection at all (specularFactor 0). *_texture: texture_use().
-        body: light is refracted; attenuation: (colour, metres) of what is left of white light there.
+        body: light is refracted; attenuation: (colour, metres): what is left of white light after that distance.
         extensions: others, by name."""
         pbr = {"baseColorFactor": [clean(c) for c in base] + [alpha], "metallicFactor": clean(metallic),
                "roughnessFactor": clean(roughness)}
@@ -147,7 +147,7 @@ class Gltf:
         return self._add("materials", item)
 
     def mesh(self, name, shape, material):
-        """shape: mesh.Mesh. Its accessors are written once, however many meshes use it."""
+        """shape: a mesh.Mesh. Its accessors are written only once, however many meshes use it."""
         key = id(self)
         if shape.accessors.get(key) is None:
             shape.check(name)
@@ -189,7 +189,7 @@ class Gltf:
         return index
 
     def add(self, name, shape, material, **placing):
-        """A mesh and its node in one go."""
+        """Adds a mesh and its node."""
         return self.node(name, mesh=self.mesh(name, shape, material), **placing)
 
     def perspective(self, name, eye, target, yfov_degrees, aspect):
@@ -221,7 +221,7 @@ class Gltf:
         order = ["asset", "extensionsUsed", "extensions", "scene", "scenes", "nodes", "cameras", "meshes", "materials",
                  "textures", "samplers", "images", "accessors", "bufferViews", "buffers"]
         text = json.dumps({k: self.doc[k] for k in order if k in self.doc}, indent=1)
-        # Arrays of plain numbers on one line: the file is also for reading.
+        # Arrays of plain numbers go on one line, so that people can read the file.
         text = re.sub(r"\[([-+0-9.eE,\s]+)\]", lambda m: "[" + ", ".join(m.group(1).replace(",", " ").split()) + "]", text)
         files = {stem + ".gltf": text.encode() + b"\n", stem + ".bin": bytes(self.bin), **self.files}
         for name, data in files.items():
@@ -242,7 +242,7 @@ def cross(a, b):
 
 
 def look_rotation(eye, target, up=(0.0, 1.0, 0.0)):
-    """Quaternion (x, y, z, w) that turns -z towards the target: glTF's cameras, spots and directional lights."""
+    """Returns the quaternion (x, y, z, w) that turns -z towards the target, for glTF's cameras, spots and directional lights."""
     back = normalize([e - t for e, t in zip(eye, target)])
     if abs(back[1]) > 0.999999:
         up = (0.0, 0.0, -1.0)
@@ -251,7 +251,7 @@ def look_rotation(eye, target, up=(0.0, 1.0, 0.0)):
 
 
 def quaternion(x, y, z):
-    """Of the rotation whose matrix has the columns x, y, z."""
+    """Returns the quaternion of the rotation whose matrix has the columns x, y, z."""
     m = ((x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2]))
     trace = m[0][0] + m[1][1] + m[2][2]
     if trace > 0:

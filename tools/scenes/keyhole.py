@@ -1,16 +1,16 @@
 """Two rooms and a hole of 5 cm in the wall between them. The lamp hangs on the other side of that wall, so no point of the camera's
-room sees it: all light comes through the hole from matt walls, and one path in some thousands finds the hole."""
+room sees it. All light comes through the hole from matt walls, and only one path in some thousands finds the hole."""
 from scenes.gltf import Gltf
 from scenes.mesh import Mesh, box, polygon, ring, sheet
 
-X, Y, Z = 3.0, 2.5, 3.0            # each room
-THICK, HOLE = 0.02, 0.05           # of the wall; the hole's edge
-AT = (1.2, 1.5)                    # y and z of its middle
+X, Y, Z = 3.0, 2.5, 3.0            # size of each room
+THICK, HOLE = 0.02, 0.05           # of the wall; edge of the hole
+AT = (1.2, 1.5)                    # y and z of the hole's middle
 RADIANCE = 2e5
 
 
 def pierced(x, side):
-    """The wall's face at x; side +1 looks to +x."""
+    """The wall's face at x, with the hole; side +1 looks to +x."""
     y0, y1, z0, z1 = AT[0] - HOLE / 2, AT[0] + HOLE / 2, AT[1] - HOLE / 2, AT[1] + HOLE / 2
     outer = [(x, 0.0, Z), (x, 0.0, 0.0), (x, Y, 0.0), (x, Y, Z)]
     inner = [(x, y0, z1), (x, y0, z0), (x, y1, z0), (x, y1, z1)]
@@ -19,7 +19,7 @@ def pierced(x, side):
 
 
 def open_box(lo, hi, open_sides):
-    """A box seen from inside, less its face at the greatest x (+1), at the least (-1), or both."""
+    """A box seen from inside, without its face at the greatest x (+1), at the least x (-1), or both."""
     shape, kept = box(lo, hi, inward=True), Mesh()
     for first in range(0, len(shape.positions), 4):
         if -shape.normals[first][0] not in open_sides:

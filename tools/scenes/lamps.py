@@ -1,4 +1,4 @@
-"""A small room that uses every core feature once: it is looked at to see whether anything is broken."""
+"""A small room that uses every core feature once: a look at it shows whether anything is broken."""
 import math
 
 from scenes import png
@@ -6,7 +6,7 @@ from scenes.gltf import CLAMP, MIRROR, NEAREST, REPEAT, Gltf, axis_angle
 from scenes.mesh import Mesh, box, icosphere, lathe, polygon, quad, uv_sphere
 
 WIDTH, HEIGHT, DEPTH = 2.0, 2.6, 2.0  # half width, height, half depth of the room
-WINDOW = (0.9, 2.0, -0.7, 0.5)        # in the right wall: y from, y to, z from, z to
+WINDOW = (0.9, 2.0, -0.7, 0.5)        # in the right wall: from y, to y, from z, to z
 
 
 def tile_texture():
@@ -105,7 +105,7 @@ def make(folder):
           g.material("tiles", (1.0, 1.0, 1.0), roughness=0.35, base_texture=tiles))
     plaster = g.material("plaster", (0.72, 0.7, 0.66), lambert=True)
     g.add("back-wall", plain(quad((0.0, HEIGHT / 2, -DEPTH), (WIDTH, 0.0, 0.0), (0.0, HEIGHT / 2, 0.0))), plaster)
-    # The camera stands outside: it sees through the back of this single-sided wall, light inside does not leave by it.
+    # The camera stands outside. It sees through the back of this single-sided wall, but light inside does not leave through it.
     g.add("front-wall", plain(quad((0.0, HEIGHT / 2, DEPTH), (-WIDTH, 0.0, 0.0), (0.0, HEIGHT / 2, 0.0))), plaster)
     g.add("ceiling", plain(quad((0.0, HEIGHT, 0.0), (WIDTH, 0.0, 0.0), (0.0, 0.0, DEPTH))), plaster)
     g.add("left-wall", plain(quad((-WIDTH, HEIGHT / 2, 0.0), (0.0, 0.0, -DEPTH), (0.0, HEIGHT / 2, 0.0))),
@@ -120,7 +120,7 @@ def make(folder):
           double_sided=True,
                                         base_texture=use(g.texture("grille", grille()))))
     glass = quad((-0.75, 1.55, -DEPTH + 0.02), (0.55, 0.0, 0.0), (0.0, 0.55, 0.0))
-    glass.uvs1, glass.uvs = glass.uvs, [(0.0, 0.0)] * 4  # on the second set; a loader that takes the first shows one colour
+    glass.uvs1, glass.uvs = glass.uvs, [(0.0, 0.0)] * 4  # on the second set; a loader that uses the first shows a single colour
     g.add("stained-glass", glass, g.material("stained-glass", (0.0, 0.0, 0.0), lambert=True, emission=(4.0, 4.0, 4.0),
                                              emission_texture=use(g.texture("stained-glass", stained_glass(),
                                                    wrap=(CLAMP, CLAMP)), uv_set=1)))

@@ -1,4 +1,4 @@
-"""Triangle meshes: counter-clockwise seen from the front, normals on the side that the winding says."""
+"""Triangle meshes: counter-clockwise as seen from the front, with normals on that side."""
 import math
 
 from scenes.gltf import cross, normalize
@@ -52,7 +52,7 @@ class Mesh:
         return total
 
     def check(self, name):
-        """What a generator can get wrong: lengths, indices, zero area, normals against the winding."""
+        """Checks what a generator can get wrong: lengths, indices, zero area, normals against the winding."""
         count = len(self.positions)
         for stream in (self.normals, self.uvs, self.uvs1, self.colors, self.tangents):
             assert len(stream) in (0, count), name
@@ -71,7 +71,7 @@ def face_normal(a, b, c):
 
 
 def polygon(*points, uvs=None):
-    """A flat convex polygon, its corners counter-clockwise seen from the front."""
+    """A flat convex polygon; its corners are counter-clockwise as seen from the front."""
     n = face_normal(*points[:3])
     if uvs is None and len(points) == 4:
         uvs = [(0, 1), (1, 1), (1, 0), (0, 0)]
@@ -79,7 +79,7 @@ def polygon(*points, uvs=None):
 
 
 def ring(outer, inner):
-    """A polygon with a hole of as many corners: a quadrilateral from edge to edge."""
+    """A polygon with a hole of as many corners: quadrilaterals join the edges."""
     out = Mesh()
     for i in range(len(outer)):
         j = (i + 1) % len(outer)
@@ -89,7 +89,7 @@ def ring(outer, inner):
 
 
 def quad(center, u, v, uvs=None):
-    """Centre and two half edges; the front is the side of u x v."""
+    """A quad by its centre and two half edges; u x v points to its front."""
     corner = lambda s, t: tuple(c + s * a + t * b for c, a, b in zip(center, u, v))
     return polygon(corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1), uvs=uvs)
 
@@ -120,7 +120,7 @@ _ICO_FACES = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 
 
 
 def icosphere(radius=1.0, subdivisions=4):
-    """Smooth normals; vertices lie on the sphere. 20 x 4^subdivisions triangles."""
+    """A sphere of 20 x 4^subdivisions triangles, with smooth normals; its vertices lie on the sphere."""
     points, faces = list(_ICO_POINTS), list(_ICO_FACES)
     for _ in range(subdivisions):
         middle, finer = {}, []
@@ -140,7 +140,7 @@ def icosphere(radius=1.0, subdivisions=4):
 
 
 def uv_sphere(radius=1.0, columns=64, rows=32):
-    """With texture coordinates and tangents (along +u)."""
+    """A sphere with texture coordinates and tangents (along +u)."""
     out = Mesh()
     for j in range(rows + 1):
         theta = math.pi * j / rows
@@ -164,7 +164,7 @@ def uv_sphere(radius=1.0, columns=64, rows=32):
 
 
 def lathe(profile, segments=64, closed_ends=True):
-    """Turns (radius, height) points, from the bottom up, about y; every profile segment is a smooth band with crisp edges
+    """Turns (radius, height) points, from the bottom up, about y. Every segment of the profile is a smooth band, with sharp edges
     between bands. A radius of 0 closes the end."""
     out = Mesh()
     for (r0, y0), (r1, y1) in zip(profile, profile[1:]):
@@ -179,7 +179,7 @@ def lathe(profile, segments=64, closed_ends=True):
                 out.normals.append(n)
         for i in range(segments):
             a = base + 2 * i
-            b, c, d = a + 1, a + 2, a + 3  # a low, b high; c, d the next
+            b, c, d = a + 1, a + 2, a + 3  # a below, b above; c, d the next such pair
             if r0 > 0:
                 out.triangles.append((a, c, b) if r1 == 0 else (a, c, d))
             if r1 > 0:
@@ -188,7 +188,7 @@ def lathe(profile, segments=64, closed_ends=True):
 
 
 def torus_knot(p, q, radius, tube, along=320, around=24):
-    """The (p, q) torus knot with a round tube, smooth normals."""
+    """The (p, q) torus knot with a round tube and smooth normals."""
     def point(t):
         r = radius * (2 + math.cos(q * t)) / 3
         return (r * math.cos(p * t), r * math.sin(p * t), radius * math.sin(q * t) / 2)
@@ -217,7 +217,7 @@ def torus_knot(p, q, radius, tube, along=320, around=24):
 
 def star(radius=1.0, depth=0.447):
     """A small stellated dodecahedron: a five-sided spike on each face of a dodecahedron, flat facets. depth: distance of the
-    spikes' feet from the centre in units of the tips' (1/sqrt(5) = 0.447 makes the regular star)."""
+    spikes' feet from the centre, over that of their tips (1/sqrt(5) = 0.447 makes the regular star)."""
     out = Mesh()
     tips = _ICO_POINTS
     feet = [normalize([sum(tips[i][k] for i in f) for k in range(3)]) for f in _ICO_FACES]

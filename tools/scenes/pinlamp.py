@@ -1,13 +1,13 @@
-"""A room whose lamp, a square of 0.1 mm behind a screen, lights the camera's part by way of a mirror. No path from there meets it: what
-light sampling finds is the light that matt walls send round the screen, and that is all that a picture shows.
+"""A room whose lamp, a square of 0.1 mm behind a screen, lights the camera's part by way of a mirror. No path from the camera meets the lamp.
+Light sampling finds only the light that matt walls send round the screen, and a picture shows nothing else.
 
-unfolded.gltf has the same picture with the mirror left out: behind its frame is the mirrored room, with the mirrored lamp in it. Light
-sampling finds that lamp straight through the frame. The mirror reflects all light, so what one has is what the other has."""
+unfolded.gltf gives the same picture without the mirror: behind its frame is the mirrored room with the mirrored lamp. Light sampling finds that
+lamp directly through the frame. The mirror reflects all light, so both pictures are the same."""
 from scenes.gltf import Gltf
 from scenes.mesh import Mesh, ring, sheet
 
 X, Y, Z = 3.0, 2.5, 3.0                       # room: 0 <= x <= X and so on, the mirror's wall at x = 0
-MIRROR = (0.3, 2.2, 1.0, 2.3)                 # y from, y to, z from, z to
+MIRROR = (0.3, 2.2, 1.0, 2.3)                 # from y, to y, from z, to z
 SCREEN_X, SCREEN_Z = 1.0, 1.5                 # reaches from SCREEN_X to the wall at X, from floor to ceiling
 LAMP, EDGE, RADIANCE = (2.5, 1.2, 0.9), 1e-4, 6e9
 
@@ -20,7 +20,7 @@ def wall_around_mirror():
 
 
 def parts():
-    """(name, shape, colour): everything but mirror and lamp."""
+    """Returns (name, shape, colour) of everything but mirror and lamp."""
     screen = sheet(((SCREEN_X + X) / 2, Y / 2, SCREEN_Z), ((X - SCREEN_X) / 2, 0.0, 0.0), (0.0, Y / 2, 0.0))
     white = (0.7, 0.7, 0.7)
     return [("floor", sheet((X / 2, 0.0, Z / 2), (X / 2, 0.0, 0.0), (0.0, 0.0, -Z / 2)), (0.5, 0.4, 0.3)),

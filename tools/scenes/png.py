@@ -1,11 +1,11 @@
-"""PNG files, 8 bit, written by hand, and a little noise to fill them with. No library and no randomness but the seed."""
+"""Writes 8-bit PNG files, and makes noise to fill them with. Needs no library; the only randomness is the seed."""
 import math
 import struct
 import zlib
 
 
 def encode(width, height, channels, pixel):
-    """pixel(x, y) -> `channels` bytes (1 grey, 3 RGB, 4 RGBA)."""
+    """Encodes a picture. pixel(x, y) returns `channels` bytes (1 grey, 3 RGB, 4 RGBA)."""
     kind = {1: 0, 3: 2, 4: 6}[channels]
     raw = bytearray()
     previous = bytes(width * channels)
@@ -13,7 +13,7 @@ def encode(width, height, channels, pixel):
         row = bytearray()
         for x in range(width):
             row += bytes(pixel(x, y))
-        # "Up" and "sub" filters; the smaller sum of differences wins, as the PNG specification suggests.
+        # Filter "up" or "sub", whichever has the smaller sum of differences, as the PNG specification suggests.
         sub = bytes((row[i] - (row[i - channels] if i >= channels else 0)) & 255 for i in range(len(row)))
         up = bytes((a - b) & 255 for a, b in zip(row, previous))
         cost = lambda data: sum(min(b, 256 - b) for b in data)
@@ -29,7 +29,7 @@ def encode(width, height, channels, pixel):
 
 
 def srgb(linear):
-    """Linear 0..1 to an sRGB byte."""
+    """Converts linear 0..1 to an sRGB byte."""
     c = min(max(linear, 0.0), 1.0)
     c = 12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055
     return int(c * 255 + 0.5)
@@ -40,7 +40,7 @@ def byte(x):
 
 
 def hash01(x, y, seed):
-    """Uniform in 0..1 from integers: a 32-bit mix (lowbias32, C. Wellons)."""
+    """Returns a uniform number in 0..1 from integers: a 32-bit mix (lowbias32, C. Wellons)."""
     h = (x * 0x9E3779B1 ^ y * 0x85EBCA77 ^ seed * 0xC2B2AE3D) & 0xFFFFFFFF
     h ^= h >> 16
     h = h * 0x7FEB352D & 0xFFFFFFFF
@@ -62,7 +62,7 @@ def value_noise(x, y, period, seed):
 
 
 def cells(x, y, period, seed):
-    """Worley cells on a repeating lattice: (distance to the nearest point, to the second, the nearest cell's id 0..1)."""
+    """Worley cells on a repeating lattice. Returns (distance to the nearest point, to the second, the nearest cell's id 0..1)."""
     xi, yi = math.floor(x), math.floor(y)
     first = second = 9.0
     name = 0.0

@@ -1,4 +1,4 @@
-"""A prism of strongly dispersive glass, and lamps like tubes around it: seen through the glass, each tube is three, one a colour."""
+"""A prism of strongly dispersive glass, with tube lamps around it: seen through the glass, each tube appears three times, once in each colour."""
 import math
 
 from scenes.gltf import Gltf, axis_angle
@@ -6,11 +6,11 @@ from scenes.mesh import Mesh, polygon, sheet
 from scenes.showcase import panel
 
 SIDE, HEIGHT = 0.8, 0.75
-TUBES, ROUND = 16, 2.6  # how many, on a circle of this radius
+TUBES, ROUND = 16, 2.6  # number of tubes; radius of their circle
 
 
 def prism():
-    """Standing: three faces, foot and top; outwards."""
+    """An upright prism: three faces, foot and top, facing outwards."""
     corners = [(SIDE / math.sqrt(3) * math.sin(2 * math.pi * k / 3), SIDE / math.sqrt(3) * math.cos(2 * math.pi * k / 3)) for k in range(3)]
     out = Mesh()
     for k in range(3):
@@ -30,7 +30,7 @@ def make(folder):
     g.add("prism", prism(), glass, translation=(0.0, 0.002, 0.0), rotation=axis_angle((0, 1, 0), 12))
     for k in range(TUBES):
         a = 2 * math.pi * (k + 0.5) / TUBES
-        if math.cos(a) < 0.75:  # not where the camera is
+        if math.cos(a) < 0.75:  # leaves out tubes near the camera
             at = (ROUND * math.sin(a), 0.62, ROUND * math.cos(a))
             panel(g, f"tube-{k}", at, (0.0, 0.62, 0.0), 0.6, 0.05, (1.0, 1.0, 1.0), 6.0)
     g.perspective("camera", (0.0, 1.0, 4.0), (0.0, 0.36, 0.0), 20.0, 1.5)

@@ -1,5 +1,5 @@
-"""A polished ring on a matt sheet: the caustic that everyone knows from a cup. Path tracing finds it only where a path that leaves
-the sheet meets the lamp by way of the mirror, so few samples carry much light: the hard case for a stated error."""
+"""A polished ring on a matt sheet, with the caustic that everyone knows from a cup. Path tracing finds it only if a path that leaves
+the sheet meets the lamp by way of the mirror, so few samples carry much light: a hard case for a stated error."""
 import math
 
 from scenes.gltf import Gltf, normalize
@@ -37,7 +37,7 @@ def make(folder):
     g.add("ring", ring, g.material("ring", (1.0, 0.78, 0.34), metallic=1.0, roughness=0.0))
     ball = icosphere(RADIUS, 2)
     radiance = POWER / math.pi / ball.area()
-    ball.normals = []  # facets, so that area and picture agree
+    ball.normals = []  # flat facets, so that area and picture agree
     g.add("lamp", ball, g.material("lamp", (0.0, 0.0, 0.0), lambert=True, emission=(radiance,) * 3), translation=LAMP)
     g.perspective("camera", (0.9, 3.2, 2.6), (0.1, 0.1, 0.0), 36.0, 1.5)
     g.write(folder, "ring")

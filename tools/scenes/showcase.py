@@ -14,7 +14,7 @@ def terrazzo(size=512):
     chips = [(0.72, 0.66, 0.58), (0.48, 0.27, 0.2), (0.2, 0.29, 0.31), (0.8, 0.78, 0.74), (0.1, 0.1, 0.12),
           (0.56, 0.45, 0.3)]
     cement = (0.36, 0.35, 0.35)
-    layers = [(9, 11, 0.16), (23, 21, 0.14)]  # cells a tile, seed, half width of the joint
+    layers = [(9, 11, 0.16), (23, 21, 0.14)]  # cells per tile, seed, half width of the joint
     picture = []
     for y in range(size):
         row = []
@@ -24,7 +24,7 @@ def terrazzo(size=512):
                 u, v = x / size * period, y / size * period
                 first, second, name = png.cells(u, v, period, seed)
                 if name < 0.62:
-                    edge = (second - first - 2 * gap) * size / period / 2  # in texels, for a soft rim
+                    edge = (second - first - 2 * gap) * size / period / 2  # distance from the rim in texels, for a soft rim
                     cover = min(max(edge + 0.5, 0.0), 1.0)
                     stone = chips[int(name / 0.62 * len(chips)) % len(chips)]
                     color = tuple(c + (s - c) * cover for c, s in zip(color, stone))
@@ -109,7 +109,7 @@ def make(folder):
           translation=(0.0, 0.0, -0.25))
 
     gold = g.material("gold", GOLD, metallic=1.0, roughness=0.16)
-    # Standing on a tip: the icosahedron's vertex (0, -1, phi) turned to point down.
+    # The star stands on a tip: the icosahedron's vertex (0, -1, phi) points down.
     tip = normalize((0.0, -1.0, (1 + math.sqrt(5)) / 2))
     turn = axis_angle(cross(tip, (0.0, -1.0, 0.0)), math.degrees(math.acos(-tip[1] * -1.0)))
     spin = axis_angle((0, 1, 0), 26)
@@ -147,7 +147,7 @@ def make(folder):
     panel(g, "top", (0.0, 3.8, -0.2), (0.0, 0.0, -0.2), 0.35, 1.4, (1.0, 0.96, 0.9), 8.0)
     panel(g, "wash-blue", (-3.6, 0.9, -2.2), (-1.2, 1.4, -3.6), 0.5, 0.3, (0.15, 0.35, 1.0), 14.0)
     panel(g, "wash-rose", (3.6, 0.9, -2.2), (1.2, 1.4, -3.6), 0.5, 0.3, (1.0, 0.35, 0.3), 11.0)
-    # Big and dim, so that metal has something to mirror where no lamp is.
+    # Big and dim, so that metal has something to mirror where there is no lamp.
     panel(g, "front-card", (0.5, 3.0, 8.0), (0.0, 0.8, 0.0), 2.2, 4.5, (0.8, 0.88, 1.0), 0.55)
     panel(g, "left-card", (-6.0, 2.6, 1.5), (0.0, 0.8, 0.0), 2.4, 2.4, (1.0, 0.8, 0.66), 0.7)
     panel(g, "right-card", (5.0, 3.6, 2.2), (0.0, 0.8, 0.0), 2.4, 2.4, (0.66, 0.8, 1.0), 1.0)
@@ -157,7 +157,7 @@ def make(folder):
 
 
 def multiply(a, b):
-    """Quaternion of the rotation b followed by a."""
+    """Returns the quaternion of the rotation b followed by a."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,

@@ -29,7 +29,7 @@ def lamps(g, steel):
     g.add("shade-over-table", lathe([(0.34, 1.48), (0.16, 1.76)], 40), shade, translation=(-0.1, 0.0, -0.35))
     g.add("cord", f.board((-0.004, 1.76, -0.004), (0.004, Y, 0.004)), steel, translation=(-0.1, 0.0, -0.35))
     bulb = icosphere(0.1, 0)
-    bulb.normals = []  # facets, so that area and picture agree
+    bulb.normals = []  # flat facets, so that area and picture agree
     lamp("bulb-over-table", bulb, warm, 40.0, translation=(-0.1, 1.6, -0.35))
     g.add("uplight", lathe([(0.0, 0.0), (0.16, 0.0), (0.16, 0.02), (0.015, 0.03), (0.015, 1.6), (0.19, 1.78)], 40),
           g.material("brass", (0.55, 0.45, 0.3), lambert=True, double_sided=True), translation=(-2.55, 0.0, -1.95))

@@ -11,7 +11,7 @@ THIN, THICK = 80.0, 700.0  # nanometres
 
 
 def drained(x, y):
-    """Thickness in green: it grows downwards, in folds."""
+    """Thickness in the green channel; it grows downwards, in folds."""
     u, v = x / SIZE, y / SIZE
     fold = png.value_noise(u * 4, v * 8, 4, 5) - 0.5 + 0.5 * (png.value_noise(u * 8, v * 16, 8, 9) - 0.5)
     depth = 0.5 - 0.5 * math.cos(math.pi * min(max(v, 0.0), 1.0))

@@ -1,4 +1,4 @@
-"""A floor with three spheres, matt, metal and plastic, and no lamp: what an environment map does, and nothing else."""
+"""A floor with three spheres, matt, metal and plastic, and no lamp: only the environment map lights it."""
 from scenes.gltf import Gltf
 from scenes.mesh import icosphere, sheet
 

@@ -1,4 +1,4 @@
-"""A teapot in a stadium: nearly all triangles in a hundred-thousandth of a large sparse scene, which defeats a uniform grid."""
+"""A teapot in a stadium: nearly all triangles lie in a hundred-thousandth of a large sparse scene, which defeats a uniform grid."""
 import math
 
 from scenes.gltf import Gltf

@@ -1,4 +1,4 @@
-"""A photographer's table for one thing about a metre across at the origin: a backdrop, two soft boxes, a camera of 3:2."""
+"""A photographer's table for one object about a metre across at the origin: a backdrop, two soft boxes, a 3:2 camera."""
 from scenes.gltf import Gltf
 from scenes.showcase import panel, sweep
 

@@ -1,4 +1,4 @@
-"""Balls of 80 and 320 facets with a round one's normals, under a small lamp: where light grazes them, a facet turns away from the lamp
+"""Balls of 80 and 320 facets with the normals of a sphere, under a small lamp. Where light grazes them, a facet turns away from the lamp
 before the smooth surface does."""
 from scenes.gltf import Gltf
 from scenes.mesh import icosphere, quad

@@ -6,7 +6,7 @@ from scenes.mesh import Mesh, icosphere, lathe, sheet
 
 
 def rounded(half, round_):
-    """A box with round edges: a sphere's eight parts moved to its corners, the triangles between them its faces."""
+    """A box with round edges: the eight parts of a sphere are moved to the corners, and the triangles between them become the faces."""
     ball = icosphere(1.0, 3)
     move = lambda n, h: round_ * n + (math.copysign(h - round_, n) if abs(n) > 1e-9 else 0.0)
     return Mesh([tuple(move(n, h) for n, h in zip(p, half)) for p in ball.positions], ball.triangles, ball.normals)

@@ -1,4 +1,4 @@
-"""A glass vase on a matt floor, for an environment map with a sun: what the sun does behind glass no light sampling finds."""
+"""A glass vase on a matt floor, for an environment map with a sun. Light sampling cannot find the sun through glass."""
 import math
 
 from scenes.gltf import Gltf, normalize
@@ -12,7 +12,7 @@ def radius(y):
 
 
 def profile():
-    """(radius, height) from the foot's middle up outside, over the rim, and down inside."""
+    """Returns (radius, height) from the foot's middle up on the outside, over the rim, and down on the inside."""
     outside = [(radius(HEIGHT * k / STEPS), HEIGHT * k / STEPS) for k in range(STEPS + 1)]
     rim = [(radius(HEIGHT) - WALL / 2, HEIGHT + WALL / 2)]
     inside = [(radius(y) - WALL, y) for y in (FOOT + (HEIGHT - FOOT) * k / STEPS for k in range(STEPS, -1, -1))]
@@ -20,7 +20,7 @@ def profile():
 
 
 def turned(points):
-    """Turns a profile about y; normals are smooth along it and around."""
+    """Turns a profile about y; normals are smooth in both directions."""
     out, count = Mesh(), len(points)
     for k, (r, y) in enumerate(points):
         (r0, y0), (r1, y1) = points[max(k - 1, 0)], points[min(k + 1, count - 1)]

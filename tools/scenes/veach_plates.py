@@ -36,8 +36,8 @@ def make(folder):
     for i, (radius, tint) in enumerate(zip(RADII, tints)):
         ball = icosphere(radius, 3)
         luminance = 0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2]
-        radiance = POWER / math.pi / ball.area() / luminance  # of the facets, not of the sphere around them
-        ball.normals = []                                     # facets, so that area and picture agree
+        radiance = POWER / math.pi / ball.area() / luminance  # by the area of the facets, not of the sphere around them
+        ball.normals = []                                     # flat facets, so that area and picture agree
         name = f"lamp-radius-{radius}"
         g.add(name, ball, g.material(name, (0.0, 0.0, 0.0), lambert=True, emission=[radiance * c for c in tint]),
               translation=(-3.75 + 2.5 * i, LAMPS[1], LAMPS[2]))

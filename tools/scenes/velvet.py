@@ -21,7 +21,7 @@ def cushion():
     out = Mesh()
     for side in (1, -1):
         at = lambda i, j: point(2 * i / STEPS - 1, 2 * j / STEPS - 1, side)
-        near = lambda i: min(max(i, 0.5), STEPS - 0.5)  # where the bag closes it is as steep as a step before
+        near = lambda i: min(max(i, 0.5), STEPS - 0.5)  # at the seam, the slope is that of half a step inside
         base = len(out.positions)
         for j in range(STEPS + 1):
             for i in range(STEPS + 1):

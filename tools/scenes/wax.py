@@ -7,21 +7,21 @@ from scenes.stage import stage
 
 
 def scatters(color, forward, attenuation, ior, roughness):
-    """A body that light enters and leaves diffusely, and that scatters it inside."""
+    """A body that light enters and leaves diffusely, and that scatters light inside."""
     return {"base": (1.0, 1.0, 1.0), "roughness": roughness, "ior": ior, "body": True, "attenuation": attenuation,
             "extensions": {"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1.0},
                            "KHR_materials_volume_scatter": {"multiscatterColorFactor": list(color), "scatterAnisotropy": forward}}}
 
 
 def candle(radius, height, bowl):
-    """Closed, with a hollow around the wick and a rounded rim."""
+    """A closed candle, with a hollow around the wick and a rounded rim."""
     rim = [(radius - 0.04 * (1 - math.cos(a)), height - 0.04 * (1 - math.sin(a))) for a in (math.pi / 2 * k / 6 for k in range(7))]
     hollow = [(radius * 0.72 * math.cos(a), height - bowl * math.sin(a)) for a in (math.pi / 2 * k / 8 for k in range(8))]
     return lathe([(0.0, 0.0), (radius, 0.0)] + rim + hollow + [(0.0, height - bowl)], 64)
 
 
 def flame(y):
-    """A drop."""
+    """A flame in the shape of a drop."""
     return lathe([(0.0, y)] + [(0.035 * math.sin(math.pi * t) * (1 - 0.45 * t), y + 0.16 * t) for t in (k / 12 for k in range(1, 12))] + [(0.0, y + 0.16)], 24)
 
 
