@@ -1,5 +1,5 @@
-"""Makes the wheel: the Python package by hatchling, what the repository builds by tools/build, and by auditwheel the shared libraries that
-not every Linux has. $ECLAT_BUILD names the build folder, from the root of the repository; what is built there is used again."""
+"""Makes the wheel: hatchling adds the Python package, tools/build builds the library and programs, and auditwheel adds the shared libraries that not
+every Linux has. $ECLAT_BUILD names the build folder, relative to the root of the repository; what is already built there is used again."""
 from __future__ import annotations
 
 import os
@@ -18,9 +18,9 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 BUILD = ROOT / os.environ.get("ECLAT_BUILD", "build")
-# What the package has of what `cmake --install` puts down; the linker finds all of it in one folder.
+# The parts of what `cmake --install` installs that go into the package, all in one folder, where the linker finds them.
 PARTS = ["bin/eclat", "**/eclat-compile", "**/libeclat.so.0"]
-# Debian packages of which something is compiled in and whose licence asks to be passed on, beside the libraries that are linked.
+# Besides linked libraries: Debian packages that are compiled in, and whose licence must be passed on.
 COMPILED_IN = ["libjs-chart.js", "libtinygltf-dev", "nlohmann-json3-dev"]
 
 
@@ -53,12 +53,12 @@ class BuiltParts(BuildHookInterface):  # type: ignore[type-arg]
 
 
 def package_of(library: str) -> str:
-    """The Debian package that a library is from."""
+    """Returns the Debian package that a library is from."""
     return run("dpkg-query", "-S", f"*/{library}").split(":")[0]
 
 
 def add_licences(wheel: Path) -> None:
-    """Beside eclat's own licence those of the libraries that auditwheel has put into the wheel, and of what is compiled in."""
+    """Adds eclat's licence, those of the libraries that auditwheel has put into the wheel, and those of what is compiled in."""
     folder = next(wheel.glob("*.dist-info")) / "licenses"
     bundled = folder / "bundled"
     bundled.mkdir(parents=True)
@@ -89,7 +89,7 @@ def build_sdist(sdist_directory: str, config_settings: dict[str, Any] | None = N
 
 
 class UnsupportedOperation(Exception):
-    """What PEP 517 asks for where there is no source distribution."""
+    """The exception that PEP 517 requires if there is no source distribution."""
 
 
 get_requires_for_build_wheel = hatchling.get_requires_for_build_wheel

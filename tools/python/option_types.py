@@ -1,4 +1,4 @@
-"""Type hints of the options, for editors and type checkers, from the library's own table: eclat/_option_types.py of the wheel."""
+"""Writes eclat/_option_types.py of the wheel: type hints of the options, for editors and type checkers, from the library's own table."""
 from __future__ import annotations
 
 import sys
@@ -14,12 +14,12 @@ from typing import Literal, TypedDict, Union
 
 Path = Union[str, "os.PathLike[str]"]
 '''
-# By what help calls the value; numbers else.
+# By the name of the value in help; others are numbers.
 TYPES = {"WxH": "Union[tuple[int, int], str]", "X,Y,Z": "Union[Sequence[float], str]", "A:B": "Union[tuple[float, float], str]",
          "FILE|R,G,B": "Union[Path, Sequence[float]]", "NAME|FILE": "Union[Path, Sequence[float]]", "FILE": "Path",
          "NAME|INDEX": "Union[int, str]", "ID": "Union[int, str]",
          "LIST": "Union[Sequence[str], str]", "EFFECT": "Union[Sequence[str], str]"}
-# (class, its base, command, options that are parameters by name)
+# (class, its base, command, options that the function has as named parameters)
 NAMED = {"error", "spp", "size", "time"}
 CLASSES = [("InfoOptions", "TypedDict", "info", set()), ("CostOptions", "TypedDict", "cost", {"budget"}), ("RenderOptions", "TypedDict", "render", NAMED)]
 
@@ -35,7 +35,7 @@ def type_of(option) -> str:  # type: ignore[no-untyped-def]
 
 
 def write(package: Path, library: Path) -> str:
-    """Without the package's __init__, which takes NumPy."""
+    """Imports the table without the package's __init__, which needs NumPy."""
     stub = types.ModuleType("eclat")
     stub.__path__ = [str(package)]
     sys.modules["eclat"] = stub

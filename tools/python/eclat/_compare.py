@@ -1,4 +1,4 @@
-"""Two pictures side by side: how far apart they are, and whether noise alone explains it."""
+"""Compares two pictures: how far apart they are, and whether noise alone explains it."""
 from __future__ import annotations
 
 import json
@@ -19,18 +19,18 @@ Source = Union[File, Picture]
 
 @dataclass(frozen=True)
 class Comparison:
-    """Of a against the reference b."""
+    """The difference of picture a from the reference b."""
     error: float                     # root mean square difference of luminance, as a fraction of b's mean luminance
-    error_of_noise: float | None  # what noise alone makes of it; None: a picture without standard errors
+    error_of_noise: float | None  # the part that noise alone explains; None: a picture has no standard errors
     rmse: float
     relmse: float
     mape: float
     psnr: float | None            # in dB; None: the pictures are equal
-    flip: float                      # how different they look: 0 alike, 1 as different as can be
-    ssim: float | None            # structural similarity, 1 alike; None: the pictures are smaller than its windows
-    p: float | None               # that noise alone makes so large a difference; None: neither picture has standard errors
+    flip: float                      # how different they look: 0 is equal, 1 is as different as possible
+    ssim: float | None            # structural similarity, 1 is equal; None: the pictures are smaller than its windows
+    p: float | None               # probability that noise alone makes so large a difference; None: neither picture has standard errors
     differ: bool                     # by more than noise, or, without standard errors, by more than rounding
-    report: dict[str, Any] = field(repr=False, compare=False)  # everything that `eclat compare --json` tells
+    report: dict[str, Any] = field(repr=False, compare=False)  # everything that `eclat compare --json` reports
 
     def __str__(self) -> str:
         verdict = "more than noise explains" if self.differ and self.p is not None else "different" if self.differ else \
@@ -48,8 +48,9 @@ def file_of(picture: Source, folder: str, name: str) -> str:
 
 def compare(a: Source, b: Source, *, diff: File | None = None, html: File | None = None, mask: File | None = None, tonemap: str | None = None,
             exposure: float | None = None, fit_exposure: bool = False, estimate_noise: bool = False) -> Comparison:
-    """Compares a with the reference b: pictures, or files, those of other renderers too: EXR, Radiance, PNG, JPEG, WebP. diff: a .png to be written, a map of
-    the error; html: a page with both. mask: a picture, white where they are compared. The others are those of `eclat compare`."""
+    """Compares a with the reference b: pictures, or files, also from other renderers: EXR, Radiance, PNG, JPEG, WebP. diff: a .png to write, a map of
+    the error. html: a page to write, with both pictures. mask: a picture that is white where they are compared. Other options are those of
+    `eclat compare`."""
     named = {"diff": diff, "html": html, "mask": mask, "tonemap": tonemap, "exposure": exposure, "fit_exposure": fit_exposure, "estimate_noise": estimate_noise}
     with tempfile.TemporaryDirectory(prefix="eclat-") as folder:
         result = run("compare", [file_of(a, folder, "a.exr"), file_of(b, folder, "b.exr")], [("json", None), *texts("compare", named)])

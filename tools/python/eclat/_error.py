@@ -1,11 +1,11 @@
-"""Failures and warnings of the library as Python has them."""
+"""Failures and warnings of the library as Python exceptions and warnings."""
 from __future__ import annotations
 
 from . import _library as lib
 
 
 class Error(Exception):
-    """What failed, where, and how to mend it, in one line. kind: "usage" (an option or argument is wrong), "host memory", "device memory", "device"
+    """What failed, where, and how to fix it, in one line. kind: "usage" (an option or argument is wrong), "host memory", "device memory", "device"
     or "other"."""
 
     def __init__(self, text: str, kind: str = "other") -> None:
@@ -14,7 +14,7 @@ class Error(Exception):
 
 
 class Warning(UserWarning):
-    """What a picture lacks, or what was done in place of what was asked for."""
+    """What a picture lacks, or what was done instead of what was asked for."""
 
 
 def check(code: int, err: lib.eclat_error) -> None:

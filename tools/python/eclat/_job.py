@@ -1,4 +1,4 @@
-"""Runs a job of the library in a thread of its own, so that Ctrl-C and callbacks come to the thread that waits."""
+"""Runs a job of the library in a separate thread, so that Ctrl-C and callbacks reach the thread that waits."""
 from __future__ import annotations
 
 import ctypes as c
@@ -16,17 +16,17 @@ from ._error import Warning, check
 from ._library import library
 
 log = logging.getLogger("eclat")
-# Events of a job beside its messages: there is progress, unless it was seen already; the job has ended.
+# Events of a job besides its messages: there may be new progress; the job has ended.
 PROGRESS, END = object(), object()
 
 
 class Progress(NamedTuple):
     """How far a job is."""
-    fraction: float             # 0 to 1, of the first limit that will end it
+    fraction: float             # 0 to 1, towards the limit that will end it first
     seconds: float
     seconds_left: float | None  # None: not known
-    samples: float              # a pixel
-    error: float | None         # as a picture has them; None: not known
+    samples: float              # per pixel
+    error: float | None         # as of a picture; None: not known
     bound: float | None
     text: str                   # the same in words
 
@@ -36,7 +36,7 @@ Shown = Union[bool, Callback, None]  # True: a bar
 
 
 class PictureHandle:
-    """A picture of the library, freed with the last that refers to it."""
+    """A picture of the library. It is freed with the last reference to it."""
 
     def __init__(self, address: int) -> None:
         self.address = c.c_void_p(address)
@@ -47,12 +47,12 @@ class PictureHandle:
 
 class Result(NamedTuple):
     picture: PictureHandle | None
-    reports: list[str]  # one, or one a frame
+    reports: list[str]  # one, or one per frame
     says_no: bool
 
 
 def frames_to_caller() -> int:
-    """From the function that asks to the first outside of the package, as warnings.warn counts them: who is warned."""
+    """Returns the number of stack frames up to the first one outside the package, as warnings.warn counts them: that caller is warned."""
     frame, count = sys._getframe(1), 1
     while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
         frame, count = frame.f_back, count + 1
@@ -68,7 +68,7 @@ class Job:
         self.job, self.err = c.c_void_p(), lib.eclat_error()
         self.events: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self.reports: list[str] = []
-        self.latest: Progress | None = None  # that nobody has seen yet
+        self.latest: Progress | None = None  # that the waiting thread has not seen yet
         self.code = lib.FAILED
         self.picture: PictureHandle | None = None
         check(library().eclat_job_new(command.encode(), self.job, self.err), self.err)
@@ -85,7 +85,7 @@ class Job:
         self.events.put((severity, text.decode(errors="replace")))
 
     def progress(self, user: Any, told: Any) -> int:
-        """Who is slow to look sees the latest only."""
+        """Keeps only the latest progress, for a slow reader."""
         p = told.contents
         self.latest = Progress(p.fraction, p.seconds, p.seconds_left if p.seconds_left >= 0 else None, p.samples_per_pixel,
                                known(p.error), known(p.error_bound), p.text.decode())
@@ -96,7 +96,7 @@ class Job:
         self.reports.append(c.string_at(text, size).decode(errors="replace"))
 
     def work(self, wants_picture: bool) -> None:
-        """The thread of the job. It keeps the job alive, should nobody wait for it any more."""
+        """Runs in the thread of the job, and keeps the job alive if nobody waits for it any more."""
         picture = c.c_void_p()
         listener = lib.eclat_listener(message=lib.MESSAGE(self.message), progress=lib.PROGRESS(self.progress), report=lib.REPORT(self.report))
         library().eclat_job_listen(self.job, listener)
@@ -121,9 +121,9 @@ class Job:
         thread.start()
         try:
             self.attend(callback)
-        except BaseException:  # Ctrl-C, or what a callback or a warning has raised
+        except BaseException:  # Ctrl-C, or an exception from a callback or a warning
             library().eclat_job_stop(self.job)
-            thread.join()  # a wave of samples; a second Ctrl-C leaves it alone
+            thread.join()  # waits for a wave of samples; a second Ctrl-C does not wait
             raise
         thread.join()
         check(self.code, self.err)
@@ -131,7 +131,7 @@ class Job:
 
 
 class Bar:
-    """progress=True: a bar by tqdm, or, where that is not installed, a line on standard error."""
+    """For progress=True: a bar by tqdm or, if that is not installed, a line on standard error."""
 
     def __init__(self) -> None:
         try:

@@ -1,4 +1,4 @@
-"""libeclat.so by ctypes: the parts of eclat/eclat.h that the package uses, under their names there."""
+"""Binds libeclat.so by ctypes: the parts of eclat/eclat.h that the package uses, under their own names."""
 from __future__ import annotations
 
 import ctypes as c
@@ -86,7 +86,7 @@ _FUNCTIONS = {
 
 @cache
 def library() -> c.CDLL:
-    """Loaded when it is used first, once the drivers are known."""
+    """Returns the library. It is loaded at its first use, once the drivers are known."""
     _drivers.announce()
     loaded = c.CDLL(str(LIBRARY))
     for name, (result, *arguments) in _FUNCTIONS.items():

@@ -1,4 +1,4 @@
-"""Layers of a picture weighed anew."""
+"""Mixes the layers of a picture with new weights."""
 from __future__ import annotations
 
 import tempfile
@@ -19,8 +19,8 @@ def text_of(name: str, gain: Gain) -> str:
 
 
 def mix(picture: Source, gains: Mapping[str, Gain], *, exposure: float | None = None, tonemap: str | None = None) -> Picture:
-    """A picture, or an EXR, with its light groups or its direct and indirect light times these gains: {"lamp": 2, "sky": (0.5, 0.6, 0.8)}. Layers that are
-    not named keep 1. The errors of the result are upper bounds. It has layers again; the others are those of `eclat mix`."""
+    """Multiplies the light groups, or the direct and indirect light, of a picture or an EXR by these gains: {"lamp": 2, "sky": (0.5, 0.6, 0.8)}. Layers
+    that are not named keep 1. The errors of the result are upper bounds. The result has layers too. Other options are those of `eclat mix`."""
     with tempfile.TemporaryDirectory(prefix="eclat-") as folder:
         inputs = [file_of(picture, folder, "picture.exr"), *(text_of(name, gain) for name, gain in gains.items())]
         return Picture(some(run("mix", inputs, texts("mix", {"exposure": exposure, "tonemap": tonemap}), wants_picture=True).picture))

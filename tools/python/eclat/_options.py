@@ -1,4 +1,4 @@
-"""Options as Python has them, turned into the texts of a command line. Which there are, the library says."""
+"""Turns options given in Python into the texts of a command line. The library says which options there are."""
 from __future__ import annotations
 
 import difflib
@@ -17,12 +17,12 @@ Path = Union[str, "os.PathLike[str]"]
 
 class Option(NamedTuple):
     name: str          # as on the command line
-    metavar: str       # what help calls the value; empty: it takes none
+    metavar: str       # the name of the value in help; empty: it takes none
     repeats: bool
     choices: tuple[str, ...]
 
 
-# What only a terminal has a use for, or what has a function of its own.
+# Options that only make sense in a terminal, or that have a function of their own.
 NOT_HERE = {
     "output": "Picture.save and the parameter html write files",
     "json": "results are Python objects",
@@ -63,14 +63,14 @@ def find_option(command: str, name: str, allowed: Iterable[str]) -> Option:
 
 
 def percent(name: str, value: numbers.Real) -> str:
-    """A fraction in per cent, without the digits of binary arithmetic: 0.07 is 7%."""
+    """Returns a fraction in per cent, without spurious binary digits: 0.07 is 7%."""
     if not 0 < float(value) < 1:
         raise Error(f"{name}={value} is not a fraction between 0 and 1: 2 % is {name}=0.02, or {name}='2%'", "usage")
     return format(Decimal(repr(float(value))) * 100, "f") + "%"
 
 
 def text_of(option: Option, value: Any) -> str | None:
-    """What the command line would have; None: the option alone."""
+    """Returns the value as the command line would have it; None: the option stands alone."""
     if value is True:
         return "on" if "on" in option.choices else None
     if value is False:
@@ -90,8 +90,8 @@ def text_of(option: Option, value: Any) -> str | None:
 
 
 def texts(command: str, options: dict[str, Any], allowed: Iterable[str] = ()) -> list[tuple[str, str | None]]:
-    """(name, value) of each that is to be set; None and a switch that is off are left out. allowed: those of NOT_HERE that the caller
-    sees to."""
+    """Returns (name, value) of each option to set; None and switches that are off are left out. allowed: those of NOT_HERE that the caller
+    handles."""
     found: list[tuple[str, str | None]] = []
     for name, value in options.items():
         option = find_option(command, name, allowed)

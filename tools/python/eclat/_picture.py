@@ -32,7 +32,7 @@ class Intervals(NamedTuple):
 
 
 class Clean(NamedTuple):
-    """A picture that a denoiser has had a part in, and how far it is from the converged one: as fractions, with a 95 % interval."""
+    """A picture that a denoiser has worked on, and its distance from the converged one: as fractions, with a 95 % interval."""
     radiance: Array
     error: float
     low: float
@@ -41,7 +41,7 @@ class Clean(NamedTuple):
 
 
 def view(handle: PictureHandle, channel: lib.eclat_channel, shape: tuple[int, int]) -> Array:
-    """The plane where the library has it, which lasts as long as the array."""
+    """Returns the library's own plane, not copied; it lasts as long as the array."""
     floats = (c.c_float * (channel.stride * (shape[0] * shape[1] - 1) + 1)).from_address(channel.data)
     floats._eclat_picture = handle
     plane = np.frombuffer(floats, np.float32)[::channel.stride].reshape(shape)
@@ -50,7 +50,7 @@ def view(handle: PictureHandle, channel: lib.eclat_channel, shape: tuple[int, in
 
 
 class Picture:
-    """What Scene.render and eclat.merge make. Arrays are read-only, rows from the top, linear Rec. 709."""
+    """A picture made by Scene.render or eclat.merge. Arrays are read-only, rows from the top, linear Rec. 709."""
 
     def __init__(self, handle: PictureHandle) -> None:
         self._handle = handle
@@ -73,7 +73,7 @@ class Picture:
 
     @property
     def bound(self) -> float | None:
-        """The distance is below this in at least 95 of 100 renders. None: there is no bound, see `why`."""
+        """The distance is below this bound in at least 95 of 100 renders. None: there is no bound, see `why`."""
         return known(self._stated.error_bound)
 
     @property
@@ -83,7 +83,7 @@ class Picture:
 
     @property
     def samples(self) -> float:
-        """Samples a pixel, on average; channels["samples"] has those of each."""
+        """Samples per pixel, on average; channels["samples"] has those of each pixel."""
         return float(self._stated.samples_per_pixel)
 
     @cached_property
@@ -95,14 +95,14 @@ class Picture:
 
     @cached_property
     def attributes(self) -> Mapping[str, str | float]:
-        """What the picture tells of itself, as in an EXR: "eclat.command" makes it again, "eclat.seed", "eclat.imageSha256", ..."""
+        """Attributes of the picture, as in an EXR: "eclat.command" is the command that makes it again, "eclat.seed", "eclat.imageSha256", ..."""
         of = library()
         found = (of.eclat_picture_attribute_at(self._handle.address, i) for i in range(of.eclat_picture_attribute_count(self._handle.address)))
         return MappingProxyType({a.name.decode(): a.number if a.text is None else a.text.decode(errors="replace") for a in found})
 
     def layer(self, name: str) -> Array:
-        """Channels of one layer, as "normal", "albedo" or "stderr", height x width x number of them in the order R G B or X Y Z; KeyError where the
-        picture has no such layer."""
+        """Returns the channels of one layer, such as "normal", "albedo" or "stderr": height x width x number of channels, in the order R G B or X Y Z.
+        Raises KeyError if the picture has no such layer."""
         names = [f"{name}.{letter}" for letters in ("RGB", "XYZ") for letter in letters if f"{name}.{letter}" in self.channels]
         if not names:
             raise KeyError(f"no layer {name}; there are the channels {', '.join(self.channels)}")
@@ -125,7 +125,7 @@ class Picture:
 
     @cached_property
     def stderr(self) -> Array | None:
-        """Standard errors of `radiance`, height x width x 3. None: not known, as by a single replicate."""
+        """Standard errors of `radiance`, height x width x 3. None: not known, as with a single replicate."""
         return self.layer("stderr") if "stderr.R" in self.channels else None
 
     @cached_property
@@ -135,12 +135,12 @@ class Picture:
 
     @cached_property
     def denoised(self) -> Clean | None:
-        """By the option `denoise`: the denoised picture. None: it was not asked for, or could not be judged."""
+        """The denoised picture, if the option `denoise` was given. None: it was not asked for, or could not be judged."""
         return self._clean("denoised")
 
     @cached_property
     def best(self) -> Clean | None:
-        """Likewise a blend of the denoised picture and of this one, tile by tile by which is nearer to the truth; what `png` shows then."""
+        """A blend of the denoised picture and this one: for each tile the one that is nearer to the truth. With `denoise`, `png` shows this."""
         return self._clean("best")
 
     def _clean(self, name: str) -> Clean | None:
@@ -151,12 +151,12 @@ class Picture:
         return Clean(self.layer(name), float(stated.error), float(stated.low95), known(stated.high95))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """To an .exr, with the channels of the option `channels`, or a .png. The file has its name only once it is whole."""
+        """Writes an .exr, with the channels of the option `channels`, or a .png. The file gets its name only once it is complete."""
         err = lib.eclat_error()
         check(library().eclat_picture_write(self._handle.address, os.fsencode(path), err), err)
 
     def png(self) -> bytes:
-        """Tone-mapped by the options `exposure` and `tonemap`, as a PNG file."""
+        """Returns a PNG file, tone-mapped by the options `exposure` and `tonemap`."""
         with tempfile.TemporaryDirectory(prefix="eclat-") as folder:
             path = Path(folder, "picture.png")
             self.save(path)
@@ -164,7 +164,7 @@ class Picture:
 
     @property
     def caption(self) -> str:
-        """Error, bound and samples in words."""
+        """Returns error, bound and samples in words."""
         if self.error is None:
             stated = "error not known"
         elif self.bound is None:
