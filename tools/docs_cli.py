@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """usage: tools/docs_cli.py [--check]
-Writes docs/cli.md from the help of the program, build/eclat or $ECLAT. With --check it changes nothing, and ends with 1 if the page is stale."""
+Writes docs/cli.md from the help of the program, build/eclat or $ECLAT. With --check it changes nothing, and exits with 1 if the page is out of date."""
 import os
 import pathlib
 import re

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """usage: tools/docs_notebook.py NOTEBOOK.ipynb OUT.ipynb [PICTURE.png]
-Executes a notebook of docs/examples in its folder, and writes it with what it shows, and its last picture. Runs in an environment with the
-wheel of tools/python and PyPI's nbclient, ipykernel and matplotlib."""
+Executes a notebook of docs/examples in its folder. Writes the notebook with its output, and its last picture. Needs an environment with the wheel
+of tools/python and PyPI's nbclient, ipykernel and matplotlib."""
 import base64
 import pathlib
 import sys
@@ -11,7 +11,7 @@ import nbformat
 
 
 def pictures(notebook):
-    """Every PNG that cells show."""
+    """Returns every PNG that cells show."""
     for cell in notebook.cells:
         for output in cell.get("outputs", []):
             if "image/png" in output.get("data", {}):
@@ -26,7 +26,7 @@ def main():
     nbclient.NotebookClient(notebook, timeout=1800, kernel_name="python3", resources={"metadata": {"path": str(source.parent)}}).execute()
     notebook.metadata = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
     for cell in notebook.cells:
-        cell.metadata = {}  # when it ran
+        cell.metadata = {}  # removes the times at which it ran
     nbformat.write(notebook, out)
     for picture in sys.argv[3:]:
         pathlib.Path(picture).write_bytes(list(pictures(notebook))[-1])

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """usage: tools/docs_pictures.py NAME.png...
-Makes pictures of docs/images again by the commands below each of them in docs/*.md, and reduces them to 256 colours. It takes eclat from
-build/ (or $ECLAT_BUILD), ImageMagick and pngquant; channels.png also PyPI's OpenEXR, numpy and pillow."""
+Makes pictures of docs/images again with the commands below each of them in docs/*.md, and reduces them to 256 colours. Needs eclat in
+build/ (or $ECLAT_BUILD), ImageMagick and pngquant; channels.png also needs PyPI's OpenEXR, numpy and pillow."""
 import os
 import pathlib
 import re
@@ -16,7 +16,7 @@ ALL_COLOURS = {"materials.png"}  # six scenes in one: 256 colours are too few
 
 
 def commands():
-    """{picture: its commands}, one a line."""
+    """Returns {picture: its commands}, one per line."""
     return {name: [line.strip() for line in block.splitlines()] for page in sorted((ROOT / "docs").glob("*.md"))
             for name, block in PICTURE.findall(page.read_text(encoding="utf-8"))}
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """usage: tools/docs_tables.py [--check]
-Writes the tables of docs/*.md that lie between `<!-- generated from data/NAME.json -->` and `<!-- end -->`, from docs/data/NAME.json,
-which a program of tools/bench writes with --table. With --check it changes nothing, names tables that are stale, and ends with 1."""
+Writes the tables of docs/*.md that lie between `<!-- generated from data/NAME.json -->` and `<!-- end -->`, from docs/data/NAME.json. The
+programs of tools/bench write that file with --table. With --check it changes nothing, names tables that are out of date, and exits with 1 if
+there are any."""
 import json
 import pathlib
 import re
@@ -12,7 +13,7 @@ BLOCK = re.compile(r"(<!-- generated from (data/[\w-]+\.json) -->\n).*?(<!-- end
 
 
 def markdown(data):
-    """The table, and a line that says where it is from."""
+    """Returns the table, and a line that says where it is from."""
     lines = ["| " + " | ".join(row).replace(" %", "\u00a0%") + " |" for row in [data["columns"], ["---"] * len(data["columns"]), *data["rows"]]]
     source = f"`{data['command']}`: " if data["command"] else ""
     return "\n".join([*lines, "", f"{source}{data['setting']}. Recorded {data['date']}, commit {data['commit']}.", ""])

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Turns tests/robust/precision/precision.cl and what it includes into C in double precision (double.h beside it).
+"""Turns tests/robust/precision/precision.cl and its includes into C in double precision (double.h beside it).
 
-The text is the kernels' own but for three things: float is double, except behind pointers to memory that is only read, so that
-both read the same numbers; constants lose their f; and headers that work on the bits of floats (--replaced) stand in double.h.
+Three things differ from the kernels' text: float becomes double, except behind pointers to read-only memory, so that both versions read
+the same numbers; constants lose their f; and double.h replaces the headers that work on the bits of floats (--replaced).
 """
 import argparse
 import os

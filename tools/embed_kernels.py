@@ -2,8 +2,8 @@
 """Flattens kernel sources and writes them as C strings.
 
 An #include "x" is looked for beside the including file, then under --root. #line directives keep the real file and line
-in compiler messages. Comments go, since a driver reads its source anew in every run; so may a header marked "/* once */"
-where the same program has it already (host/cl/sources_join.c). Every unit starts with FP_CONTRACT OFF: contraction opens cracks.
+in compiler messages. Comments are removed, since a driver reads the source again in every run. host/cl/sources_join.c may also remove
+a header marked "/* once */" that the same program has already. Every unit starts with FP_CONTRACT OFF: contraction opens cracks.
 """
 import argparse
 import os
@@ -21,7 +21,7 @@ class EmbedError(Exception):
 
 
 def without_comments(text):
-    """The same text with comments blanked out, lines kept: so that directives in comments are not obeyed."""
+    """Returns the text with comments blanked out and all lines kept, so that directives in comments are ignored."""
     def blank(match):
         found = match.group(0)
         return found if found.startswith('"') else re.sub(r"[^\n]", " ", found)
@@ -29,7 +29,7 @@ def without_comments(text):
 
 
 def has_guard(directives):
-    """#ifndef X, #define X as the first two directives."""
+    """Tells whether #ifndef X and #define X are the first two directives."""
     first = [line.split() for line in directives if line.lstrip().startswith("#")][:2]
     return len(first) == 2 and first[0][0] == "#ifndef" and first[1][:2] == ["#define", first[0][1]]
 
@@ -41,7 +41,7 @@ class Flattener:
         self.dependencies = []
 
     def unit(self, path, without=()):
-        """The text of one source; headers in `without` count as included already."""
+        """Returns the text of one source; headers in `without` count as included already."""
         self.once = set(without)
         self.out = [PRELUDE]
         self.file(os.path.abspath(path), [], conditional=False)
@@ -65,8 +65,8 @@ class Flattener:
         if plain[-1] == "":
             plain.pop()
         guarded = has_guard(plain)
-        # Repeats of a guarded header are left out here to keep units short, but only if its first text is surely
-        # compiled; within an #if the compiler must decide, and the guards that stay in the text let it.
+        # Repeats of a guarded header are left out here to keep units short, but only if its first copy is certainly
+        # compiled. Within an #if the compiler must decide; the guards, which stay in the text, let it.
         if guarded and not conditional:
             self.once.add(path)
         self.line(1, name, " /* once */" if guarded and not conditional else "")
@@ -82,7 +82,7 @@ class Flattener:
             if quoted:
                 self.include(quoted.group(1), path, number, stack, conditional or depth > 0)
             elif angled:
-                # For the C side of a shared header. PoCL preprocesses a source that contains the word, and is slower.
+                # Such includes are for the C side of a shared header. PoCL is slower with a source that contains the word: it preprocesses it.
                 self.out.append(f'#error "<{angled.group(1)}> in a kernel: there are no system headers"\n')
             else:
                 self.out.append(directive.strip().replace("#include", "# include") + "\n")
@@ -106,7 +106,7 @@ class Flattener:
 
 
 def c_string(text):
-    """One literal a line. Question marks are escaped against trigraphs, other bytes than ASCII as octal."""
+    """Returns one literal per line. Question marks are escaped against trigraphs; bytes that are not ASCII are octal."""
     literals = []
     for line in text.splitlines(keepends=True):
         body = ""
@@ -145,7 +145,7 @@ const char *ec_kernel_source(const char *name) {{
 
 
 def write_if_changed(path, text):
-    """An untouched file keeps its time stamp, and nothing is compiled again."""
+    """Leaves an unchanged file and its time stamp alone, so that nothing is compiled again."""
     try:
         with open(path, encoding="utf-8") as file:
             if file.read() == text:

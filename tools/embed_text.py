@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes text files as C strings: embed_text.py --header NAME.h --output FILE.c NAME=FILE...
 
-`const char ec_text_NAME[]` for each."""
+Each becomes `const char ec_text_NAME[]`."""
 import argparse
 
 from embed_kernels import c_string, write_if_changed

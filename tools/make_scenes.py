@@ -3,8 +3,8 @@
 
 usage: make_scenes.py [--out FOLDER] [--check] [NAME ...]
 
-NAME is a folder of scenes/; without one, all are made. --check writes nothing there: it makes the scenes in a temporary folder,
-compares them with those in place and checks the files against the rules of glTF 2.0 that a hand-written file can break.
+NAME is a folder of scenes/; without one, all are made. --check writes nothing there. It makes the scenes in a temporary folder,
+compares them with those in place, and checks the files against those rules of glTF 2.0 that a hand-written file can break.
 """
 import argparse
 import json
@@ -32,7 +32,7 @@ def read(path):
 
 
 def validate(path):
-    """The rules of glTF 2.0 on buffers, accessors, references and names; returns the number of triangles."""
+    """Checks the rules of glTF 2.0 on buffers, accessors, references and names. Returns the number of triangles."""
     folder = os.path.dirname(path)
     doc = json.loads(read(path))
     assert doc["asset"]["version"] == "2.0"
@@ -102,7 +102,7 @@ def validate(path):
 
 
 def decode_png(data):
-    """Header and unfiltered bytes: what two zlibs must agree on even where their compression differs."""
+    """Returns the header and the unfiltered bytes, which are the same for two versions of zlib even if their compression differs."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, header, packed = 8, None, b""
     while at < len(data):

@@ -1,22 +1,22 @@
 #!/usr/bin/env python3
-"""Writes kernels/lib/multiscatter_table.h: what GGX microfacets lose that scatter light once (ggx.h, bsdf.h).
+"""Writes kernels/lib/multiscatter_table.h: the share of light that GGX microfacets lose when they scatter it only once (ggx.h, bsdf.h).
 
-Quadrature in double over visible normals: half the azimuth, Gauss and Legendre's points along the cap with its square roots taken
-out. What is given back must not be more than was lost, so interpolation must stay under the truth: each node is lowered by the
-most that is too much between it and its neighbours, on a grid of twice the points. Needs numpy."""
+Quadrature in double over visible normals: half the azimuth, Gauss-Legendre points along the cap with its square roots taken out. A surface
+must not give back more than was lost, so interpolation must stay below the true value. Therefore each node is lowered by the largest excess
+between it and its neighbours, on a grid of twice the points. Needs numpy."""
 import os
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
-COSINES, ROUGHNESSES, INDICES = 24, 20, 17  # the last odd: the middle is no bending, the ends a mirror's two sides
-FINER = 2                                   # times as many points, where interpolation is judged
+COSINES, ROUGHNESSES, INDICES = 24, 20, 17  # INDICES is odd: the middle one does not refract, the outermost are the two sides of a mirror
+FINER = 2                                   # times as many points, at which interpolation is checked
 AROUND, ALONG = 96, 96
-MARGIN = 1.5, 1e-4                          # times what was found too much; and that, for quadrature and rounding
+MARGIN = 1.5, 1e-4                          # a factor on the excess found; an allowance for quadrature and rounding
 
 
 def contrasts(count):
-    """(eta - 1) / (eta + 1) of each index, denser around no bending."""
+    """Returns (eta - 1) / (eta + 1) for each index, denser around 0, where nothing is refracted."""
     q = np.linspace(-1, 1, count)
     return np.sign(q) * q * q
 
@@ -29,13 +29,13 @@ def fresnel(c, eta):
 
 
 def masked(z, cosine, alpha):
-    """G2 / G1 of a direction at cosine z (0 under the horizon), seen along the other."""
+    """Returns G2 / G1 of a direction at cosine z (0 below the horizon), given the other direction."""
     own, other = (np.sqrt(x * x * (1 - alpha * alpha) + alpha * alpha) for x in (cosine, np.maximum(z, 0)))
     return np.where(z > 0, z * (cosine + own) / np.maximum(z * own + cosine * other, 1e-300), 0.0)
 
 
 def lost(cosine, alpha, contrast, around=AROUND, along=ALONG):
-    """Share of white light from this side that neither comes back nor passes, for each contrast; +-1: none passes."""
+    """Returns the share of white light from this side that is neither reflected nor transmitted, for each contrast; +-1: nothing is transmitted."""
     x, w = np.polynomial.legendre.leggauss(along)
     s, w = (x + 1) / 2, w / 2
     down, w = s * s * (3 - 2 * s), w * 6 * s * (1 - s)
@@ -72,7 +72,7 @@ def fine_row(arguments):
 
 
 def interpolated(coarse):
-    """The coarse table [roughness, cosine, index] on the fine grid, linear along each axis."""
+    """Returns the coarse table [roughness, cosine, index] on the fine grid, interpolated linearly along each axis."""
     for axis in range(3):
         n = coarse.shape[axis]
         x = np.arange((n - 1) * FINER + 1) / FINER
@@ -85,7 +85,7 @@ def interpolated(coarse):
 
 
 def lowered(fine):
-    """In rounds: a node at 0 can go no lower, and leaves the rest to the others around it."""
+    """Lowers nodes in rounds: a node at 0 can go no lower, and leaves the rest to its neighbours."""
     coarse, times = np.maximum(fine[::FINER, ::FINER, ::FINER] - MARGIN[1], 0), MARGIN[0]
     while True:
         too_much = np.maximum(interpolated(coarse) - np.maximum(fine - MARGIN[1], 0), 0)
@@ -98,7 +98,7 @@ def lowered(fine):
 
 
 def means(table):
-    """Mean over the hemisphere of the interpolated table, by the cosine: linear in sqrt(cosine) between nodes."""
+    """Returns the cosine-weighted mean of the interpolated table over the hemisphere: linear in sqrt(cosine) between nodes."""
     x, w = np.polynomial.legendre.leggauss(4)
     n = table.shape[1] - 1
     total = np.zeros((table.shape[0], table.shape[2]))
@@ -110,7 +110,7 @@ def means(table):
 
 
 def make():
-    """[index, roughness, cosine], and in the last column of each row the mean."""
+    """Returns the table [index, roughness, cosine], with the mean in the last column of each row."""
     cosines = np.maximum(np.linspace(0, 1, FINER * (COSINES - 1) + 1) ** 2, 1e-5)
     fine_contrasts = contrasts(FINER * (INDICES - 1) + 1)
     with ProcessPoolExecutor() as pool:

@@ -1,4 +1,4 @@
-"""Which OpenCL devices there are, each with the environment in which it is the only one.
+"""Finds the OpenCL devices, each with an environment in which only its implementation is visible.
 
 An implementation is an .icd file: those of the system, or of OCL_ICD_VENDORS if that is set, and those that
 tools/test --all-devices has put into BUILD/opencl."""
@@ -8,7 +8,7 @@ import os
 import subprocess
 
 SYSTEM = "/etc/OpenCL/vendors"
-LONGEST_START = 120  # seconds: a driver that takes longer to say what it has is left out
+LONGEST_START = 120  # seconds: a driver that takes longer to list its devices is left out
 
 
 def icd_files(build):
@@ -18,7 +18,7 @@ def icd_files(build):
 
 
 def environment_of(icd):
-    """Only this implementation. (No LD_LIBRARY_PATH: Intel's packages hold a loader too, which would take the system's place.)"""
+    """Returns an environment with only this implementation. It sets no LD_LIBRARY_PATH: Intel's packages contain a loader, which would replace the system's."""
     environment = dict(os.environ, OCL_ICD_VENDORS=icd)
     environment.pop("ECLAT_DEVICE", None)
     environment.setdefault("RUSTICL_ENABLE", "llvmpipe")  # without it rusticl offers nothing
@@ -26,7 +26,7 @@ def environment_of(icd):
 
 
 def devices_of(eclat, environment):
-    """As `eclat devices --json` has them, and why there are none."""
+    """Returns the devices as `eclat devices --json` lists them, and why there are none."""
     try:
         run = subprocess.run([eclat, "devices", "--json"], env=environment, capture_output=True, encoding="utf-8",
                              timeout=LONGEST_START, check=False)
@@ -39,7 +39,7 @@ def devices_of(eclat, environment):
 
 
 def find(eclat, build, say=lambda text: None):
-    """A list of (device, environment), in which the device is chosen. Says which implementations have none."""
+    """Returns a list of (device, environment that chooses it). Says which implementations have no device."""
     found, seen = [], set()
     for icd in icd_files(build):
         if not os.path.exists(icd):
@@ -50,7 +50,7 @@ def find(eclat, build, say=lambda text: None):
             say(f"{icd} is left out: {why}")
         for device in devices:
             identity = (device["platform_version"], device["driver"], device["name"], device["index"])
-            if identity not in seen:  # the same library by two files
+            if identity not in seen:  # two files may name the same library
                 seen.add(identity)
                 found.append((device, dict(environment, ECLAT_DEVICE=str(device["index"]))))
     return found

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes kernels/lib/sheen_table.h: how much of white light the sheen of kernels/lib/sheen.h returns.
+"""Writes kernels/lib/sheen_table.h: the share of white light that the sheen of kernels/lib/sheen.h reflects.
 
-Quadrature in double: z = u^3 towards the horizon, azimuth denser where wi mirrors wo. What lies under the fibres gets the rest, so
-interpolation must not stay under the truth: each node is lifted by the most that is missing half-way to its neighbours.
+Quadrature in double: z = u^3 towards the horizon, azimuth denser where wi mirrors wo. The surface under the fibres gets the rest, so
+interpolation must not fall below the true value. Therefore each node is raised by the largest amount missing half-way to its neighbours.
 """
 import math
 import os
@@ -44,13 +44,13 @@ def albedo(cosine, alpha):
 
 
 def row(j):
-    """At nodes and half-way between them."""
+    """Returns values at nodes and half-way between them."""
     roughness = LEAST + (1 - LEAST) * j / (2 * ROUGHNESSES - 2)
     return [albedo(max((i / (2 * COSINES - 2)) ** 2, 1e-6), roughness * roughness) for i in range(2 * COSINES - 1)]
 
 
 def lifted(fine, i, j):
-    """Node (i, j) of the coarse table."""
+    """Returns node (i, j) of the coarse table."""
     def node(y, x):
         return fine[2 * y][2 * x]
 

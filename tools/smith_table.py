@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
 """usage: tools/smith_table.py
-Prints the table in docs/materials.md of what the two forms of Smith's masking make of a white microfacet surface, by quadrature over visible
-normals (Heitz 2018): share of uniform white light that comes back, height-correlated as eclat has it and, in brackets, how much less of it
-by the product of appendix B of glTF's specification."""
+Prints the table in docs/materials.md that compares two forms of Smith's masking on a white microfacet surface, by quadrature over visible normals
+(Heitz 2018). The figure is the share of uniform white light that is reflected with height-correlated masking, which eclat uses. In brackets is how
+much less the product in appendix B of glTF's specification reflects."""
 import math
 
 ROUGHNESS, COSINES, STEPS = (0.25, 0.5, 0.75, 1.0), (1, 0.7, 0.5, 0.3, 0.1, 0.03), 400
 
 
 def smith(cosine, alpha):
-    """Heitz 2014: masking is 1 / (1 + this)."""
+    """Returns Heitz's Lambda (2014): masking is 1 / (1 + this)."""
     return 0.5 * (math.sqrt(1 + alpha * alpha * (1 - cosine * cosine) / (cosine * cosine)) - 1)
 
 
 def returned(cosine, alpha):
-    """(height-correlated, product) of the share that comes back."""
+    """Returns the share that is reflected: (height-correlated, product)."""
     view = (math.sqrt(1 - cosine * cosine), 0.0, cosine)
     length = math.hypot(alpha * view[0], view[2])
     warped = (alpha * view[0] / length, 0.0, view[2] / length)

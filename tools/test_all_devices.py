@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """usage: tools/test --all-devices [options of ctest]
 
-Runs tests on every OpenCL device: those of the system's drivers, and on processors PoCL, Intel's runtime and Mesa's
-rusticl/llvmpipe, which are installed if need be and if they can be. Without options it runs the kernel tests, the robust ones and
-some renders. On llvmpipe, whose compiler may take hours, it runs a small set of its own, whatever the options. Ends with a table, and
-with 1 if any test failed."""
+Runs tests on every OpenCL device: those of the system's drivers, and, on the CPU, PoCL, Intel's runtime and Mesa's
+rusticl/llvmpipe, which it installs if they are missing and can be had. Without options it runs the kernel tests, the robustness tests
+and some renders. On llvmpipe, whose compiler may take hours, it runs a small fixed set of tests, whatever the options. It ends with a
+table, and exits with 1 if any test failed."""
 import os
 import re
 import subprocess
@@ -19,10 +19,10 @@ BUILD = os.environ.get("ECLAT_BUILD", os.path.join(ROOT, "build"))
 OWN = os.path.join(BUILD, "opencl")
 INTEL = ["intel-opencl-rt", "intel-cmplr-lib-rt", "tbb"]
 
-TOGETHER = "^robust/test_devices_agree$"  # looks at all devices itself
+TOGETHER = "^robust/test_devices_agree$"  # runs on all devices by itself
 USUAL = ["-R", "^(kernel/|robust/|stat/test_(same_bits|furnace|whitted)(\\.full)?$|image/test_cornell$|cli/test_devices$)",
          "-E", "oclgrind|test_devices_agree", "-LE", "^long$"]
-# For llvmpipe. Not robust/selftest: kernels with every effect, which its compiler takes many minutes for. Not kernel/test_cl_cache: it hands
+# For llvmpipe. Without robust/selftest: its kernels have every effect, and compiling them takes many minutes. Without kernel/test_cl_cache: it gives
 # the driver a broken binary, which ends the process in rusticl 22.3.6.
 SLOW = ["-R", "^(kernel/test_(cl|cl_devices|cl_embed|rounding|layouts|texture|ray|kernels)|cli/test_devices)$"]
 
@@ -44,7 +44,7 @@ def install_packages():
 
 
 def install_intel():
-    """Its runtime comes by PyPI: into a virtual environment of the build folder, and an .icd file that names it."""
+    """Installs Intel's runtime from PyPI into a virtual environment in the build folder, and writes an .icd file that names it."""
     icd, folder = os.path.join(OWN, "intel.icd"), os.path.join(OWN, "intel")
     if os.path.exists(icd):
         return
@@ -67,7 +67,7 @@ def install_intel():
 
 
 def run_tests(name, environment, options):
-    """What ctest counted, None if it did not come so far: (passed, failed, skipped, minutes)."""
+    """Returns ctest's counts (passed, failed, skipped, minutes); None if it did not get that far."""
     report = os.path.join(OWN, name + ".xml")
     if os.path.exists(report):
         os.remove(report)

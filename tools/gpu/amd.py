@@ -1,4 +1,4 @@
-"""AMD: clang to assembly, whose comments and metadata say what LLVM reckons."""
+"""AMD: compiles with clang to assembly, and reads LLVM's figures from its comments and metadata."""
 import os
 import re
 import time
@@ -6,15 +6,15 @@ import time
 from clang import compile_to
 from table import Row
 
-WAVES = {"gfx906": 10, "gfx1030": 16, "gfx1100": 16}  # that a SIMD unit holds
+WAVES = {"gfx906": 10, "gfx1030": 16, "gfx1100": 16}  # waves that a SIMD unit holds
 FIELDS = re.compile(r"^\s+\.(name|private_segment_fixed_size|vgpr_count|vgpr_spill_count|sgpr_spill_count):\s+(\S+)", re.M)
 FUNCTION = re.compile(r"^(ec_\w+):(.*?); codeLenInByte = (\d+).*?; Occupancy: (\d+)", re.M | re.S)
-# One atomic operation for all lanes of a wavefront where they count up the same word: on in the drivers' later LLVM.
+# One atomic operation for all lanes of a wavefront that add to the same word. The later LLVM of the drivers does this by default.
 JOINS_ATOMICS = ("-mllvm", "-amdgpu-atomic-optimizations=true")
 
 
 def kernels_of(metadata):
-    """A kernel's keys stand in alphabetical order, its name before its registers; its arguments' names come before it."""
+    """Yields the fields of each kernel. Keys are in alphabetical order: the kernel's name comes before its registers, but after its arguments' names."""
     kernel = {}
     for key, value in FIELDS.findall(metadata):
         kernel[key] = value
@@ -32,7 +32,7 @@ def compile_source(target, source, tools, folder):
             for name, body, size, waves in FUNCTION.findall(text)}
     rows = []
     for kernel in kernels_of(text[text.rindex("amdhsa.kernels:"):]):
-        # Spilled scalars go to lanes of vector registers, and are memory only where those are spilled.
+        # Spilled scalars go to lanes of vector registers, and to memory only if those are spilled too.
         spilled = 4 * int(kernel["vgpr_spill_count"])
         size, waves, lane_atomics = code[kernel["name"]]
         rows.append(Row(target, kernel["name"], source, registers=int(kernel["vgpr_count"]), spill_bytes=spilled,

@@ -1,7 +1,7 @@
-"""OpenCL C through clang with libclc, for the targets that it has."""
+"""Compiles OpenCL C with clang and libclc, for libclc's targets."""
 import os
 
-FOLDED = {"-cl-std=CL1.2"}  # said here already
+FOLDED = {"-cl-std=CL1.2"}  # given below anyway
 
 
 class CompileError(Exception):

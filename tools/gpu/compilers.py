@@ -1,4 +1,4 @@
-"""Where the compilers are: those of the system, else of BUILD/gpu-compilers, which they are fetched into."""
+"""Finds the compilers: those of the system, else those in BUILD/gpu-compilers, into which missing ones are fetched."""
 import fcntl
 import glob
 import os
@@ -26,7 +26,7 @@ def needs_of(target):
 
 
 class Tools:
-    """Paths of those that are there, and the environment they run in."""
+    """Paths of the tools that are there, and the environment that they run in."""
 
     def __init__(self):
         self.paths = {}
@@ -53,7 +53,7 @@ def last_line(run):
 
 
 def call(command, why):
-    """'' or why it failed."""
+    """Runs a command. Returns '' or why it failed."""
     try:
         run = subprocess.run(command, cwd=FOLDER, capture_output=True, encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL, check=False)
     except OSError as error:
@@ -79,7 +79,7 @@ def fetch(tool):
 
 
 def find(names, say):
-    """(Tools, {target: why it cannot be had})"""
+    """Returns (Tools, {target: why it is not available})."""
     why = {}
     wanted = sorted({tool for target in names for tool in needs_of(target)})
     os.makedirs(FOLDER, exist_ok=True)
@@ -88,7 +88,7 @@ def find(names, say):
         for tool in Tools().lacks(wanted):
             if os.environ.get("ECLAT_SKIP_INSTALL"):
                 why[tool] = f"there is no {tool}, and ECLAT_SKIP_INSTALL is set"
-            elif Tools().lacks([tool]):  # may have come with another
+            elif Tools().lacks([tool]):  # else it came with another one
                 say(f"fetching {tool} into {FOLDER}")
                 why[tool] = fetch(tool) or f"there is no {tool}"
     tools = Tools()

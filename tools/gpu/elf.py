@@ -1,9 +1,9 @@
-"""Sizes of a 64-bit ELF file's sections."""
+"""Reads the sizes of a 64-bit ELF file's sections."""
 import struct
 
 
 def sections(path):
-    """{name: bytes}"""
+    """Returns {name: bytes}."""
     with open(path, "rb") as file:
         data = file.read()
     at, = struct.unpack_from("<Q", data, 40)

@@ -1,4 +1,4 @@
-"""The steps of tools/gpu_first_run, and what they write. A step that fails does not keep others from running."""
+"""The steps of tools/gpu_first_run, and their report. If a step fails, the others run nevertheless."""
 import json
 import os
 import subprocess
@@ -30,7 +30,7 @@ class Run:
         self.card = dict(os.environ)
         if options.device:
             self.card["ECLAT_DEVICE"] = options.device
-        # The other device is what it is, whatever is tried out on the first.
+        # Variables that change the tested device must not change the other one.
         self.other = {key: value for key, value in self.card.items() if key not in ("ECLAT_DEVICE", "ECLAT_DEVICE_TYPE", "ECLAT_LAUNCH_SECONDS", "ECLAT_WORKAROUND")}
 
     def call(self, *arguments, env=None, program=None):
@@ -47,7 +47,7 @@ class Run:
             self.failed.append(title)
 
     def verbatim(self, title, run, keep=200):
-        """A command's output; a failure is told apart from its words."""
+        """Adds a command's output; a failure is noted separately."""
         lines = (run.stdout + run.stderr).rstrip().splitlines()
         note = [] if run.returncode == 0 else [f"Exit code {run.returncode}.", ""]
         self.add(title, note + ["    " + line for line in lines[-keep:]], run.returncode == 0)
@@ -61,7 +61,7 @@ class Run:
         except (ValueError, TypeError):
             self.add("Devices", [last_line(run)], False)
             return False
-        # As they are, not as they are tried.
+        # The devices as they are, without the variables that change the tested one.
         true = json.loads(self.call("devices", "--json", env=self.other).stdout)["devices"]
         processors = [device["index"] for device in true if device["type"] == "CPU" and device["available"]]
         others = [index for index in processors if index != report["default"]] or processors
@@ -89,7 +89,7 @@ class Run:
         return path, (json.loads(run.stdout) if run.returncode == 0 else None), last_line(run)
 
     def compare(self, scene):
-        """A row of the table, and whether it passed."""
+        """Returns a row of the table, and whether it passed."""
         say(f"{scene} on both devices")
         mine, report, why = self.render(scene, "card", self.card)
         theirs, right, why_not = self.render(scene, "processor", self.other)
@@ -117,7 +117,7 @@ class Run:
         self.verbatim("Rays through the showcase", self.call("info", scene, "--accel", *(["bvh2"] if self.options.quick else ["all"])), keep=8)
 
     def steps(self):
-        """What has been found out so far may be written at each turn: a driver may take the machine with it."""
+        """Runs a step at a time, so that the caller can write the report so far after each: a driver may crash the machine."""
         if self.devices():
             for name, step in (("self-test", self.selftest), ("kernel tests", self.kernel_tests), ("pictures", self.pictures), ("traversal", self.traversal)):
                 self.under_way = name

@@ -1,4 +1,4 @@
-"""Intel: ocloc, whose disassembler writes out what the driver is told of each kernel."""
+"""Intel: compiles with ocloc. Its disassembler writes out what the driver is told about each kernel."""
 import glob
 import os
 import re
@@ -9,14 +9,14 @@ from clang import CompileError, first_error
 from table import Row
 
 DEVICES = {"tgllp": "tgllp", "dg2": "dg2-g10"}
-REGISTERS, BYTES = 128, 32  # a thread's, and those of one
+REGISTERS, BYTES = 128, 32  # registers of a thread; bytes of a register
 SPILLED = re.compile(r"kernel (\w+)\s+compiled SIMD(\d+) allocated \d+ regs and spilled around (\d+)")
 TOKEN = re.compile(r"Token (\d+)\s+4 Size \d+\s+Hex ([0-9a-f ]+)")
-SCRATCH, ENVIRONMENT, PRIVATE = 18, 23, 38  # of NEO's patch list: MEDIA_VFE_STATE, EXECUTION_ENVIRONMENT, ALLOCATE_STATELESS_PRIVATE_MEMORY
+SCRATCH, ENVIRONMENT, PRIVATE = 18, 23, 38  # tokens of NEO's patch list: MEDIA_VFE_STATE, EXECUTION_ENVIRONMENT, ALLOCATE_STATELESS_PRIVATE_MEMORY
 
 
 def patches(text):
-    """{token: its words} of one kernel."""
+    """Returns {token: its words} of one kernel."""
     found = {}
     for token, digits in TOKEN.findall(text):
         data = bytes(int(byte, 16) for byte in digits.split())
@@ -44,9 +44,9 @@ def compile_source(target, source, tools, folder):
     rows = []
     for before, name, text in zip(parts[0::2], parts[1::2], parts[2::2]):
         patch = patches(text)
-        width = patch[ENVIRONMENT][3]  # work-items a thread
+        width = patch[ENVIRONMENT][3]  # work-items per thread
         spilled, (_, _, _, private, of_item) = spills.get(name, 0), patch.get(PRIVATE, (0, 0, 0, 0, 1))
-        scratch = max(patch.get(SCRATCH, (0, 0))[1] // width, private if of_item else private // width)  # the first in powers of two
+        scratch = max(patch.get(SCRATCH, (0, 0))[1] // width, private if of_item else private // width)  # the scratch size is rounded up to a power of two
         size = int(re.findall(r"KernelUnpaddedSize (\d+)", before)[-1])
         rows.append(Row(target, name, source, registers=REGISTERS * BYTES // 4 // width, spill_bytes=spilled, private_bytes=max(0, scratch - spilled),
                         code_bytes=size, compile_seconds=seconds))

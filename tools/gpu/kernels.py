@@ -8,12 +8,12 @@ BUILD = os.environ.get("ECLAT_BUILD", os.path.join(ROOT, "build"))
 ECLAT = os.environ.get("ECLAT", os.path.join(BUILD, "eclat"))
 SMALL = ["--size", "16x16", "--spp", "1", "-q"]
 
-# What --every renders, in as few programs as hold everything. Instances are written out but for twolevel.
+# What --every renders: as few programs as contain everything. Only twolevel has instances; elsewhere they are written out.
 EVERY = [["--integrator", "path", "--accel", accel] for accel in ("bvh2", "bvh8", "grid", "kdtree", "none", "twolevel")] + \
         [["--integrator", "whitted", "--accel", "bvh2"], ["--integrator", "raster"]]
 
 
-# Options that only the driver that renders here is given (host/cl/workarounds.c).
+# Options that only the driver of this machine gets (host/cl/workarounds.c).
 OF_POCL = {"-D_OPENCL_H_", "-DEC_OWN_BUILTINS"}
 
 
@@ -22,7 +22,7 @@ class NoKernels(Exception):
 
 
 class Source:
-    """A file, what it is called in messages, and the options that it is built with, as a list."""
+    """A file, its name in messages, and the list of its build options."""
 
     def __init__(self, path, label):
         with open(path, encoding="utf-8") as file:
@@ -32,7 +32,7 @@ class Source:
 
 
 def of_scene(words, folder):
-    """One source a lane width. words: SCENE and options."""
+    """Returns one source for each lane width. words: SCENE and options."""
     run = os.path.join(folder, str(len(os.listdir(folder))))
     environment = dict(os.environ, ECLAT_DUMP_KERNELS=run, ECLAT_COMPILE="first", XDG_CACHE_HOME=os.path.join(folder, "cache"))
     environment.setdefault("ECLAT_DEVICE_TYPE", "gpu")

@@ -1,4 +1,4 @@
-"""NVIDIA: clang to PTX, ptxas to machine code."""
+"""NVIDIA: compiles with clang to PTX, and with ptxas to machine code."""
 import os
 import re
 import time
@@ -7,9 +7,9 @@ import elf
 from clang import CompileError, compile_to, first_error
 from table import Row
 
-PTX_OF = "sm_75"      # what clang 15 writes, which every later card takes; ptxas then is told the card
-PTX_VERSION = "7.8"   # of the language, which sm_90 asks for
-WARPS = {"sm_75": 32, "sm_90": 64}  # that a multiprocessor holds
+PTX_OF = "sm_75"      # the target that clang 15 writes for; every later card takes it, and ptxas is told the card
+PTX_VERSION = "7.8"   # version of the language that sm_90 needs
+WARPS = {"sm_75": 32, "sm_90": 64}  # warps that a multiprocessor holds
 REGISTERS, WARP, GRANULE, WARP_GRANULE = 65536, 32, 256, 4
 ENTRY = re.compile(r"Compiling entry function '(\w+)'.*?(\d+) bytes stack frame, (\d+) bytes spill stores, \d+ bytes spill loads.*?Used (\d+) registers", re.S)
 
@@ -32,7 +32,7 @@ def compile_source(target, source, tools, folder):
         raise CompileError(first_error(run))
     seconds = time.monotonic() - start
     code = elf.sections(cubin)
-    # A frame holds what is spilled and the arrays.
+    # A frame holds both spills and arrays.
     return [Row(target, name, source, registers=int(registers), spill_bytes=int(spilled), private_bytes=max(0, int(frame) - int(spilled)),
                 occupancy=occupancy(target, int(registers)), code_bytes=code.get(".text." + name), compile_seconds=seconds)
             for name, frame, spilled, registers in ENTRY.findall(run.stdout + run.stderr)]

@@ -1,4 +1,4 @@
-"""SPIR-V, which rusticl and others take: is it valid OpenCL 1.2? Not optimised: the translator writes hints for loops that OpenCL has not."""
+"""SPIR-V, which rusticl and others take: checks that it is valid OpenCL 1.2. Not optimised, since the translator would write loop hints that OpenCL lacks."""
 import os
 import re
 import time

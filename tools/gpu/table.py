@@ -1,11 +1,11 @@
-"""What one kernel comes to on one target, and the table of many."""
+"""Figures of one kernel on one target, and the table of many."""
 
 HEADS = ["target", "kernel", "registers", "spilled", "private", "occupancy", "code", "seconds", "of"]
 
 
 class Row:
-    """Registers and bytes are of one work-item. occupancy: from 0 to 1. lane_atomics: places of atomic operations that each lane does for itself.
-    None: not known."""
+    """Registers and bytes are per work-item. occupancy: from 0 to 1. lane_atomics: number of atomic operations in the code that each lane does for
+    itself. None: not known."""
 
     def __init__(self, target, kernel, source, **numbers):
         self.target, self.kernel, self.source = target, kernel, source

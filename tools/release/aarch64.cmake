@@ -1,5 +1,5 @@
-# CMake's toolchain file for AArch64 by Debian's crossbuild-essential-arm64, with libraries of arm64 beside those of this machine; what it builds is
-# run by qemu-user-static. tools/release/aarch64 does it all in a folder of its own.
+# CMake toolchain file for AArch64 with Debian's crossbuild-essential-arm64. The arm64 libraries are installed beside those of this machine, and
+# qemu-user-static runs what is built. tools/release/aarch64 does all this in a folder of its own.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)

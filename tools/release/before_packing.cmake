@@ -1,6 +1,6 @@
-# Before cpack packs what was installed: what Debian's policy asks of a package.
+# Runs before cpack packs the installed files: makes them conform to Debian's policy.
 
-# file(RPATH_REMOVE) is what `cmake --install` uses itself.
+# `cmake --install` uses file(RPATH_REMOVE) too.
 function(forget_search_paths folder)
   file(GLOB programs ${folder}/usr/bin/* ${folder}/usr/lib/libeclat.so.* ${folder}/usr/lib/eclat/*)
   foreach(file ${programs})

@@ -1,4 +1,4 @@
-# While the archive's libraries are installed: they are told to find one another in their own folder, and get their licences beside them.
+# Runs while the archive's libraries are installed: makes them look for one another in their own folder, and adds their licences.
 set(root $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX})
 find_program(PATCHELF patchelf)
 if(NOT PATCHELF)

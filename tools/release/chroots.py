@@ -1,5 +1,5 @@
-"""Debian in a folder: what tools/release builds in and tests/packages tries packages in. Nothing but the folder is touched: mounts and formats of
-programs are private to each command. Takes root, debootstrap and Debian's archive."""
+"""Debian in a folder: tools/release builds in it, and tests/packages tries packages in it. Only the folder is changed: mounts and binary formats
+are private to each command. Needs root, debootstrap and Debian's archive."""
 import os
 import shutil
 import subprocess
@@ -8,9 +8,9 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 BUILD = os.environ.get("ECLAT_BUILD", os.path.join(ROOT, "build"))
 FOLDER = os.environ.get("ECLAT_CHROOTS", os.path.join(BUILD, "chroots"))
 
-# Everything is private to the command: the mounts end with it.
+# Everything is private to the command: its mounts end with it.
 ENTER = 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount --rbind /sys "$0/sys" && exec chroot "$0" "$@"'
-# As root of a user namespace, which has formats of its own (Linux 6.7): programs of AArch64 run by QEMU here, and nowhere else.
+# Runs as root of a user namespace with its own binary formats (Linux 6.7): only there does QEMU run programs of AArch64.
 ENTER_EMULATED = r"""mount -t binfmt_misc binfmt_misc /proc/sys/fs/binfmt_misc || exit 77
 printf '%s' ':eclat-aarch64:M::\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00:"""\
     r"""\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:/usr/bin/qemu-aarch64-static:FP' \
@@ -20,7 +20,7 @@ mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount --rbind /sy
 
 
 class Unavailable(Exception):
-    """Why there is no Debian to be had."""
+    """The reason why there is no Debian to work in."""
 
 
 def check(*programs):
@@ -34,7 +34,7 @@ def check(*programs):
 
 
 def base(suite, *options, name=None):
-    """A tar of a minimal Debian; made once."""
+    """Returns a tar of a minimal Debian, which is made once."""
     check()
     name = name or suite
     tar, new = (os.path.join(FOLDER, name + end) for end in (".tar", ".new"))
@@ -53,7 +53,7 @@ def base(suite, *options, name=None):
 
 
 class Chroot:
-    """The folder `name`, made of a tar of base() unless it is there."""
+    """The folder `name`, unpacked from a tar of base() unless it exists."""
 
     def __init__(self, name, tar, emulated=False):
         self.path = os.path.join(FOLDER, name)
@@ -62,7 +62,7 @@ class Chroot:
             os.makedirs(self.path)
             subprocess.run(["tar", "-C", self.path, "-xf", tar], check=True)
         os.makedirs(self.inside("etc/apt/apt.conf.d"), exist_ok=True)
-        with open(self.inside("etc/apt/apt.conf.d/90eclat"), "w", encoding="utf-8") as file:  # a mirror may be behind; signatures count all the same
+        with open(self.inside("etc/apt/apt.conf.d/90eclat"), "w", encoding="utf-8") as file:  # a mirror may be out of date; signatures are still checked
             file.write('Acquire::Check-Valid-Until "false";\n')
         for name in ("resolv.conf", "hosts"):
             if os.path.exists("/etc/" + name):
@@ -73,18 +73,18 @@ class Chroot:
 
     def command(self, *words, env=None):
         variables = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LC_ALL": "C.UTF-8", "DEBIAN_FRONTEND": "noninteractive", **(env or {})}
-        # The emulator hands its own environment on.
+        # The emulator passes its own environment on.
         names = ["unshare", "-m", "-p", "-f", "--kill-child", *(["-r", "--mount-proc"] if self.emulated else [])]
         return ["env", "-i", *(f"{key}={value}" for key, value in variables.items()), *names,
                 "sh", "-c", ENTER_EMULATED if self.emulated else ENTER, self.path, *words]
 
     def run(self, *words, env=None, **options):
-        """One command; its stdout and stderr as text, and no exception where it fails."""
+        """Runs one command. Returns its stdout and stderr as text; raises nothing if it fails."""
         options.setdefault("capture_output", True)
         return subprocess.run(self.command(*words, env=env), text=True, stdin=subprocess.DEVNULL, **options)
 
     def do(self, *words, env=None):
-        """A command that has to succeed, as a step of making something."""
+        """Runs a command that must succeed, as a step of making something."""
         run = self.run(*words, env=env, capture_output=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if run.returncode:
             raise SystemExit("\n".join(run.stdout.splitlines()[-40:]) + f"\nin a chroot: {' '.join(words)}: exit code {run.returncode}")
@@ -96,7 +96,7 @@ class Chroot:
         return self.do("apt-get", "-q", "install", "-y", "--no-install-recommends", *packages)
 
     def copy_sources(self, to="/src"):
-        """What git would commit; what is gone goes there too, and build folders stay."""
+        """Copies what git would commit. Deleted files are deleted there too; build folders stay."""
         os.makedirs(self.inside(to), exist_ok=True)
         files = subprocess.run(["git", "-C", ROOT, "ls-files", "-co", "--exclude-standard", "-z"], capture_output=True, check=True).stdout
         names = [name for name in files.split(b"\0") if name and os.path.lexists(os.path.join(ROOT.encode(), name))]

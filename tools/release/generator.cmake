@@ -1,10 +1,10 @@
-# What differs between the kinds of packages.
+# The settings that differ between kinds of packages.
 if(CPACK_GENERATOR STREQUAL DEB)
   set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 elseif(CPACK_GENERATOR STREQUAL TGZ)
   set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
   set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
   set(CPACK_COMPONENT_INCLUDE_TOPLEVEL_DIRECTORY ON)
-  list(REMOVE_ITEM CPACK_COMPONENTS_ALL mpi) # belongs to the MPI of a system
+  list(REMOVE_ITEM CPACK_COMPONENTS_ALL mpi) # needs the MPI of its system
   list(APPEND CPACK_COMPONENTS_ALL bundle)
 endif()

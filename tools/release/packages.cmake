@@ -1,4 +1,4 @@
-# What `cpack` makes in the build folder:
+# `cpack` makes these in the build folder:
 #   cpack -G DEB   eclat, eclat-mpi, eclat-view and libeclat-dev, for the Debian that they are built on
 #   cpack -G TGZ   all but eclat-mpi in one archive, with the libraries that a bare system lacks
 set(ECLAT_MAINTAINER "eclat maintainers <maintainers@eclat.example>" CACHE STRING "Who answers for the packages, with an address")
@@ -14,7 +14,7 @@ set(CPACK_ECLAT_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_PACKAGE_FILE_NAME eclat-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})
 string(TOLOWER "${CPACK_PACKAGE_FILE_NAME}" CPACK_PACKAGE_FILE_NAME)
 
-# Debian packages, with dependencies as dpkg-shlibdeps finds them.
+# Debian packages; dpkg-shlibdeps finds their dependencies.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -44,7 +44,7 @@ eclat_package(mpi eclat-mpi graphics "physically based renderer of glTF scenes -
 eclat_package(view eclat-view graphics "physically based renderer of glTF scenes - window"
               "This package has the interactive window of 'eclat view'.")
 
-# For packages of others that link the library, and for the loader's cache.
+# For other packages that link the library, and for the loader's cache.
 file(WRITE ${CMAKE_BINARY_DIR}/debian/shlibs "libeclat ${PROJECT_VERSION_MAJOR} eclat (>= ${PROJECT_VERSION})\n")
 file(WRITE ${CMAKE_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/debian/shlibs ${CMAKE_BINARY_DIR}/debian/triggers)
@@ -58,8 +58,8 @@ foreach(component mpi view)
   endif()
 endforeach()
 
-# For the archive: the libraries that are linked, but for those that every system of its age has and that drivers bring along, of which there must
-# not be two in a process.
+# The archive contains the linked libraries, except those that every system of its age has. Drivers bring these too, and a process must not load two
+# copies of one.
 if(NOT CMAKE_CROSSCOMPILING)
   set(of_the_system "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+|z|X[a-z0-9]*|xcb.*|GL[A-Za-z]*|EGL|eclat)\\.so")
   foreach(set program_needs view_needs)
