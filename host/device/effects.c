@@ -37,14 +37,14 @@ void ec_pipeline_effects(const ec_render_options *options, const ec_pack *pack, 
         ec_effects_call(called, EC_FEATURE_LAMP_PAIRS, "%u lamps of many triangles are chosen as one from afar", pack->bulb_count);
     else if (pack->lamp_pair_count)
         ec_effects_call(called, EC_FEATURE_LAMP_PAIRS, "%u pairs of lamps face opposite ways", pack->lamp_pair_count);
-    call_light_paths(options, pack, called);
+    static const uint64_t of_fog[] = {EC_FEATURE_FOG, EC_FEATURE_SCATTERING, EC_FEATURE_ABSORPTION};
+    for (int i = 0; options->fog[0] > 0 && i < 3; i++) ec_effects_call(called, of_fog[i], "--fog %g,%g,%g", options->fog[0], options->fog[1], options->fog[2]);
+    call_light_paths(options, pack, called); /* after all that scatters inside bodies */
     if (pack->caster_count && options->guiding) ec_effects_call(called, EC_FEATURE_GUIDING, "--guiding, by light paths to %u bodies that bend or mirror light", pack->caster_count - 1);
     if (options->layers.count) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels or --light-groups: %u layers", options->layers.count);
     else if (options->layers.mattes) ec_effects_call(called, EC_FEATURE_LAYERS, "--channels cryptomatte");
     if (ec_layers_find(&options->layers, EC_LAYER_UV)) ec_effects_call(called, EC_FEATURE_UV, "--channels uv");
     if (options->filter != EC_FILTER_BOX) ec_effects_call(called, EC_FEATURE_PIXEL_FILTER, "--filter");
-    static const uint64_t of_fog[] = {EC_FEATURE_FOG, EC_FEATURE_SCATTERING, EC_FEATURE_ABSORPTION};
-    for (int i = 0; options->fog[0] > 0 && i < 3; i++) ec_effects_call(called, of_fog[i], "--fog %g,%g,%g", options->fog[0], options->fog[1], options->fog[2]);
     if (options->fstop > 0) ec_effects_call(called, EC_FEATURE_LENS, "--fstop %g", (double)options->fstop);
     effects->built = options->all_effects ? ec_universal_features(effects) : called->bits | options->more_effects;
     effects->built &= ~effects->never;

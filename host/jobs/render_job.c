@@ -281,13 +281,12 @@ ec_result ec_render_job_load(ec_render_job *job, ec_error *err)
     return check_memory(job, err);
 }
 
-/* Copies the options, with what the request left open as the render has chosen it. */
+/* Copies the options, with light paths and guiding as the render has them: chosen, or left out where they do not apply. */
 static void find_rendered(const ec_render_job *job, ec_render_options *o)
 {
     *o = job->request->options;
-    if (o->light_paths != EC_LIGHT_PATHS_AUTO) return;
+    if (o->light_paths == EC_LIGHT_PATHS_AUTO) o->guiding = job->stats.is_guided;
     o->light_paths = job->stats.light_paths;
-    o->guiding = job->stats.is_guided;
 }
 
 ec_render_report ec_render_job_report(ec_render_job *job, const char *outputs[EC_OUTPUTS_MAX])

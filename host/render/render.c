@@ -202,7 +202,8 @@ static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_coun
     const ec_past *past = r->course->past;
     take_up(r, past);
     EC_TRY(load(r, devices, device_count, scene, log, err));
-    r->stats->light_paths = fmax(r->options->light_paths, 0);
+    const bool are_sent = r->sources.payload.head.effects.called.bits & EC_FEATURE_LIGHT_PATHS; /* not where light scatters inside bodies */
+    r->stats->light_paths = are_sent ? fmax(r->options->light_paths, 0) : 0;
     r->stats->is_guided = r->options->guiding;
     r->stats->far_share = r->options->far_share;
     if (r->course->loaded && ec_sources_alone(&r->sources)) r->course->loaded(r->course->user);

@@ -257,7 +257,8 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
         shadow_way way = shadow_way_make(params, &g, &l, between, nested, above);
         lane_u group = U(0);
         if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
-        lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted);
+        /* A lamp that passes light does not shine on itself: seen from just above, its triangle fills the hemisphere below. */
+        lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted) & !(scatters & (l.target == prim));
         shadow_push(params, shadows, counters->shadows[step], row, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
                     left_behind(&s, l.wi, lifted, prim), l.target, &way, m, invalid + EC_STAGE_SHADE);
     }

@@ -9,7 +9,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
 from hard_scene import Scene
-from support import NARROW, QUICK, Case, eclat, read_exr
+from support import NARROW, QUICK, SOURCE, Case, eclat, read_exr
 from test_caustic_forms import ball
 from tiers import full, long
 
@@ -209,6 +209,17 @@ class VolumeScatter(Case):
         path, look = scene.write(self.path("a.gltf")), ["--fog", f"{density},{albedo},{g}", "--eye", "0,0,0", "--look-at", "1,0,0", "--fov", "0.2", "--size", "8x8"]
         for expected, sky, depth in (seen, "0,0,0", "2"), (math.exp(-density * radius), "1,1,1", "1"):
             self.assert_seen(path, [expected] * 3, *look, "--env", sky, "--max-depth", depth, "--spp", "4096", accuracy=1e-4 * seen)
+
+    def test_no_light_paths_in_fog(self):
+        """Light paths do not scatter on their way: with fog none are sent, and the picture is that without them."""
+        job = [os.path.join(SOURCE, "scenes", "ring", "ring.gltf"), *QUICK, "--fog", "0.3,0.9,0", "--size", "16x16", "--spp", "4", "--json"]
+        reports = []
+        for paths in "0", "1":
+            run = self.assert_ok(eclat("render", *job, "--light-paths", paths, "-o", self.path("a.exr")))
+            reports.append(json.loads(run.stdout))
+        self.assertIn("--light-paths: none are sent", run.stderr)
+        self.assertIsNone(reports[1]["light_paths"])
+        self.assertEqual(reports[1]["image_sha256"], reports[0]["image_sha256"])
 
     def test_odd_fog(self):
         for fog, word in ("1,2", "three numbers"), ("-1,0,0", "first"), ("1,1.5,0", "second"), ("1,1,1", "third"):
