@@ -15,8 +15,9 @@ enum { PAGE = 256 }; /* triangles that are read at once */
 enum { PASSED = 1 << 11 };                       /* rays past edges that are followed to where they land */
 enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a sun that are looked at where they land; places around which rays feel what is lit;
                                                  * patches in all */
-enum { RINGS = 13, AROUND = 8 }; /* the largest first, each half of the one before */
-enum { SMALL_RING = 3, SMALL_LIT = 3 }; /* so many of this ring's rays that are lit make an area of more than SMALL */
+enum { RINGS = 20, AROUND = 8 }; /* the largest first, each half of the one before: down to 6e-7 of the radius */
+enum { SMALL_RINGS = 3, SMALL_LIT = 3 }; /* an area is small if fewer rays are lit in one of so many rings; of the largest of these
+                                          * SMALL_LIT rays make more than SMALL, of the others a room in a wide landscape is dark */
 #define LARGEST 0.3   /* of the scene's radius: the first one */
 #define SMALL 3e-4    /* of the disk around the scene: what is lit more is met soon */
 #define NEAREST 12    /* vertices by which their density is told … */
@@ -183,14 +184,21 @@ static bool is_known(const finder *f, const patch *at)
     return false;
 }
 
-/* Keeps the patches, up to FELT, around which so little is lit that they are small. */
+/* Keeps the patches, up to FELT, that have a ring in which so little is lit that they are small. */
 static ec_result drop_large(finder *f, const ec_rare_sun *sun, patch *found, uint32_t *count, uint64_t *random, ec_error *err)
 {
     uint32_t kept = 0;
-    for (uint32_t k = 0; k < *count; k++) feel_ring(f, &found[k], SMALL_RING, random, f->rays + (size_t)k * AROUND);
-    if (*count) EC_TRY(ec_chains_meet(f->p, f->rays, *count * AROUND, err));
-    for (uint32_t k = 0; k < *count; k++)
-        if (count_lit(f, sun, f->rays + (size_t)k * AROUND) < SMALL_LIT) found[kept++] = found[k];
+    for (uint32_t k = 0; k < *count * SMALL_RINGS; k++)
+        feel_ring(f, &found[k / SMALL_RINGS], 3 + 3 * (int)(k % SMALL_RINGS), random, f->rays + (size_t)k * AROUND);
+    if (*count) EC_TRY(ec_chains_meet(f->p, f->rays, *count * SMALL_RINGS * AROUND, err));
+    for (uint32_t k = 0; k < *count; k++) {
+        int least = AROUND;
+        for (uint32_t ring = 0; ring < SMALL_RINGS; ring++) {
+            const int lit = count_lit(f, sun, f->rays + ((size_t)k * SMALL_RINGS + ring) * AROUND);
+            least = lit < least ? lit : least;
+        }
+        if (least < SMALL_LIT) found[kept++] = found[k];
+    }
     *count = kept < FELT ? kept : FELT;
     for (uint32_t k = 0; k < *count; k++) found[k] = found[(uint64_t)k * kept / *count];
     return EC_OK;
@@ -284,7 +292,8 @@ static void add_kind(const near_patch *found, bool seen, const ec_chains *paths,
 
 ec_result ec_rare_openings_find(const ec_rare_lights *all, ec_pipeline *p, ec_rare_openings *openings, ec_error *err)
 {
-    const size_t most = all->edge_count > FELT * RINGS * AROUND ? all->edge_count : FELT * RINGS * AROUND;
+    const size_t felt = FELT * RINGS > LANDED * SMALL_RINGS ? FELT * RINGS : LANDED * SMALL_RINGS;
+    const size_t most = all->edge_count > felt * AROUND ? all->edge_count : felt * AROUND;
     *openings = (ec_rare_openings){0};
     if (!all->sun_count || !all->edge_count) return EC_OK;
     const uint32_t pages = (all->flat_count + PAGE - 1) / PAGE;

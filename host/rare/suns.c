@@ -9,7 +9,9 @@
 #include "base/text.h"
 #include "film/film.h"
 
-#define BESIDE 1e-4   /* of the scene's radius, from the edge */
+#define BESIDE 1e-4   /* of the scene's radius, from the edge … */
+#define BESIDE_EDGE 0.1 /* … but not more than this share of its length, since a hole in a wide landscape has short ones … */
+#define LEAST 1e-6    /* … and not less than this share of the radius, for rounding */
 #define NARROW 0.02   /* steradians: of a wider light one ray does not tell where it falls */
 #define ONE_SUN 0.995 /* cosine between parts of a map that are one sun */
 #define WEAK 0.01     /* of the strongest sun's irradiance, or of all lamps' power */
@@ -102,11 +104,12 @@ static void add_lamps(ec_rare_lights *all)
 }
 
 /* Sets a point beside the middle of a triangle's edge, in its plane and outside of it. */
-static void set_beside(const ec_prim *p, int edge, double distance, float point[3])
+static void set_beside(const ec_prim *p, int edge, double radius, float point[3])
 {
     const float *v[3] = {p->v0, p->v1, p->v2}, *a = v[edge], *b = v[(edge + 1) % 3], *c = v[(edge + 2) % 3];
     double along = 0, square = 0, length = 0, out[3];
     for (int k = 0; k < 3; k++) along += ((double)c[k] - a[k]) * ((double)b[k] - a[k]), square += ((double)b[k] - a[k]) * ((double)b[k] - a[k]);
+    const double distance = fmax(fmin(BESIDE * radius, BESIDE_EDGE * sqrt(square)), LEAST * radius);
     for (int k = 0; k < 3; k++) out[k] = a[k] + along / fmax(square, 1e-300) * ((double)b[k] - a[k]) - c[k], length += out[k] * out[k];
     for (int k = 0; k < 3; k++) point[k] = (float)(0.5 * ((double)a[k] + b[k]) + distance * out[k] / fmax(sqrt(length), 1e-300));
 }
@@ -136,7 +139,6 @@ static void choose_by_length(const ec_pack *pack, uint32_t triangles, uint32_t c
 static ec_result find_edges(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
 {
     const uint64_t edges = 3ull * all->flat_count;
-    const double beside = BESIDE * (double)all->radius;
     uint64_t random = 5;
     all->edge_count = edges < EC_RARE_EDGES ? (uint32_t)edges : EC_RARE_EDGES;
     if (!all->edge_count) return EC_OK;
@@ -150,7 +152,7 @@ static ec_result find_edges(const ec_pack *pack, ec_rare_lights *all, ec_error *
     for (uint32_t i = 0; i < all->edge_count; i++) {
         const bool some = edges > all->edge_count;
         const uint64_t edge = !some ? i : i % 2 ? 3ull * by_length[i / 2] + ec_random_bits(&random) % 3 : ec_random_bits(&random) % edges;
-        set_beside(&pack->prims[edge / 3], (int)(edge % 3), beside, all->edges[i]);
+        set_beside(&pack->prims[edge / 3], (int)(edge % 3), (double)all->radius, all->edges[i]);
     }
     free(by_length);
     for (uint32_t i = all->edge_count; i-- > 1;) { /* Fisher and Yates */

@@ -104,9 +104,10 @@ def texel_room(path):
     return room.write(path)
 
 
-def sun_room(path, kind, rug=0):
+def sun_room(path, kind, rug=0, ground=0):
     """A dim lamp of 5 W, and outside a sun of 10^5 W/m^2. Through a "hole" of 5 mm it lights a patch of the floor; the room is "sealed"; or, in
-    place of both, the "patch" shines as what is reflected there. rug: squares along each side of one on the floor, 0: none."""
+    place of both, the "patch" shines as what is reflected there. rug: squares along each side of one on the floor, 0: none. ground: side of the
+    plain that the room stands on, 0: none."""
     room, irradiance = Room(0.7), 1e5
     x, z = 0.5, 0.3
     room.quad(room.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
@@ -119,6 +120,8 @@ def sun_room(path, kind, rug=0):
         room.sun(irradiance)
     if rug:
         room.rug(rug)
+    if ground:
+        room.quad(room.white, (-ground / 2, -0.01, -ground / 2), (0, 0, ground), (ground, 0, 0))
     return room.write(path)
 
 

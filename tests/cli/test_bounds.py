@@ -113,6 +113,12 @@ class Bounds(Case):
         self.assertGreater(self.unmet(sun_room(self.path("hole.gltf"), "hole", rug=100)), 0.1)
 
     @full
+    def test_hole_is_found_in_a_room_on_a_plain(self):
+        # a ten-thousandth of the scene's radius, by which rays pass edges, is wider than the hole; and all is lit beyond the room
+        self.assertGreater(self.unmet(sun_room(self.path("hole.gltf"), "hole", ground=400)), 0.1)
+        self.assertEqual(self.unmet(sun_room(self.path("sealed.gltf"), "sealed", ground=400)), 0)
+
+    @full
     def test_lamp_that_light_paths_find_has_a_bound(self):
         # a screen hides it from the camera, whose paths end where a guided direction leads into a wall: of those nobody knows how far they would have gone
         bound, _ = self.render(PINLAMP, "--spp", "64")
