@@ -231,7 +231,7 @@ class VolumeScatter(Case):
         jade["extensions"]["KHR_materials_volume_scatter"]["multiscatterColorTexture"] = {"index": 0}
         path = self.scene_of(jade).add(block(1, 0, -1)).write(self.path("a.gltf"))
         run = self.assert_ok(eclat("info", path))
-        self.assertRegex(run.stderr, r"materials\[\d+\] has a multiscatterColorTexture, which is left out: bodies scatter alike all over")
+        self.assertRegex(run.stderr, r"materials\[\d+\] has a multiscatterColorTexture, which is left out: a body scatters the same everywhere")
 
 
 if __name__ == "__main__":
