@@ -177,7 +177,7 @@ ec_course ec_render_job_course(ec_render_job *job)
     job->job.error_target = request->options.error_target;
     job->job.time_limit = request->options.time_limit;
     request->options.identify = request->has_slice || request->checkpoint;
-    const char *whole_for = job->in_memory ? "a picture without output files" : ec_render_whole_for(request);
+    const char *whole_for = job->in_memory ? "a render without output files" : ec_render_whole_for(request);
     ec_course course = {.admit = request->options.identify ? admit : NULL,
                         .loaded = drop_scene,
                         .keep = request->checkpoint || request->snapshot ? keep : NULL,

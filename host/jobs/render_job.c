@@ -138,7 +138,7 @@ static ec_result check_memory(const ec_render_job *job, ec_error *err)
     const ec_render_options *options = &job->request->options;
     const uint32_t peers = job->ranks ? (uint32_t)ec_ranks_count(job->ranks) - 1 : 0;
     const char *reason = ec_render_whole_for(job->request), *instead = "leave it out";
-    if (job->in_memory) reason = "a picture without output files", instead = "name one by the option output";
+    if (job->in_memory) reason = "a render without output files", instead = "name one by the option output";
     if (peers) reason = "an MPI job", instead = "start one process without mpirun";
     if (job->device_count > 1) reason = "more than one --device", instead = "name one";
     uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count, peers);

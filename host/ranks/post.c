@@ -118,7 +118,7 @@ ec_result ec_post_receive(ec_post *p, int from, uint32_t box, bool (*go_on)(void
         pthread_mutex_lock(&p->lock);
     }
     pthread_mutex_unlock(&p->lock);
-    if (!in && !waits) return ec_fail(err, "given up");
+    if (!in && !waits) return ec_fail(err, "stopped waiting");
     if (!in) return lost(from, err);
     *letter = in->letter;
     free(in);
@@ -155,7 +155,7 @@ ec_result ec_post_spread(ec_post *p, void *bytes, uint64_t count, uint32_t box, 
             if (fits) memcpy(part.body, come.body, come.bytes);
             free(come.body);
             if (!fits)
-                return ec_fail(err, "rank %d sent %llu bytes in place of %llu", place->parent,
+                return ec_fail(err, "rank %d sent %llu bytes instead of %llu", place->parent,
                                (unsigned long long)come.bytes, (unsigned long long)part.bytes);
         }
         for (int i = 0; i < place->children; i++) (void)ec_post_send(p, place->first_child + i, &part, NULL); /* a lost child is found out later */

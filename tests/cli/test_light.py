@@ -60,7 +60,7 @@ class Light(Case):
 
     def test_a_bad_sky_is_refused(self):
         line = self.assert_one_error(eclat("render", self.scene, *SMALL, "--light", "sky:10,120", "-o", self.path("a.exr")), 1)
-        self.assertIn("sky:AZIMUTH,ELEVATION is two numbers of degrees, the second from 0 to 90", line)
+        self.assertIn("sky:AZIMUTH,ELEVATION needs two numbers in degrees, the second from 0 to 90", line)
 
 
 if __name__ == "__main__":

@@ -220,7 +220,7 @@ class VolumeScatter(Case):
     @full
     def test_told_where_it_is_left_out(self):
         path = self.scene_of(body(ALBEDO, [9, 4, 2], ior=1.4)).add(block(1, 0, -1)).write(self.path("a.gltf"))
-        for options, word in (["--integrator", "whitted"], "only --integrator path scatters light inside"), (["--light-paths", "1"], "--light-paths: none are sent"):
+        for options, word in (["--integrator", "whitted"], "only --integrator path scatters light inside"), (["--light-paths", "1"], "--light-paths: none are traced"):
             run = self.assert_ok(eclat("render", path, "--size", "8x8", "--spp", "8", "-o", self.path("a.png"), *options))
             self.assertIn(word, run.stderr)
             self.assertNotIn("light-paths  ", run.stderr)
