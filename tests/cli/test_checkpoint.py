@@ -223,8 +223,8 @@ class Checkpoint(Case):
         before = os.stat(self.kept).st_mtime_ns
         for limit in [[], ["--spp", "8"]]:
             run = self.assert_ok(eclat("render", "--resume", "kept.exr", *limit, cwd=self.folder))
-            self.assertEqual(run.stderr, "eclat: 'kept.exr' has 20 samples a pixel already, and "
-                             f"{(limit or ['--spp', '20'])[1]} are asked for: the picture is written as it is\n")
+            self.assertEqual(run.stderr, "eclat: 'kept.exr' already has 20 samples a pixel, and "
+                             f"{(limit or ['--spp', '20'])[1]} are asked for; the picture is written as it is\n")
         self.assertEqual(os.stat(self.kept).st_mtime_ns, before)  # it has all that there is
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--checkpoint", "other.exr", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.kept)[1], read_exr(self.path("other.exr"))[1])
@@ -239,8 +239,8 @@ class Checkpoint(Case):
     def test_begun_anew_where_it_was_to_be_gone_on_with(self):
         job = ["render", CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept, "-q", "-o", self.path("a.exr")]
         self.assertEqual(self.assert_ok(eclat(*job)).stderr, "")
-        self.assertEqual(self.assert_ok(eclat(*job)).stderr, f"eclat: warning: '{self.kept}' has 16 samples a pixel of this render, which begins anew "
-                         f"and writes over them; '--resume {self.kept}' goes on\n")
+        self.assertEqual(self.assert_ok(eclat(*job)).stderr, f"eclat: warning: '{self.kept}' holds 16 samples per pixel of this render and "
+                         f"will be overwritten; '--resume {self.kept}' continues it instead\n")
         self.assertEqual(self.assert_ok(eclat(*job, "--seed", "1")).stderr, "")
 
     def test_time_counts_on(self):
@@ -257,7 +257,7 @@ class Checkpoint(Case):
                               (["--camera", "0", "--filter", "blackman-harris"], "--filter is box there"), ([RING], "the scenes differ in camera, geometry")]:
             run = eclat("render", "--resume", self.kept, *options, "--spp", "32", "-q", "-o", self.path("b.exr"))
             error = self.assert_one_error(run, 1)
-            self.assertIn(f"cannot go on from '{self.kept}': ", error)
+            self.assertIn(f"cannot continue from '{self.kept}': ", error)
             self.assertIn(says, error)
             self.assertFalse(os.path.exists(self.path("b.exr")))
 

@@ -140,7 +140,7 @@ class ImageLight(Case):
         self.assert_colour(self.colour(scene, 1, "--env-strength", "4"), (4, 0, 0), 1e-6)
         run = self.assert_ok(eclat("render", "--size", "4x4", "--spp", "4", "--env", "0,2,0", "-o", self.path("a.exr"),
                                    self.path("scene.gltf")))
-        self.assertIn("--light takes the place of the image-based light that the scene has", run.stderr)
+        self.assertIn("--light replaces the scene's image-based light", run.stderr)
 
     def test_called_for_only_where_it_gives_light(self):
         colourful = [png(8, lambda x, y, c=colour: c) for colour in COLOURS]
@@ -152,7 +152,7 @@ class ImageLight(Case):
         for scene in (lit_scene(colourful, intensity=0), lit_scene([png(8, lambda x, y: (0, 0, 0))] * 6)):
             run = self.assert_ok(eclat("info", write_gltf(self.path("scene.gltf"), scene)))
             self.assertIn("no environment", run.stdout)
-            self.assertIn("a render takes the built-in studio", run.stdout)
+            self.assertIn("a render uses the built-in studio", run.stdout)
             self.assertNotIn("a map of 32 x 16", run.stdout)
         unused = lit_scene(colourful)
         del unused["scenes"][0]["extensions"]

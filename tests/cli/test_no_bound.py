@@ -40,7 +40,7 @@ class NoBound(Case):
         run, _ = self.render("--error", "60%", "--spp", "256", "--adaptive=off", env=WIDE)
         self.assertRegex(run.stderr, r'would be enough for --error 0\.6, but there is no bound: rare bright paths \(through "mirror" to "lamp"\)')
         self.assertEqual(len(re.findall("would be enough for", run.stderr)), 1)
-        self.assertRegex(run.stdout, r"(?m)^forecast .* not foreseeable")
+        self.assertRegex(run.stdout, r"(?m)^forecast .* cannot be predicted")
         self.assertRegex(run.stdout, r"(?m)^stopped  all samples are taken$")
 
     def test_slices_and_resumed_renders_say_the_same(self):

@@ -186,7 +186,7 @@ class Ranks(Case):
         for number, more, says in [("0", [], 1), ("1", [], 0), ("0", ["--samples", "0:8"], 0)]:
             env = {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": number}
             run = eclat("render", *JOB, "--spp", "16", *more, "-o", self.path("a.exr"), env=env)
-            self.assertEqual(self.assert_ok(run).stderr.count("srun started 2 processes that know nothing of one another"), says, run.stderr)
+            self.assertEqual(self.assert_ok(run).stderr.count("srun started 2 processes that do not know of one another"), says, run.stderr)
 
     def test_other_commands(self):
         run = self.assert_ok(mpirun(2, "info", CORNELL))
@@ -240,7 +240,7 @@ class Ranks(Case):
             _, error = self.outcome(process, ranks, victim)
             self.assertNotEqual(process.returncode, 0, error)
             goes_on = f"{ECLAT} render --resume {kept}\n"  # to be typed as it is; said before, and where there is a rank 0 to say it, again
-            self.assertEqual((error.count("from the last checkpoint with: " + goes_on), error.count("behind mpirun, with: " + goes_on)),
+            self.assertEqual((error.count("from the last checkpoint with: " + goes_on), error.count("under mpirun, with: " + goes_on)),
                              (1, 1 if victim else 0), error)
             run = self.assert_ok(eclat("render", "--resume", kept, "--spp", "1", "--json", "-q", "-o", self.path("b.exr")))
             done = json.loads(run.stdout)["samples_per_pixel"]

@@ -122,7 +122,7 @@ class Slices(Case):
         self.assertIn("samples 8:12, 24:33 are missing; ", error)
         self.assertFalse(os.path.exists(self.path("all.exr")))
         run = self.assert_ok(self.merge(c, a, "--partial"))
-        self.assertEqual(run.stderr, "eclat: warning: samples 8:12, 24:33 are missing: the picture is of the others\n")
+        self.assertEqual(run.stderr, "eclat: warning: samples 8:12, 24:33 are missing; the picture is made of the others\n")
         self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {20.0})
 
     @full

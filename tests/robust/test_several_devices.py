@@ -276,8 +276,8 @@ class Unlike(FaultCase):
         last = self.count_calls("--device", "0", env=env)["clGetDeviceInfo"]
         for device, warns in [("all", True), ("1", False)]:
             run, _ = self.run_with("rounds" + device, "--device", device, env=env, call="clGetDeviceInfo", at=last)
-            said = re.search("(?m)^eclat: warning: (basic|pthread)-.* does not say that it rounds division and square root correctly: where it does not, "
-                             "the last bits are not those of one device$", self.assert_ok(run).stderr)
+            said = re.search("(?m)^eclat: warning: (basic|pthread)-.* does not say that it rounds division and square root correctly; if it does not, "
+                             "the last bits differ from those of one device$", self.assert_ok(run).stderr)
             self.assertEqual(bool(said), warns, run.stderr)
 
     @full
