@@ -68,10 +68,10 @@ ec_result ec_cost_reference_of(const ec_film *film, ec_cost_reference *r, ec_err
     return finish(r, pixels, err);
 }
 
-static ec_result foretell(ec_cost_runner *runner, ec_film *film, ec_error *err)
+static ec_result predict(ec_cost_runner *runner, ec_film *film, ec_error *err)
 {
     ec_rare rare;
-    EC_TRY(ec_session_foretell(runner->session, &rare, err));
+    EC_TRY(ec_session_predict(runner->session, &rare, err));
     return ec_film_set_rare(film, &rare, err);
 }
 
@@ -96,7 +96,7 @@ ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_err
     ec_result result = ec_cost_runner_open(study, &rung, &runner, &stats, &r->setup_seconds, err);
     double start = ec_now();
     if (result == EC_OK && !runner.stopped) result = ec_film_create(&film, o->width, o->height, ec_render_replicates(o), err);
-    if (result == EC_OK && film.width) result = foretell(&runner, &film, err);
+    if (result == EC_OK && film.width) result = predict(&runner, &film, err);
     if (result == EC_OK && film.width) result = take_batches(&runner, &film, deadline, err);
     if (result == EC_OK && film.batch_count < 2) study->interrupted = true; /* no comparison is possible */
     if (result == EC_OK && film.batch_count >= 2) result = ec_cost_reference_of(&film, r, err);

@@ -75,7 +75,7 @@ uint32_t ec_cost_best(const ec_cost_study *study, ec_cost_column column)
     return best;
 }
 
-/* Returns the smallest error that the default has reached, or else the largest for which its time is foretold; -1: none. */
+/* Returns the smallest error that the default has reached, or else the largest for which its time is predicted; -1: none. */
 static int find_goal(const ec_cost_row *base)
 {
     int goal = -1;

@@ -66,7 +66,7 @@ static void normalise(ec_allotment *a, double mean)
 }
 
 /* Returns error^2 by these weights over that of uniform sampling. A pixel's own variance is independent of its weight, so that this is no flattery. */
-static double foretold_gain(const ec_allotment *a)
+static double predicted_gain(const ec_allotment *a)
 {
     double uniform = 0, weighted = 0;
     for (uint32_t i = 0; i < a->pixels; i++) {
@@ -119,7 +119,7 @@ ec_result ec_allot(const ec_film *film, const ec_params *params, ec_allotment *a
     if ((uint64_t)film->width * film->height < EC_ALLOT_PIXELS) return EC_OK;
     EC_TRY(allocate(a, params, err));
     weigh(a, film);
-    const double gain = foretold_gain(a);
+    const double gain = predicted_gain(a);
     if (gain > WORTH_IT) ec_allotment_free(a);
     else a->gain = gain;
     return EC_OK;

@@ -21,7 +21,7 @@ typedef struct ec_allotment {
     uint32_t *places;    /* places in row order of its entries */
     float *variance;     /* in row order: variance of a sample when weights were last made */
     uint32_t pixels, replicates, room; /* room: for how many entries */
-    double gain;         /* error^2 by these weights over that of uniform sampling, foretold; 1 where there is nothing to gain */
+    double gain;         /* error^2 by these weights over that of uniform sampling, predicted; 1 where there is nothing to gain */
     double level;        /* samples that each replicate of a pixel of weight 1 is due */
 } ec_allotment;
 

@@ -45,9 +45,9 @@ void ec_recall_begin(ec_recall *r, ec_cl *cl, const char *scene, uint32_t integr
     r->is_begun = ec_notes_read(cl, r->name, &r->plan, sizeof r->plan) && is_sound(&r->plan) && begin(cl, &r->plan);
 }
 
-void ec_build_ahead(ec_cl *cl, const ec_cargo *cargo, const ec_render_effects *effects, uint32_t width, uint32_t height, uint32_t batch)
+void ec_build_ahead(ec_cl *cl, const ec_payload *payload, const ec_render_effects *effects, uint32_t width, uint32_t height, uint32_t batch)
 {
-    const ec_cargo_head *head = &cargo->head;
+    const ec_payload_head *head = &payload->head;
     const ec_recall *recall = cl->recall;
     ec_build_plan plan;
     memset(&plan, 0, sizeof plan);

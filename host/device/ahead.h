@@ -2,7 +2,7 @@
 #ifndef EC_DEVICE_AHEAD_H
 #define EC_DEVICE_AHEAD_H
 
-#include "device/cargo.h"
+#include "device/payload.h"
 
 /* All that decides which kernels are built. It is compared and stored as bytes, so that padding has to be zero. */
 typedef struct ec_build_plan {
@@ -21,8 +21,8 @@ typedef struct ec_recall {
  * notes its own plan for the next render if it differs; recall has to stay where it is until then. scene: its path. */
 void ec_recall_begin(ec_recall *recall, ec_cl *cl, const char *scene, uint32_t integrator);
 
-/* Begins to build kernels before the cargo is whole, when its accelerators and the effects that it calls for are known. Takes only programs that the
- * driver has in its cache, in a thread of their own (cl/ahead.h); batch: samples of a pixel, as for ec_cargo_make. */
-void ec_build_ahead(ec_cl *cl, const ec_cargo *cargo, const ec_render_effects *effects, uint32_t width, uint32_t height, uint32_t batch);
+/* Begins to build kernels before the payload is whole, when its accelerators and the effects that it calls for are known. Takes only programs that the
+ * driver has in its cache, in a thread of their own (cl/ahead.h); batch: samples of a pixel, as for ec_payload_make. */
+void ec_build_ahead(ec_cl *cl, const ec_payload *payload, const ec_render_effects *effects, uint32_t width, uint32_t height, uint32_t batch);
 
 #endif

@@ -43,7 +43,7 @@ typedef struct ec_batch_order {
     /* Returns how many batches from this or a later one on are wanted in any case, all pixels of each, without a look at what is there in between: a
      * source may take a block of its own accord. Gives always the same answer, to any thread. NULL: one. */
     uint32_t (*whole)(const void *user, uint32_t index);
-    double patience, until;           /* … if the block is foretold to end within so many seconds, and by then (base/clock.h) */
+    double patience, until;           /* … if the block is predicted to end within so many seconds, and by then (base/clock.h) */
     double left;                      /* samples from `done` on in all that limits of samples allow; INFINITY: any number */
     const uint32_t *list;             /* of one pass of an adaptive render, EC_LIST_WORDS an entry; NULL: all pixels */
     uint32_t samples;                 /* of each of its entries */

@@ -59,7 +59,7 @@ ec_result ec_pipeline_set_camera(const ec_camera *c, const ec_render_options *o,
     return set_lens(c, o, params, err);
 }
 
-ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
+ec_result ec_payload_add_camera(ec_payload *payload, const ec_scene *scene, const ec_render_options *o, ec_error *err)
 {
     const ec_motion *motion = &scene->motion;
     const size_t keys = motion->segments + 1;
@@ -67,7 +67,7 @@ ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_r
     if (!motion->segments || !moves) return EC_OK;
     float *table = calloc(keys * EC_CAMERA_VECTORS * 4, sizeof *table);
     if (!table) return ec_fail(err, "out of memory for a camera at %zu moments", keys);
-    ec_cargo_add(cargo, EC_ARG_CAMERA_KEYS, "camera keys", keys * EC_CAMERA_VECTORS * 16, 0, table, table);
+    ec_payload_add(payload, EC_ARG_CAMERA_KEYS, "camera keys", keys * EC_CAMERA_VECTORS * 16, 0, table, table);
     for (size_t k = 0; k < keys; k++) {
         ec_params params = {.orthographic = 0};
         EC_TRY(ec_pipeline_set_camera(&motion->cameras[(moves - 1) * keys + k], o, &params, err));

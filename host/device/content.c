@@ -108,7 +108,7 @@ static void write_digest(ec_sha256 *digest, char text[33])
     ec_sha256_write(bytes, 16, text);
 }
 
-void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content)
+void ec_payload_content(const ec_payload_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content)
 {
     ec_sha256 digests[EC_CONTENT_COUNT];
     for (int i = 0; i < EC_CONTENT_COUNT; i++) ec_sha256_begin(&digests[i]);

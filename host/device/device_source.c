@@ -226,12 +226,12 @@ static void close_device(ec_batch_source *source)
     ec_mattes_free(&s->mattes);
 }
 
-ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *s,
+ec_result ec_device_source_open(ec_cl *cl, const ec_payload *payload, ec_payload *spent, uint64_t seed, ec_device_source *s,
                                 ec_render_stats *stats, ec_error *err)
 {
     *s = (ec_device_source){.base = {.take = take, .look = look, .turn_to = turn_to, .end_features = end_features, .close = close_device},
                             .seed = seed,
-                            .replicates = cargo->head.replicates};
-    EC_TRY(ec_pipeline_create(cl, cargo, spent, &s->pipeline, stats, err));
+                            .replicates = payload->head.replicates};
+    EC_TRY(ec_pipeline_create(cl, payload, spent, &s->pipeline, stats, err));
     return ec_lamp_edges_find(&s->pipeline, err);
 }

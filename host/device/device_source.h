@@ -19,7 +19,7 @@ typedef struct ec_device_source {
 } ec_device_source;
 
 /* Opens a source. spent: as for ec_pipeline_create. It must be turned to its rows before the first order, and closed even on failure. */
-ec_result ec_device_source_open(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, uint64_t seed, ec_device_source *source,
+ec_result ec_device_source_open(ec_cl *cl, const ec_payload *payload, ec_payload *spent, uint64_t seed, ec_device_source *source,
                                 ec_render_stats *stats, ec_error *err);
 
 #endif

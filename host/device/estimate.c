@@ -19,15 +19,15 @@ ec_result ec_scene_estimate(const ec_scene *scene, const ec_render_options *opti
                             ec_render_effects *effects, ec_error *err)
 {
     const ec_scene *called_for;
-    ec_cargo *cargo = calloc(1, sizeof *cargo);
-    if (!cargo) return ec_fail(err, "out of memory for what a render is made of");
-    ec_result result = ec_cargo_choose(cargo, &scene, &called_for, options, err);
-    if (result == EC_OK) result = ec_cargo_pack(cargo, scene, called_for, options, NULL, 0, err);
+    ec_payload *payload = calloc(1, sizeof *payload);
+    if (!payload) return ec_fail(err, "out of memory for what a render is made of");
+    ec_result result = ec_payload_choose(payload, &scene, &called_for, options, err);
+    if (result == EC_OK) result = ec_payload_pack(payload, scene, called_for, options, NULL, 0, err);
     if (result == EC_OK) {
-        *effects = cargo->head.effects;
-        *device_bytes = sum_bytes(scene, &cargo->pack, ref_count, effects);
+        *effects = payload->head.effects;
+        *device_bytes = sum_bytes(scene, &payload->pack, ref_count, effects);
     }
-    ec_cargo_free(cargo);
-    free(cargo);
+    ec_payload_free(payload);
+    free(payload);
     return result;
 }

@@ -1,4 +1,4 @@
-/* Sets up a render on one device from a cargo, and tears it down. */
+/* Sets up a render on one device from a payload, and tears it down. */
 #include "device/pipeline.h"
 
 #include <stdlib.h>
@@ -8,10 +8,10 @@
 #include "device/help.h"
 #include "device/tiers.h"
 
-ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *p, ec_render_stats *stats,
+ec_result ec_pipeline_create(ec_cl *cl, const ec_payload *payload, ec_payload *spent, ec_pipeline *p, ec_render_stats *stats,
                              ec_error *err)
 {
-    const ec_cargo_head *head = &cargo->head;
+    const ec_payload_head *head = &payload->head;
     memset(p, 0, sizeof *p);
     p->cl = cl;
     p->compiler.report = -1;
@@ -25,7 +25,7 @@ ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, 
     double start = ec_now();
     uint64_t uploaded = cl->uploaded_bytes, found = cl->found_bytes;
     uint32_t programs = cl->programs_found;
-    ec_result result = ec_pipeline_upload(p, cargo, spent, err);
+    ec_result result = ec_pipeline_upload(p, payload, spent, err);
     if (result == EC_OK) result = ec_pipeline_create_queues(p, head->wave, err);
     stats->pack_seconds += ec_now() - start;
     if (result != EC_OK) return result;

@@ -3,7 +3,7 @@
 #define EC_DEVICE_PIPELINE_H
 
 #include "cl/compiler.h"
-#include "device/cargo.h"
+#include "device/payload.h"
 #include "device/options.h"
 #include "device/stats.h"
 #include "device/kernel_set.h"
@@ -60,9 +60,9 @@ typedef struct ec_pipeline {
     double clocked_seconds, clocked_rays; /* of trials (trace.c) */
 } ec_pipeline;
 
-/* Puts a cargo on a device and builds the kernels that it calls for. spent: the same cargo, if nobody else needs it: each of its buffers is freed as
+/* Puts a payload on a device and builds the kernels that it calls for. spent: the same payload, if nobody else needs it: each of its buffers is freed as
  * soon as the device has it, and then the rest; else NULL. stats gets times, lanes and wave. */
-ec_result ec_pipeline_create(ec_cl *cl, const ec_cargo *cargo, ec_cargo *spent, ec_pipeline *pipeline,
+ec_result ec_pipeline_create(ec_cl *cl, const ec_payload *payload, ec_payload *spent, ec_pipeline *pipeline,
                              ec_render_stats *stats, ec_error *err);
 void ec_pipeline_destroy(ec_pipeline *pipeline);
 
@@ -112,7 +112,7 @@ static inline bool ec_pipeline_edges_can_be(const ec_pipeline *p)
 void ec_pipeline_set_view(const ec_camera *camera, const ec_render_options *options, ec_params *params);
 ec_result ec_pipeline_set_camera(const ec_camera *camera, const ec_render_options *options, ec_params *params, ec_error *err);
 /* upload.c; spent: as for ec_pipeline_create */
-ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_cargo *cargo, ec_cargo *spent, ec_error *err);
+ec_result ec_pipeline_upload(ec_pipeline *pipeline, const ec_payload *payload, ec_payload *spent, ec_error *err);
 /* upload_plan.c: plans what of the scene goes to the device, and for which effects */
 typedef struct ec_upload {
     ec_arg arg;

@@ -134,11 +134,11 @@ static ec_result probe_one(ec_cl *cl, const ec_scene *scene, const ec_scene *bui
     EC_TRY(ec_pipeline_lanes(cl, 0, &p.lanes, err));
     ec_accel_input input = ec_accel_input_of(built, grid_density);
     memset(probe, 0, sizeof *probe);
-    ec_cargo cargo = {0};
+    ec_payload payload = {0};
     p.accels[which].in_use = true;
-    ec_result result = ec_cargo_add_accel(&cargo, which, &input, &probe->build, err);
+    ec_result result = ec_payload_add_accel(&payload, which, &input, &probe->build, err);
     ec_accel_input_free(&input);
-    if (result == EC_OK) result = ec_pipeline_upload(&p, &cargo, &cargo, err);
+    if (result == EC_OK) result = ec_pipeline_upload(&p, &payload, &payload, err);
     if (result == EC_OK && scene->triangle_count) {
         result = make_buffers(&p, scene, err);
         if (result == EC_OK) result = count(&p, which, probe, err);

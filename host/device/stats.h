@@ -37,7 +37,7 @@ typedef struct ec_render_stats {
     double light_paths;           /* for each camera path: the options', or what was chosen */
     bool is_guided;               /* directions are guided: by the option, or because that was chosen */
     double far_share;             /* share of light samples that was chosen for lights at infinity; 0: there are not both these and lamps */
-    double allotment_gain;        /* adaptive: error^2 over uniform sampling's, foretold; 1 where there was nothing to gain */
+    double allotment_gain;        /* adaptive: error^2 over uniform sampling's, predicted; 1 where there was nothing to gain */
     uint64_t invalid_generate, invalid_intersect, invalid_shade, invalid_connect, invalid_accumulate;
     uint64_t invalid_samples;     /* their sum: non-finite contributions dropped, still counted in N */
     uint32_t lanes, wave, replicates;

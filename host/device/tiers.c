@@ -37,7 +37,7 @@ static ec_compile when_to_compile(ec_compile compile)
 
 /* Returns whether a render may begin with narrow kernels. A width that was asked for is kept. Changing kernels later pays if the driver compiles
  * late, and needs bits that are known not to depend on it. */
-static bool may_begin_narrow(ec_pipeline *p, const ec_cargo_head *head)
+static bool may_begin_narrow(ec_pipeline *p, const ec_payload_head *head)
 {
     const ec_compile when = when_to_compile(head->compile);
     if (head->fast_math || head->lanes || p->lanes <= 1 || !ec_pipeline_narrow_wave(p, p->effects.built)) return false;
@@ -96,7 +96,7 @@ static bool compile_beside(ec_pipeline *p, candidate *c, bool wants_universal)
 }
 
 /* Chooses the set to begin with. */
-static ec_begun choose(ec_pipeline *p, const ec_cargo_head *head, candidate *c)
+static ec_begun choose(ec_pipeline *p, const ec_payload_head *head, candidate *c)
 {
     p->waves_until_fast = head->waves_until_fast;
     p->is_narrow = p->waves_until_fast && c[EC_BEGUN_NARROW].set.wave;
@@ -156,7 +156,7 @@ static ec_result prepare(ec_pipeline *p, candidate *c, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_tiers_begin(ec_pipeline *p, const ec_cargo_head *head, ec_error *err)
+ec_result ec_tiers_begin(ec_pipeline *p, const ec_payload_head *head, ec_error *err)
 {
     candidate candidates[CANDIDATES] = {[EC_BEGUN_FAST] = {.set = ec_kernel_set_fast(p)}, [EC_BEGUN_NARROW] = {.set = narrow_set(p)}, [EC_BEGUN_UNIVERSAL] = {.set = universal_set(p)}};
     ec_result result = ec_prepares_kernels() && ec_compiles_late(&p->cl->info) ? prepare(p, candidates, err) : EC_OK;

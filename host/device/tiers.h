@@ -6,7 +6,7 @@
 #include "device/pipeline.h"
 
 /* Builds the kernels that the pipeline begins with. */
-ec_result ec_tiers_begin(ec_pipeline *pipeline, const ec_cargo_head *head, ec_error *err);
+ec_result ec_tiers_begin(ec_pipeline *pipeline, const ec_payload_head *head, ec_error *err);
 
 /* Between two waves: lets the fast kernels take over, if they are there by now. */
 ec_result ec_tiers_step(ec_pipeline *pipeline, ec_error *err);

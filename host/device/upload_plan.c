@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "device/cargo.h"
+#include "device/payload.h"
 #include "device/pipeline.h"
 #include "scene/texels.h"
 
@@ -53,16 +53,16 @@ uint32_t ec_upload_plan(const ec_scene *s, const ec_pack *pack, ec_upload plan[E
     return count;
 }
 
-void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned)
+void ec_payload_add(ec_payload *payload, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned)
 {
     if (!data) return;
-    ec_cargo_buffer *buffer = &cargo->buffers[cargo->head.buffer_count++];
-    *buffer = (ec_cargo_buffer){.arg = arg, .accel = EC_ACCEL_COUNT, .bytes = bytes, .slack = slack, .data = data, .owned = owned};
+    ec_payload_buffer *buffer = &payload->buffers[payload->head.buffer_count++];
+    *buffer = (ec_payload_buffer){.arg = arg, .accel = EC_ACCEL_COUNT, .bytes = bytes, .slack = slack, .data = data, .owned = owned};
     snprintf(buffer->label, sizeof buffer->label, "%s", label);
 }
 
 /* Adds both uv sets side by side. They must be finite and small enough for the kernels' integer texels. */
-static ec_result add_uvs(ec_cargo *cargo, const ec_scene *scene, const ec_upload *u, ec_error *err)
+static ec_result add_uvs(ec_payload *payload, const ec_scene *scene, const ec_upload *u, ec_error *err)
 {
     float *uvs = calloc(4 * (size_t)scene->vertex_count, sizeof *uvs);
     if (!uvs) return ec_fail(err, "out of memory for texture coordinates of %u vertices", scene->vertex_count);
@@ -71,23 +71,23 @@ static ec_result add_uvs(ec_cargo *cargo, const ec_scene *scene, const ec_upload
             float c = scene->uv[set][i];
             uvs[4 * (i / 2) + 2 * set + i % 2] = isfinite(c) ? fminf(fmaxf(c, -1e6f), 1e6f) : 0.0f;
         }
-    ec_cargo_add(cargo, u->arg, u->buffer.label, u->buffer.bytes, 0, uvs, uvs);
+    ec_payload_add(payload, u->arg, u->buffer.label, u->buffer.bytes, 0, uvs, uvs);
     return EC_OK;
 }
 
-ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, ec_pack *pack, ec_error *err)
+ec_result ec_payload_add_scene(ec_payload *payload, const ec_scene *scene, ec_pack *pack, ec_error *err)
 {
     ec_upload plan[EC_SCENE_BUFFERS];
-    uint32_t count = ec_upload_plan(scene, pack, plan, &cargo->head.effects);
+    uint32_t count = ec_upload_plan(scene, pack, plan, &payload->head.effects);
     for (uint32_t i = 0; i < count; i++) {
         const ec_upload *u = &plan[i];
         uint64_t bytes = u->buffer.bytes;
         if (!bytes) continue; /* an absent stream stays NULL */
         void *owned = u->arg == EC_ARG_PRIMS ? pack->prims : NULL;
-        if (u->arg == EC_ARG_UVS) EC_TRY(add_uvs(cargo, scene, u, err));
-        else ec_cargo_add(cargo, u->arg, u->buffer.label, bytes - u->slack, u->slack, u->data, owned);
-        if (u->arg == EC_ARG_TEXELS) { /* the cargo's from here on */
-            cargo->buffers[cargo->head.buffer_count - 1].texels = pack->texels;
+        if (u->arg == EC_ARG_UVS) EC_TRY(add_uvs(payload, scene, u, err));
+        else ec_payload_add(payload, u->arg, u->buffer.label, bytes - u->slack, u->slack, u->data, owned);
+        if (u->arg == EC_ARG_TEXELS) { /* the payload's from here on */
+            payload->buffers[payload->head.buffer_count - 1].texels = pack->texels;
             pack->texels = NULL;
         }
         if (u->arg == EC_ARG_PRIMS) pack->prims_lent = true;

@@ -52,7 +52,7 @@ ec_result ec_film_set_rare(ec_film *film, const ec_rare *rare, ec_error *err)
     free(film->rare);
     film->rare = rare && rare->count ? malloc(sizeof *rare) : NULL;
     if (film->rare) *film->rare = *rare;
-    return film->rare || !rare || !rare->count ? EC_OK : ec_fail(err, "out of memory for what is foretold of rare paths");
+    return film->rare || !rare || !rare->count ? EC_OK : ec_fail(err, "out of memory for what is predicted of rare paths");
 }
 
 ec_result ec_film_part_light(ec_film *film, ec_error *err)

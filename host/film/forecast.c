@@ -9,36 +9,36 @@
 /* The slope's excess over 1 falls by a factor e in so many e-folds of the samples: measured from 32 to 1024 samples, about 9 on the Cornell
  * box and 2 on the showcase. */
 #define FADES 4.0
-static double excess(const ec_film_outlook *o, double samples) { return (o->slope - 1) * exp(-fmax(log(samples / o->samples), 0) / FADES); }
+static double excess(const ec_film_forecast *o, double samples) { return (o->slope - 1) * exp(-fmax(log(samples / o->samples), 0) / FADES); }
 
-double ec_outlook_fall(const ec_film_outlook *o, double samples)
+double ec_film_forecast_fall(const ec_film_forecast *o, double samples)
 {
     const double times = samples / o->samples, slope = o->slope - 1;
     return times * (times > 1 ? exp(FADES * (slope - excess(o, samples))) : pow(times, slope));
 }
 
-double ec_outlook_bound(const ec_film_outlook *o, double samples)
+double ec_film_forecast_bound(const ec_film_forecast *o, double samples)
 {
     const double times = samples / o->samples, bright = o->bright_samples * times, larger = o->larger * pow(times, -o->larger_falls);
-    const double met = ec_film_error_bound(o->square / ec_outlook_fall(o, samples), o->noisy_pixels, bright, larger, o->pixels, o->replicates);
+    const double met = ec_film_error_bound(o->square / ec_film_forecast_fall(o, samples), o->noisy_pixels, bright, larger, o->pixels, o->replicates);
     return samples < o->unmet_samples ? hypot(met, o->unmet) : met;
 }
 
 /* Returns the samples that are needed if no light is missing. */
-static double samples_if_met(const ec_film_outlook *o, double target)
+static double samples_if_met(const ec_film_forecast *o, double target)
 {
-    const ec_film_outlook met = {o->square, o->samples, o->slope, o->noisy_pixels, o->bright_samples, o->larger, o->larger_falls,
+    const ec_film_forecast met = {o->square, o->samples, o->slope, o->noisy_pixels, o->bright_samples, o->larger, o->larger_falls,
                                  o->pixels, o->replicates, 0, 0};
     double samples = o->samples * pow(o->square / (target * target), 1 / o->slope);
     for (int i = 0; i < 20; i++) { /* Newton's method on logarithms, but for the bound's factor, which hardly depends on the number */
-        const double bound = ec_outlook_bound(&met, samples), better = samples * pow(bound / target, 2 / (1 + excess(o, samples)));
+        const double bound = ec_film_forecast_bound(&met, samples), better = samples * pow(bound / target, 2 / (1 + excess(o, samples)));
         if (fabs(better - samples) < 1e-6 * samples) return better;
         samples = fmax(better, 1);
     }
     return samples;
 }
 
-double ec_outlook_samples(const ec_film_outlook *o, double target)
+double ec_film_forecast_samples(const ec_film_forecast *o, double target)
 {
     const double before = target > o->unmet ? samples_if_met(o, sqrt(target * target - o->unmet * o->unmet)) : INFINITY;
     return before < o->unmet_samples ? before : fmin(before, fmax(samples_if_met(o, target), o->unmet_samples));

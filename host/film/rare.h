@@ -1,6 +1,6 @@
 /* Light that hardly any sample meets: paths whose last direction light sampling cannot choose (a mirror's, glass's, the camera's own) and
  * whose light is so small that few of those directions lead to it. While a render expects only a handful of such samples it may have met
- * none: that light is missing, and the samples' spread says nothing of it. How often they come and what they bring is foretold by
+ * none: that light is missing, and the samples' spread says nothing of it. How often they come and what they bring is predicted by
  * rare/paths.h; here is what that means for an error.
  *
  * What is missing is an error of the size of that light, pixel by pixel: its root mean square. Once samples meet it, however few, they
@@ -20,7 +20,7 @@
 #define EC_RARE_MET 5.0    /* samples that a kind is expected to have once it is as good as met: 1 in 150 renders has none */
 #define EC_RARE_LEAST 0.05 /* of the mean luminance without these samples, root mean square: missing light that matters where … */
 #define EC_RARE_TAIL 0.5   /* … the largest few samples hold more than this share of the noise */
-#define EC_RARE_DOUBT 2.0  /* by which what is foretold of its light may be too low */
+#define EC_RARE_DOUBT 2.0  /* by which what is predicted of its light may be too low */
 
 /* One kind of path: through one material, with one sharpness, to one light. */
 typedef struct ec_rare_kind {

@@ -14,7 +14,7 @@ typedef struct pilot {
     const ec_listener *listener;
     uint64_t pixels;
     double one, two, most;       /* samples of the picture after the first round, the second, and all that are measured */
-    bool is_foretold;            /* the number of samples is foretold by the film */
+    bool is_predicted;            /* the number of samples is predicted by the film */
     ec_mark first, last;         /* the end of the first round, and of the last one so far */
 } pilot;
 
@@ -24,7 +24,7 @@ static bool watch(void *user, const ec_progress *progress)
     const double done = (double)progress->samples;
     if (p->first.samples == 0 && done >= p->one) p->first = (ec_mark){done, progress->seconds};
     if (done > p->last.samples) p->last = (ec_mark){done, progress->seconds};
-    const bool suffices = done >= p->two && !p->is_foretold && progress->seconds > ENOUGH_SECONDS;
+    const bool suffices = done >= p->two && !p->is_predicted && progress->seconds > ENOUGH_SECONDS;
     return done < p->most && !suffices && !p->listener->should_stop(p->listener->user);
 }
 
@@ -95,7 +95,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
     const ec_listener *listener = job->listener;
     ec_render_options options = job->request->options;
     const uint32_t replicates = ec_render_replicates(&options);
-    pilot p = {.listener = listener, .pixels = (uint64_t)options.width * options.height, .is_foretold = !options.spp};
+    pilot p = {.listener = listener, .pixels = (uint64_t)options.width * options.height, .is_predicted = !options.spp};
     set_rounds(&p, replicates);
     options.adaptive = false;
     options.compile = EC_COMPILE_FIRST; /* so that the kernels measured are those that all will use */
@@ -116,7 +116,7 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
     const double a_sample = (p.last.seconds - p.first.seconds) / (p.last.samples - p.first.samples) * (double)p.pixels;
     *plan = (ec_plan){.load = job->load_seconds + s->accel_seconds + s->pack_seconds, .start = s->kernel_seconds,
                     .batch = a_batch * a_sample, .scene_bytes = s->scene_bytes, .pixels = p.pixels,
-                    .batches = batches, .batches_foretold = !options.spp, .samples = a_batch, .replicates = replicates,
+                    .batches = batches, .batches_predicted = !options.spp, .samples = a_batch, .replicates = replicates,
                     .feature_sets = ec_render_feature_end(&options) == UINT32_MAX ? ec_render_feature_sets(&options) : 0,
                     .gbit = job->request->plan_gbit, .microseconds = job->request->plan_microseconds, .ranks = job->request->plan_ranks};
     const uint64_t rows = 8ull * options.width, wave = (uint64_t)(s->wave / a_batch); /* cut as in render/team.c */

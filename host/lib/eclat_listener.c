@@ -28,7 +28,7 @@ static void begin(void *user, const ec_render_options *options, bool has_progres
 {
     ec_lib_ear *ear = user;
     ear->options = options;
-    ear->has_foretold = false;
+    ear->has_predicted = false;
     if (ear->listener->begin) ear->listener->begin(ear->listener->user, has_progress);
 }
 
@@ -55,12 +55,12 @@ static bool show(void *user, const ec_progress *p)
 {
     ec_lib_ear *ear = user;
     char text[256];
-    if (p->pilot && ear->options && !ear->has_foretold) {
+    if (p->pilot && ear->options && !ear->has_predicted) {
         char line[320];
         ec_forecast_text(p->pilot, ear->options, text, sizeof text);
         snprintf(line, sizeof line, "after %.0f samples a pixel: %s", p->pilot->pilot_samples, text);
         write_message(ear, EC_STATUS, line);
-        ear->has_foretold = true;
+        ear->has_predicted = true;
     }
     ec_progress_text(p, text, sizeof text);
     return pass_on(ear, &(eclat_progress){.fraction = p->fraction, .seconds = p->seconds, .seconds_left = p->seconds_left, .text = text,

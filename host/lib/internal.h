@@ -54,7 +54,7 @@ typedef struct ec_lib_ear {
     char *text;
     size_t size;
     const ec_render_options *options; /* of the current render */
-    bool has_foretold;        /* the forecast was passed on */
+    bool has_predicted;        /* the forecast was passed on */
 } ec_lib_ear;
 ec_listener ec_lib_listener(ec_lib_ear *ear);
 

@@ -58,12 +58,12 @@ void ec_live_film_clean(ec_live_film *p, const ec_device_info *device, bool now)
     ec_clean_goal_take(&p->goal.clean, samples, &(ec_clean_look){p->denoised.best.error, p->denoised.best.high95});
 }
 
-/* Foretells rare light with the second batch, when there is a first error to state. */
-static ec_result foretell(ec_live_film *p, ec_session *session, ec_error *err)
+/* Predicts rare light with the second batch, when there is a first error to state. */
+static ec_result predict(ec_live_film *p, ec_session *session, ec_error *err)
 {
     ec_rare rare;
     if (p->film.batch_count != 2) return EC_OK;
-    EC_TRY(ec_session_foretell(session, &rare, err));
+    EC_TRY(ec_session_predict(session, &rare, err));
     return ec_film_set_rare(&p->film, &rare, err);
 }
 
@@ -75,7 +75,7 @@ static void judge(ec_live_film *p, double took)
     p->error = ec_film_estimate_error(&p->film);
     ec_goal_batch(&p->goal, at.samples, at.seconds, took);
     if (is_round) ec_goal_round(&p->goal, &p->error, at);
-    if (is_round && has_pilot) ec_goal_foretell(&p->goal, at, 1);
+    if (is_round && has_pilot) ec_goal_predict(&p->goal, at, 1);
     p->stopped_by = ec_goal_met(&p->goal, at, is_round && has_pilot, ec_schedule_batch(replicates, next).samples);
     if (p->film.cut) p->stopped_by = "spp";
 }
@@ -106,7 +106,7 @@ ec_result ec_live_film_take(ec_live_film *p, ec_session *session, bool (*go_on)(
     if (*complete) result = ec_film_take(&p->film, &(ec_film_batch){.index = index, .cut = cut, .values = p->room, .features = features}, err);
     free(features);
     if (result != EC_OK || !*complete) return result;
-    EC_TRY(foretell(p, session, err));
+    EC_TRY(predict(p, session, err));
     p->invalid += batch.invalid;
     p->seconds += batch.seconds;
     judge(p, batch.seconds);

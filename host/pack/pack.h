@@ -32,7 +32,7 @@ typedef struct ec_pack {
     ec_effects effects;            /* effects that the scene calls for; those that options call for are the caller's */
     uint32_t prim_count;
     ec_prim *prims;
-    bool prims_lent;               /* owned by the cargo: a processor uses them in place */
+    bool prims_lent;               /* owned by the payload: a processor uses them in place */
     ec_bodies bodies;              /* ranked; none unless some may be nested */
     uint32_t material_count;
     ec_material_data *materials;

@@ -4,14 +4,14 @@
 
 #include "film/parts.h"
 #include "render/team.h"
-#include "ranks/post.h"
+#include "ranks/transport.h"
 #include "report/format.h"
 #include "report/json.h"
 
 static double bytes_per_second(const ec_plan *p) { return p->gbit * 1e9 / 8; }
 static double latency(const ec_plan *p) { return p->microseconds * 1e-6; }
 
-#define IDLE_SECONDS 2e-3  /* between two pieces of a rank: both threads check for letters every millisecond */
+#define IDLE_SECONDS 2e-3  /* between two pieces of a rank: both threads check for messages every millisecond */
 
 static const char *largest_loss(double start, double messages, double end, double link, double sums)
 {
@@ -93,7 +93,7 @@ static uint32_t next_count(const ec_plan *p, uint32_t ranks)
 void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
 {
     fprintf(to, "job         %.0f batches of %.3g samples a pixel%s, %llu pixels\n", p->batches, p->samples,
-            p->batches_foretold ? " (foretold)" : "", (unsigned long long)p->pixels);
+            p->batches_predicted ? " (predicted)" : "", (unsigned long long)p->pixels);
     fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, a block %.3g s, on %s\n", p->load, p->start,
             p->batch, p->add,
             p->add_block, device);

@@ -22,7 +22,7 @@ typedef struct ec_plan {
     uint64_t scene_bytes;          /* sent to each rank */
     uint64_t pixels, least;        /* of the picture; least number in a piece of a batch */
     double batches;                /* number in the whole job */
-    bool batches_foretold;         /* estimated by the pilot, for an error target */
+    bool batches_predicted;         /* estimated by the pilot, for an error target */
     double samples;                /* per pixel, in a batch of mean size */
     uint32_t replicates, feature_sets; /* feature_sets: not 0 if all batches have first-hit features */
     /* Assumed for the network. */

@@ -8,9 +8,9 @@
 
 /* The job as plain values, since all ranks run the same program on machines of one kind. The buffers follow in order. */
 typedef struct sheet {
-    ec_cargo_head head;
+    ec_payload_head head;
     uint64_t seed;
-    ec_cargo_buffer buffers[EC_CARGO_BUFFERS]; /* valid except for their addresses */
+    ec_payload_buffer buffers[EC_PAYLOAD_BUFFERS]; /* valid except for their addresses */
 } sheet;
 
 static void mix(uint64_t *hash, const char *text) /* FNV-1a */
@@ -27,16 +27,16 @@ static uint64_t program_hash(void)
     return hash;
 }
 
-static ec_result send_sheet(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, ec_error *err)
+static ec_result send_sheet(ec_ranks *r, const ec_payload *payload, uint64_t seed, ec_error *err)
 {
     EC_FREED sheet *s = calloc(1, sizeof *s);
     if (!s) return ec_fail(err, "out of memory");
-    s->head = cargo->head;
+    s->head = payload->head;
     s->seed = seed;
-    memcpy(s->buffers, cargo->buffers, sizeof s->buffers);
-    EC_TRY(ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err));
-    for (uint32_t i = 0; i < cargo->head.buffer_count; i++)
-        EC_TRY(ec_post_spread(r->post, (void *)cargo->buffers[i].data, cargo->buffers[i].bytes, EC_BOX_SCENE, err)); /* only read here */
+    memcpy(s->buffers, payload->buffers, sizeof s->buffers);
+    EC_TRY(ec_transport_spread(r->transport, s, sizeof *s, EC_BOX_SCENE, err));
+    for (uint32_t i = 0; i < payload->head.buffer_count; i++)
+        EC_TRY(ec_transport_spread(r->transport, (void *)payload->buffers[i].data, payload->buffers[i].bytes, EC_BOX_SCENE, err)); /* only read here */
     return EC_OK;
 }
 
@@ -61,70 +61,70 @@ static void add_line(readiness *all, const char *line)
 
 static void hear(ec_ranks *r, uint32_t child, readiness *all)
 {
-    ec_letter letter;
+    ec_message message;
     ec_error why;
     ec_remote *remote = &r->remotes[child];
     const int rank = r->place->first_child + (int)child;
     *remote = (ec_remote){.ranks = r, .rank = rank};
-    if (ec_post_receive(r->post, rank, EC_BOX_WORD, NULL, NULL, &letter, &why) != EC_OK) {
+    if (ec_transport_receive(r->transport, rank, EC_BOX_WORD, NULL, NULL, &message, &why) != EC_OK) {
         char line[sizeof why.text + 64];
         snprintf(line, sizeof line, "%s; the others go on without it", why.text);
         add_line(all, line);
         return;
     }
-    char none[] = "", *text = letter.body ? letter.body : none, *more = strchr(text, '\n');
+    char none[] = "", *text = message.body ? message.body : none, *more = strchr(text, '\n');
     if (more) *more++ = 0;
-    *remote = (ec_remote){.ranks = r, .rank = rank, .is_ready = letter.kind == EC_READY, .ready = (uint32_t)letter.numbers[EC_READY_RANKS]};
+    *remote = (ec_remote){.ranks = r, .rank = rank, .is_ready = message.kind == EC_READY, .ready = (uint32_t)message.numbers[EC_READY_RANKS]};
     all->ranks += remote->ready;
     snprintf(remote->name, sizeof remote->name, "rank %d on %s", rank, text);
-    if (letter.kind == EC_READY_OTHER_PROGRAM || (letter.kind == EC_READY && all->kind == EC_READY_WITHOUT_DEVICE))
-        all->kind = letter.kind;
+    if (message.kind == EC_READY_OTHER_PROGRAM || (message.kind == EC_READY && all->kind == EC_READY_WITHOUT_DEVICE))
+        all->kind = message.kind;
     if (more) add_line(all, more);
-    free(letter.body);
+    free(message.body);
 }
 
 /* Passes the job on to the children, and collects their answers. Ranks that are lost do not answer. */
-static void ask_below(ec_ranks *r, const ec_letter *word, readiness *all)
+static void ask_below(ec_ranks *r, const ec_message *word, readiness *all)
 {
-    for (uint32_t i = 0; i < r->remote_count; i++) (void)ec_post_send(r->post, r->place->first_child + (int)i, word, NULL);
+    for (uint32_t i = 0; i < r->remote_count; i++) (void)ec_transport_send(r->transport, r->place->first_child + (int)i, word, NULL);
     for (uint32_t i = 0; i < r->remote_count; i++) hear(r, i, all);
 }
 
-ec_result ec_job_send(ec_ranks *r, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err)
+ec_result ec_job_send(ec_ranks *r, const ec_payload *payload, uint64_t seed, const ec_log *log, ec_error *err)
 {
     char text[4096];
     const int used = snprintf(text, sizeof text, "%s%s%s", r->own, r->device ? "\n" : "", r->device ? r->device : "");
     if (used >= (int)sizeof text)
         return ec_fail(err, "--device takes at most %zu characters in an MPI job", sizeof text - strlen(r->own) - 2);
-    const ec_letter word = {.kind = EC_WORD_JOB, .box = EC_BOX_WORD, .bytes = (uint64_t)used + 1, .body = text,
+    const ec_message word = {.kind = EC_WORD_JOB, .box = EC_BOX_WORD, .bytes = (uint64_t)used + 1, .body = text,
                             .numbers = {[EC_JOB_PROGRAM] = program_hash(), [EC_JOB_ROUNDS] = r->own_round}};
     readiness all = {.kind = EC_READY};
     ask_below(r, &word, &all);
     uint64_t go = all.kind != EC_READY_OTHER_PROGRAM;
     char *rest = all.text, *line;
-    EC_TRY(ec_post_spread(r->post, &go, sizeof go, EC_BOX_SCENE, err));
+    EC_TRY(ec_transport_spread(r->transport, &go, sizeof go, EC_BOX_SCENE, err));
     while ((line = strsep(&rest, "\n"))) {
         if (strstr(line, OTHER_PROGRAM)) return ec_fail(err, "%s", line);
         if (*line) ec_warn(log, "%s", line);
     }
-    return send_sheet(r, cargo, seed, err);
+    return send_sheet(r, payload, seed, err);
 }
 
-static ec_result receive_sheet(ec_ranks *r, ec_cargo *cargo, uint64_t *seed, ec_error *err)
+static ec_result receive_sheet(ec_ranks *r, ec_payload *payload, uint64_t *seed, ec_error *err)
 {
     EC_FREED sheet *s = malloc(sizeof *s);
     if (!s) return ec_fail(err, "out of memory");
-    EC_TRY(ec_post_spread(r->post, s, sizeof *s, EC_BOX_SCENE, err));
-    cargo->head = s->head;
-    cargo->head.buffer_count = 0;
+    EC_TRY(ec_transport_spread(r->transport, s, sizeof *s, EC_BOX_SCENE, err));
+    payload->head = s->head;
+    payload->head.buffer_count = 0;
     *seed = s->seed;
     for (uint32_t i = 0; i < s->head.buffer_count; i++) {
-        ec_cargo_buffer *b = &cargo->buffers[i];
+        ec_payload_buffer *b = &payload->buffers[i];
         *b = s->buffers[i];
         b->data = b->owned = malloc(b->bytes + 1);
         if (!b->owned) return ec_fail(err, "out of memory for %llu bytes of the scene's %s", (unsigned long long)b->bytes, b->label);
-        cargo->head.buffer_count++;
-        EC_TRY(ec_post_spread(r->post, b->owned, b->bytes, EC_BOX_SCENE, err));
+        payload->head.buffer_count++;
+        EC_TRY(ec_transport_spread(r->transport, b->owned, b->bytes, EC_BOX_SCENE, err));
     }
     return EC_OK;
 }
@@ -143,7 +143,7 @@ static void describe(const ec_ranks *r, uint32_t kind, const char *text, readine
 }
 
 /* Adds a line for the root to warn of, if a device has other drivers than rank 0's, and one of the two is not known to round correctly. */
-static void look_at_rounding(const ec_ranks *r, const ec_letter *word, const char *drivers,
+static void look_at_rounding(const ec_ranks *r, const ec_message *word, const char *drivers,
                              const ec_device_info *devices, uint32_t count, readiness *own)
 {
     char driver[520], line[1000];
@@ -166,7 +166,7 @@ static ec_result find_devices(const ec_ranks *r, const char *id, ec_device_info 
     return EC_OK;
 }
 
-ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, uint64_t *seed, ec_device_info *devices,
+ec_result ec_job_receive(ec_ranks *r, const ec_message *word, ec_payload *payload, uint64_t *seed, ec_device_info *devices,
                          uint32_t *count, ec_error *err)
 {
     ec_error why = {0};
@@ -181,12 +181,12 @@ ec_result ec_job_receive(ec_ranks *r, const ec_letter *word, ec_cargo *cargo, ui
     if (device) device[-1] = '\n'; /* as it was received, for the ranks below */
     all.ranks = *count > 0;
     ask_below(r, word, &all);
-    const ec_letter letter = {.kind = all.kind, .box = EC_BOX_WORD, .bytes = strlen(all.text) + 1, .body = all.text,
+    const ec_message message = {.kind = all.kind, .box = EC_BOX_WORD, .bytes = strlen(all.text) + 1, .body = all.text,
                               .numbers = {[EC_READY_RANKS] = all.ranks}};
-    EC_TRY(ec_post_send(r->post, r->place->parent, &letter, err));
+    EC_TRY(ec_transport_send(r->transport, r->place->parent, &message, err));
     uint64_t go = 0;
-    EC_TRY(ec_post_spread(r->post, &go, sizeof go, EC_BOX_SCENE, err));
-    if (go) return receive_sheet(r, cargo, seed, err);
+    EC_TRY(ec_transport_spread(r->transport, &go, sizeof go, EC_BOX_SCENE, err));
+    if (go) return receive_sheet(r, payload, seed, err);
     *count = 0; /* the root reports why, and dismisses all */
     for (uint32_t i = 0; i < r->remote_count; i++) r->remotes[i].is_ready = false;
     return EC_OK;

@@ -22,8 +22,8 @@ static ec_result join(ec_ranks **ranks, ec_error *err)
     ec_ranks *r = *ranks = calloc(1, sizeof *r);
     if (!r) return ec_fail(err, "out of memory");
     pthread_mutex_init(&r->lock, NULL);
-    EC_TRY(ec_post_open(&r->post, err));
-    r->place = ec_post_place(r->post);
+    EC_TRY(ec_transport_open(&r->transport, err));
+    r->place = ec_transport_place(r->transport);
     r->head.number = r->place->rank;
     r->head.count = r->place->size;
     r->last_box = EC_BOX_RESULTS;
@@ -33,40 +33,40 @@ static ec_result join(ec_ranks **ranks, ec_error *err)
     return r->remotes ? EC_OK : ec_fail(err, "out of memory for %u ranks", r->remote_count);
 }
 
-static ec_result send_job(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err)
+static ec_result send_job(void *user, const ec_payload *payload, uint64_t seed, const ec_log *log, ec_error *err)
 {
     ec_ranks *r = user;
-    return ec_job_send(r, cargo, seed, log, err);
+    return ec_job_send(r, payload, seed, log, err);
 }
 
-static uint64_t received(void *user) { return ec_post_received(((const ec_ranks *)user)->post); }
+static uint64_t received(void *user) { return ec_transport_received(((const ec_ranks *)user)->transport); }
 
 static ec_peers peers(ec_ranks *r, const char *device, const char *own, bool own_round)
 {
     r->device = device;
     r->own = own;
     r->own_round = own_round;
-    return (ec_peers){.count = r->remote_count, .send = send_job, .recruit = ec_ranks_recruit, .received = received, .user = r};
+    return (ec_peers){.count = r->remote_count, .send = send_job, .candidate = ec_ranks_candidate, .received = received, .user = r};
 }
 
 /* Waits for the next word of that rank that ends something: the parent's order, or a child's answer. Returns whether anybody was lost. */
 static bool hear_end(ec_ranks *r, int from, uint32_t kind)
 {
-    ec_letter letter;
+    ec_message message;
     do {
-        if (ec_post_receive(r->post, from, EC_BOX_WORD, NULL, NULL, &letter, NULL) != EC_OK) return true;
-        free(letter.body);
-    } while (letter.kind != kind);
-    return letter.numbers[EC_END_LOST];
+        if (ec_transport_receive(r->transport, from, EC_BOX_WORD, NULL, NULL, &message, NULL) != EC_OK) return true;
+        free(message.body);
+    } while (message.kind != kind);
+    return message.numbers[EC_END_LOST];
 }
 
 static bool say_end(ec_ranks *r, int to, uint32_t kind, bool lost)
 {
-    const ec_letter letter = {.kind = kind, .box = EC_BOX_WORD, .numbers = {[EC_END_LOST] = lost}};
-    return ec_post_send(r->post, to, &letter, NULL) != EC_OK;
+    const ec_message message = {.kind = kind, .box = EC_BOX_WORD, .numbers = {[EC_END_LOST] = lost}};
+    return ec_transport_send(r->transport, to, &message, NULL) != EC_OK;
 }
 
-/* Leaves MPI, which does not end before the last letters of all ranks are received: so ranks exchange farewells after everything else. MPI does not
+/* Leaves MPI, which does not end before the last messages of all ranks are received: so ranks exchange farewells after everything else. MPI does not
  * end at all if a rank is lost, which only some ranks know: so farewells say that, and the root tells all. */
 static void leave(ec_ranks *r)
 {
@@ -77,7 +77,7 @@ static void leave(ec_ranks *r)
     for (int child = first; child < end; child++) lost |= hear_end(r, child, EC_WORD_HOME);
     if (parent >= 0) lost |= say_end(r, parent, EC_WORD_HOME, lost) || hear_end(r, parent, EC_WORD_OVER);
     for (int child = first; child < end; child++) lost |= say_end(r, child, EC_WORD_OVER, lost);
-    ec_post_close(r->post, lost);
+    ec_transport_close(r->transport, lost);
     free(r->remotes);
     pthread_mutex_destroy(&r->lock);
     free(r);

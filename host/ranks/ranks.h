@@ -1,5 +1,5 @@
 /* The processes of an MPI job (mpirun -n 8 eclat render …), its ranks, as one renderer. Rank 0 reads the command line, loads the scene and sends what
- * devices need of it to all others, which read no files. Pieces of batches go down a tree of ranks (post.h) as ranks become free: a rank is a team of
+ * devices need of it to all others, which read no files. Pieces of batches go down a tree of ranks (transport.h) as ranks become free: a rank is a team of
  * its own devices and its children, and a single source for its parent. What comes up are sums over the samples of a batch, or of a block of batches
  * if they are fast, so that the picture has the same bits as that of one process.
  * The functions that call MPI are in a module (mpi_module.h), which is loaded by processes that a launcher started. */

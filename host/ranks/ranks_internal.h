@@ -4,9 +4,9 @@
 
 #include <pthread.h>
 
-#include "device/cargo.h"
+#include "device/payload.h"
 #include "ranks/mpi_module.h"
-#include "ranks/post.h"
+#include "ranks/transport.h"
 #include "ranks/ranks.h"
 #include "render/team.h"
 
@@ -23,8 +23,8 @@ typedef struct ec_remote {
 
 struct ec_ranks {
     ec_ranks_head head;
-    ec_post *post;
-    const ec_rank_place *place; /* belongs to the post */
+    ec_transport *transport;
+    const ec_rank_place *place; /* belongs to the transport */
     pthread_mutex_t lock;
     uint32_t last_box;  /* last box used for a result; guarded by the lock */
     const char *device, *own; /* --device; drivers of rank 0 */
@@ -38,16 +38,16 @@ void ec_mpi_share_devices(const ec_ranks *ranks, ec_device_info *devices, uint32
 void ec_mpi_note_binding(const ec_device_info *devices, uint32_t count, const ec_log *log);
 
 /* remote.c: adds child i to a team, if it is ready, as ec_peers demands; user is the ec_ranks. */
-bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit);
+bool ec_ranks_candidate(void *user, uint32_t i, ec_team_candidate *candidate);
 
 /* rank_job.c: sends a job from rank 0 to all others: what devices need of a scene.
- * On rank 0: asks each rank for its devices, by --device as given to rank 0, and sends the cargo to all. Then r->remotes is filled in. Warns of ranks
+ * On rank 0: asks each rank for its devices, by --device as given to rank 0, and sends the payload to all. Then r->remotes is filled in. Warns of ranks
  * without a device, or with one that may round differently; fails if one runs another program. */
-ec_result ec_job_send(ec_ranks *ranks, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err);
+ec_result ec_job_send(ec_ranks *ranks, const ec_payload *payload, uint64_t seed, const ec_log *log, ec_error *err);
 
-/* On the others, after rank 0's word: finds at most EC_DEVICES_MOST devices and receives the cargo; *count 0: this rank takes no part in the job. The
- * cargo must be freed on failure too. */
-ec_result ec_job_receive(ec_ranks *ranks, const ec_letter *word, ec_cargo *cargo, uint64_t *seed,
+/* On the others, after rank 0's word: finds at most EC_DEVICES_MOST devices and receives the payload; *count 0: this rank takes no part in the job. The
+ * payload must be freed on failure too. */
+ec_result ec_job_receive(ec_ranks *ranks, const ec_message *word, ec_payload *payload, uint64_t *seed,
                          ec_device_info *devices, uint32_t *count, ec_error *err);
 
 /* serve.c */

@@ -5,28 +5,28 @@
 
 static void end(ec_remote *m)
 {
-    const ec_letter over = {.kind = EC_ORDER_END, .box = EC_BOX_ORDERS};
-    if (!m->is_over) (void)ec_post_send(m->ranks->post, m->rank, &over, NULL);
+    const ec_message over = {.kind = EC_ORDER_END, .box = EC_BOX_ORDERS};
+    if (!m->is_over) (void)ec_transport_send(m->ranks->transport, m->rank, &over, NULL);
     m->is_over = true;
 }
 
-static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_letter *letter)
+static uint32_t write_order(ec_remote *m, const ec_batch_order *order, ec_message *message)
 {
     const uint32_t *list = order->list ? order->list + (uint64_t)EC_LIST_WORDS * order->done : NULL;
-    *letter = (ec_letter){.kind = EC_ORDER_BATCH, .box = EC_BOX_ORDERS, .body = (void *)list, .bytes = list ? 4ull * EC_LIST_WORDS * (order->count - order->done) : 0};
+    *message = (ec_message){.kind = EC_ORDER_BATCH, .box = EC_BOX_ORDERS, .body = (void *)list, .bytes = list ? 4ull * EC_LIST_WORDS * (order->count - order->done) : 0};
     pthread_mutex_lock(&m->ranks->lock);
     const uint32_t box = ++m->ranks->last_box; /* a new box, so that answers to abandoned orders are ignored */
     pthread_mutex_unlock(&m->ranks->lock);
-    letter->numbers[EC_ORDER_BOX] = box;
-    letter->numbers[EC_ORDER_LIGHT] = order->light;
-    letter->numbers[EC_ORDER_INDEX] = order->index;
-    letter->numbers[EC_ORDER_BATCHES] = order->batches;
-    letter->numbers[EC_ORDER_CUT] = order->cut;
-    letter->numbers[EC_ORDER_SAMPLES] = order->samples;
-    letter->numbers[EC_ORDER_FROM] = order->done;
-    letter->numbers[EC_ORDER_TO] = order->count;
-    memcpy(&letter->numbers[EC_ORDER_LIMIT], &order->limit, sizeof order->limit);
-    letter->numbers[EC_ORDER_FEATURES] = order->feature_sets;
+    message->numbers[EC_ORDER_BOX] = box;
+    message->numbers[EC_ORDER_LIGHT] = order->light;
+    message->numbers[EC_ORDER_INDEX] = order->index;
+    message->numbers[EC_ORDER_BATCHES] = order->batches;
+    message->numbers[EC_ORDER_CUT] = order->cut;
+    message->numbers[EC_ORDER_SAMPLES] = order->samples;
+    message->numbers[EC_ORDER_FROM] = order->done;
+    message->numbers[EC_ORDER_TO] = order->count;
+    memcpy(&message->numbers[EC_ORDER_LIMIT], &order->limit, sizeof order->limit);
+    message->numbers[EC_ORDER_FEATURES] = order->feature_sets;
     return box;
 }
 
@@ -43,14 +43,14 @@ static bool waits_on(void *user)
 }
 
 /* Sends the order and waits for the result; *complete false: it was abandoned. */
-static ec_result fetch(ec_remote *m, const ec_batch_order *order, ec_letter *back, bool *complete, ec_error *err)
+static ec_result fetch(ec_remote *m, const ec_batch_order *order, ec_message *back, bool *complete, ec_error *err)
 {
-    ec_letter letter;
+    ec_message message;
     waiting w = {.order = order};
-    const uint32_t box = write_order(m, order, &letter);
+    const uint32_t box = write_order(m, order, &message);
     *complete = true;
-    EC_TRY(ec_post_send(m->ranks->post, m->rank, &letter, err));
-    ec_result result = ec_post_receive(m->ranks->post, m->rank, box, waits_on, &w, back, err);
+    EC_TRY(ec_transport_send(m->ranks->transport, m->rank, &message, err));
+    ec_result result = ec_transport_receive(m->ranks->transport, m->rank, box, waits_on, &w, back, err);
     if (w.given_up && result != EC_OK) {
         end(m);
         *complete = false;
@@ -64,7 +64,7 @@ static ec_result fetch(ec_remote *m, const ec_batch_order *order, ec_letter *bac
     return EC_FAILED;
 }
 
-static void count(ec_remote *m, const ec_letter *back)
+static void count(ec_remote *m, const ec_message *back)
 {
     m->base.rays += back->numbers[EC_RESULT_RAYS];
     m->base.least = (uint32_t)back->numbers[EC_RESULT_LEAST];
@@ -75,7 +75,7 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
 {
     ec_remote *m = (ec_remote *)source;
     const uint64_t positions = order->count - order->done;
-    ec_letter back;
+    ec_message back;
     EC_TRY(fetch(m, order, &back, complete, err));
     if (!*complete) return EC_OK;
     count(m, &back);
@@ -105,9 +105,9 @@ static ec_result open_remote(void *user, ec_batch_source **source, ec_error *err
     return EC_OK;
 }
 
-bool ec_ranks_recruit(void *user, uint32_t i, ec_team_recruit *recruit)
+bool ec_ranks_candidate(void *user, uint32_t i, ec_team_candidate *candidate)
 {
     ec_remote *m = &((ec_ranks *)user)->remotes[i];
-    *recruit = (ec_team_recruit){.name = m->name, .open = open_remote, .user = m, .processes = m->ready};
+    *candidate = (ec_team_candidate){.name = m->name, .open = open_remote, .user = m, .processes = m->ready};
     return m->is_ready;
 }

@@ -14,12 +14,12 @@ typedef struct server {
     uint32_t replicates;
 } server;
 
-/* Tells whether the job goes on: the next letter means its end. */
+/* Tells whether the job goes on: the next message means its end. */
 static bool goes_on(void *user, uint32_t done)
 {
     const server *s = user;
     (void)done;
-    return !ec_post_has(s->ranks->post, s->ranks->place->parent, EC_BOX_ORDERS);
+    return !ec_transport_has(s->ranks->transport, s->ranks->place->parent, EC_BOX_ORDERS);
 }
 
 /* Writes the results of an order, from position `first` on, in the form in which they are sent. */
@@ -38,20 +38,20 @@ static void write_body(const server *s, const ec_batch_order *order, void *body)
 }
 
 /* Renders an order. The answer's body is malloc'ed; it stays NULL if the job was ended meanwhile. */
-static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, ec_error *err)
+static ec_result render(server *s, const ec_message *message, ec_message *answer, ec_error *err)
 {
     ec_batch_source *source = s->source;
-    const uint32_t index = (uint32_t)letter->numbers[EC_ORDER_INDEX], from = (uint32_t)letter->numbers[EC_ORDER_FROM];
-    const uint32_t batches = (uint32_t)letter->numbers[EC_ORDER_BATCHES];
-    const uint32_t positions = (uint32_t)letter->numbers[EC_ORDER_TO] - from, first = letter->body ? 0 : from;
-    const uint32_t sets = (uint32_t)letter->numbers[EC_ORDER_FEATURES];
+    const uint32_t index = (uint32_t)message->numbers[EC_ORDER_INDEX], from = (uint32_t)message->numbers[EC_ORDER_FROM];
+    const uint32_t batches = (uint32_t)message->numbers[EC_ORDER_BATCHES];
+    const uint32_t positions = (uint32_t)message->numbers[EC_ORDER_TO] - from, first = message->body ? 0 : from;
+    const uint32_t sets = (uint32_t)message->numbers[EC_ORDER_FEATURES];
     const uint64_t bytes = (batches > 1 ? ec_sums_bytes(s->replicates, sets) : ec_batch_bytes(sets)) * positions;
     EC_FREED float *body = malloc(bytes);
     if (!body) return ec_fail(err, "out of memory for a batch of %u pixels", positions);
     float limit;
-    memcpy(&limit, &letter->numbers[EC_ORDER_LIMIT], sizeof limit);
-    const ec_batch_order order = {.light = (ec_order_light)letter->numbers[EC_ORDER_LIGHT], .index = index, .end = index + batches, .batches = batches, .cut = (uint32_t)letter->numbers[EC_ORDER_CUT],
-                                  .list = letter->body, .samples = (uint32_t)letter->numbers[EC_ORDER_SAMPLES], .done = first,
+    memcpy(&limit, &message->numbers[EC_ORDER_LIMIT], sizeof limit);
+    const ec_batch_order order = {.light = (ec_order_light)message->numbers[EC_ORDER_LIGHT], .index = index, .end = index + batches, .batches = batches, .cut = (uint32_t)message->numbers[EC_ORDER_CUT],
+                                  .list = message->body, .samples = (uint32_t)message->numbers[EC_ORDER_SAMPLES], .done = first,
                                   .count = first + positions, .limit = limit, .feature_sets = sets, .go_on = goes_on, .user = s};
     const uint64_t rays = source->rays;
     uint32_t invalid[EC_STAGE_COUNT];
@@ -70,11 +70,11 @@ static ec_result render(server *s, const ec_letter *letter, ec_letter *answer, e
 }
 
 /* Fills in the answer; a failure is reported to the parent, which decides what follows. Returns false if there is nothing to answer. */
-static bool fill_answer(server *s, const ec_letter *letter, const ec_error *unfit, ec_letter *answer)
+static bool fill_answer(server *s, const ec_message *message, const ec_error *unfit, ec_message *answer)
 {
     ec_error why = *unfit;
-    *answer = (ec_letter){.kind = EC_RESULT_BATCH, .box = (uint32_t)letter->numbers[EC_ORDER_BOX]};
-    if (!*why.text && render(s, letter, answer, &why) == EC_OK) return answer->body != NULL;
+    *answer = (ec_message){.kind = EC_RESULT_BATCH, .box = (uint32_t)message->numbers[EC_ORDER_BOX]};
+    if (!*why.text && render(s, message, answer, &why) == EC_OK) return answer->body != NULL;
     answer->kind = EC_RESULT_FAILURE;
     answer->body = strdup(why.text);
     answer->bytes = answer->body ? strlen(why.text) + 1 : 0;
@@ -85,11 +85,11 @@ static ec_result take_orders(server *s, const ec_error *unfit, ec_error *err)
 {
     const int parent = s->ranks->place->parent;
     for (;;) {
-        ec_letter letter, answer;
-        EC_TRY(ec_post_receive(s->ranks->post, parent, EC_BOX_ORDERS, NULL, NULL, &letter, err));
-        if (letter.kind == EC_ORDER_END) return EC_OK;
-        if (fill_answer(s, &letter, unfit, &answer)) ec_post_send_away(s->ranks->post, parent, &answer);
-        free(letter.body);
+        ec_message message, answer;
+        EC_TRY(ec_transport_receive(s->ranks->transport, parent, EC_BOX_ORDERS, NULL, NULL, &message, err));
+        if (message.kind == EC_ORDER_END) return EC_OK;
+        if (fill_answer(s, &message, unfit, &answer)) ec_transport_send_away(s->ranks->transport, parent, &answer);
+        free(message.body);
     }
 }
 
@@ -116,10 +116,10 @@ static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_c
     return opened || is_inner ? EC_OK : EC_FAILED;
 }
 
-/* Does nothing, as the ranks below have the cargo already. */
-static ec_result send_nothing(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err)
+/* Does nothing, as the ranks below have the payload already. */
+static ec_result send_nothing(void *user, const ec_payload *payload, uint64_t seed, const ec_log *log, ec_error *err)
 {
-    (void)user, (void)cargo, (void)seed, (void)log, (void)err;
+    (void)user, (void)payload, (void)seed, (void)log, (void)err;
     return EC_OK;
 }
 
@@ -130,7 +130,7 @@ static bool is_any_ready(const ec_ranks *r)
     return any;
 }
 
-static ec_result serve_job(ec_ranks *r, const ec_letter *word, const ec_log *log, ec_error *err)
+static ec_result serve_job(ec_ranks *r, const ec_message *word, const ec_log *log, ec_error *err)
 {
     server s = {.ranks = r, .log = log};
     ec_cl devices[EC_DEVICES_MOST] = {0};
@@ -139,16 +139,16 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, const ec_log *log
     ec_error why = {0};
     uint32_t count;
     uint64_t seed;
-    ec_result result = ec_job_receive(r, word, &s.sources.cargo, &seed, infos, &count, err);
+    ec_result result = ec_job_receive(r, word, &s.sources.payload, &seed, infos, &count, err);
     const bool is_inner = is_any_ready(r);
-    const ec_peers below = {.count = r->remote_count, .send = send_nothing, .recruit = ec_ranks_recruit, .user = r};
+    const ec_peers below = {.count = r->remote_count, .send = send_nothing, .candidate = ec_ranks_candidate, .user = r};
     const ec_log told = {pass_on, &s};
     if (result == EC_OK && (count || is_inner)) {
-        const ec_params *params = &s.sources.cargo.head.params;
+        const ec_params *params = &s.sources.payload.head.params;
         s.pixels = (uint64_t)params->width * params->height;
-        s.replicates = s.sources.cargo.head.replicates;
+        s.replicates = s.sources.payload.head.replicates;
         bool fit = open_devices(infos, &count, devices, is_inner, &told, &why) == EC_OK &&
-                   ec_sources_enlist(devices, count, s.sources.cargo.head.lanes, &s.sources, &stats, &why) == EC_OK &&
+                   ec_sources_enlist(devices, count, s.sources.payload.head.lanes, &s.sources, &stats, &why) == EC_OK &&
                    ec_sources_open(&s.sources, seed, is_inner ? &below : NULL, &told, &s.source, &stats, &why) == EC_OK &&
                    (!s.source->turn_to || s.source->turn_to(s.source, 0, params->height, &why) == EC_OK);
         if (!fit && !*why.text) ec_fail(&why, "its device failed");
@@ -162,8 +162,8 @@ static ec_result serve_job(ec_ranks *r, const ec_letter *word, const ec_log *log
 ec_result ec_mpi_serve(ec_ranks *r, const ec_log *log, ec_error *err)
 {
     for (;;) {
-        ec_letter word;
-        EC_TRY(ec_post_receive(r->post, r->place->parent, EC_BOX_WORD, NULL, NULL, &word, err));
+        ec_message word;
+        EC_TRY(ec_transport_receive(r->transport, r->place->parent, EC_BOX_WORD, NULL, NULL, &word, err));
         ec_result result = word.kind == EC_WORD_JOB ? serve_job(r, &word, log, err) : EC_OK;
         free(word.body);
         if (word.kind == EC_WORD_HOME || result != EC_OK) return result;

@@ -293,7 +293,7 @@ ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, e
     return result;
 }
 
-ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *p, ec_rare *rare, ec_joined_choice *joined, ec_error *err)
+ec_result ec_rare_paths_predict(const ec_rare_lights *lights, ec_pipeline *p, ec_rare *rare, ec_joined_choice *joined, ec_error *err)
 {
     ec_chains chains = {0};
     ec_rare_openings openings = {0};

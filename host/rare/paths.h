@@ -1,4 +1,4 @@
-/* Foretells which paths of a picture hardly ever meet their light, how often they do and what they bring, by a first look at its paths. */
+/* Predicts which paths of a picture hardly ever meet their light, how often they do and what they bring, by a first look at its paths. */
 #ifndef EC_RARE_PATHS_H
 #define EC_RARE_PATHS_H
 
@@ -12,6 +12,6 @@ ec_result ec_rare_paths_of(const ec_rare_lights *lights, const ec_chains *chains
 
 /* Does all of this, on a device that is loaded and has no work under way: traces the chains of the picture that its parameters are of. joined: how
  * many light paths pay; NULL if not asked for. */
-ec_result ec_rare_paths_foretell(const ec_rare_lights *lights, ec_pipeline *pipeline, ec_rare *rare, ec_joined_choice *joined, ec_error *err);
+ec_result ec_rare_paths_predict(const ec_rare_lights *lights, ec_pipeline *pipeline, ec_rare *rare, ec_joined_choice *joined, ec_error *err);
 
 #endif

@@ -1,6 +1,6 @@
 /* Decides for --light-paths auto whether so much of the picture's noise is that of caustics that light paths pay.
  *
- * The first look at the picture's paths (rare/paths.h) foretells two things. For caustics that paths have met: how many light paths would pay
+ * The first look at the picture's paths (rare/paths.h) predicts two things. For caustics that paths have met: how many light paths would pay
  * (rare/joined.h). For those that they hardly ever meet: their chance and light, and so the variance of a sample over the square of the mean
  * luminance that a pilot finds. All are the same whoever renders a part of a job, with however many devices, and no clock has a say. */
 #include <float.h>
@@ -60,7 +60,7 @@ static ec_result judge_rare(ec_render_state *r, bool *pays, const ec_log *log, e
 ec_result ec_render_judge_caustics(ec_render_state *r, ec_caustics *caustics, const ec_log *log, ec_error *err)
 {
     bool rare;
-    EC_TRY(ec_render_foretell(r, err));
+    EC_TRY(ec_render_predict(r, err));
     EC_TRY(judge_rare(r, &rare, log, err));
     *caustics = rare ? EC_CAUSTICS_RARE : r->joined.number > 0 ? EC_CAUSTICS_COMMON : EC_CAUSTICS_NONE;
     if (*caustics == EC_CAUSTICS_COMMON) note_common(&r->joined, log);

@@ -76,20 +76,20 @@ static range samples_of_either(const ec_goal *g, range noisy)
 }
 
 /* Returns the samples to the error, with an interval. Where error^2 is known by a wide factor, the part that no sample has met yet only adds. */
-static range samples_to(const ec_goal *g, const ec_film_outlook *o)
+static range samples_to(const ec_goal *g, const ec_film_forecast *o)
 {
     const double spread = g->now.spread, wide = 1 + 2 * spread; /* a wide spread is itself not well known */
-    const double expected = ec_outlook_samples(o, g->error), far = fmax(log(expected / o->samples), 0);
+    const double expected = ec_film_forecast_samples(o, g->error), far = fmax(log(expected / o->samples), 0);
     const double from_slope = far / o->slope * fmin(g->slope.deviation, 1), z = 1.96 * wide;
     const double down = hypot(spread, from_slope) / o->slope, up = hypot(spread * (1 + spread), from_slope) / o->slope;
     return (range){whole_round(g, expected * exp(-z * down)), whole_round(g, expected), whole_round(g, expected * exp(z * up))};
 }
 
-static ec_forecast foretell(const ec_goal *g, ec_mark at, double gain)
+static ec_forecast predict(const ec_goal *g, ec_mark at, double gain)
 {
     const ec_film_error *now = &g->now;
     const bool is_open = now->is_open, known = isfinite(now->error) && now->error > 0 && !is_open;
-    const ec_film_outlook o = {now->error * now->error * gain, at.samples, g->slope.value, now->noisy_pixels, now->bright_samples, now->larger,
+    const ec_film_forecast o = {now->error * now->error * gain, at.samples, g->slope.value, now->noisy_pixels, now->bright_samples, now->larger,
                                now->larger_falls, g->pixels, g->replicates, EC_RARE_DOUBT * now->unmet, now->unmet_samples};
     range samples = {INFINITY, INFINITY, INFINITY};
     if (g->error > 0 && known) samples = samples_to(g, &o);
@@ -106,7 +106,7 @@ static ec_forecast foretell(const ec_goal *g, ec_mark at, double gain)
         seconds = at_most(seconds, g->seconds);
         samples = at_most(samples, fmax(at.samples, at.samples + (g->seconds - at.seconds) / a_sample));
     }
-    const double bound = known && isfinite(samples.expected) ? ec_outlook_bound(&o, samples.expected) : INFINITY;
+    const double bound = known && isfinite(samples.expected) ? ec_film_forecast_bound(&o, samples.expected) : INFINITY;
     return (ec_forecast){.pilot_samples = at.samples, .pilot_seconds = at.seconds,
                          .samples = samples.expected, .samples_low = samples.low, .samples_high = samples.high,
                          .seconds = seconds.expected, .seconds_low = seconds.low, .seconds_high = seconds.high,
@@ -121,10 +121,10 @@ void ec_goal_round(ec_goal *g, const ec_film_error *now, ec_mark at)
     ec_slope_add(&g->slope, at.samples, now);
 }
 
-void ec_goal_foretell(ec_goal *g, ec_mark at, double gain)
+void ec_goal_predict(ec_goal *g, ec_mark at, double gain)
 {
     if (!(g->timed > 0)) return;
-    g->forecast = foretell(g, at, gain);
+    g->forecast = predict(g, at, gain);
     if (!(g->pilot.pilot_samples > 0)) g->pilot = g->forecast;
 }
 

@@ -41,7 +41,7 @@ void ec_goal_restart_pace(ec_goal *goal);
 void ec_goal_round(ec_goal *goal, const ec_film_error *now, ec_mark at);
 
 /* Makes a forecast, once the pilot is over; gain: what error^2 will be multiplied by from here on. */
-void ec_goal_foretell(ec_goal *goal, ec_mark at, double gain);
+void ec_goal_predict(ec_goal *goal, ec_mark at, double gain);
 
 /* Returns which limit is met: "spp", "error" or "time"; NULL: none. may_judge: a round has ended, and the pilot is over; next: samples a pixel that
  * would be taken next. */

@@ -96,7 +96,7 @@ static uint32_t largest_batch(const ec_render_state *r)
 static ec_result open_sources(ec_render_state *r, const ec_peers *peers, const ec_log *log, ec_error *err)
 {
     if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same paths whatever the sample */
-        EC_TRY(ec_rare_lights_find(&r->sources.cargo.pack, &r->lights, err));
+        EC_TRY(ec_rare_lights_find(&r->sources.payload.pack, &r->lights, err));
     return ec_sources_open(&r->sources, r->options->seed, peers, log, &r->source, r->stats, err);
 }
 
@@ -120,7 +120,7 @@ static void tell_unjoined(const ec_render_options *o, uint64_t called, const ec_
 static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
 {
     const ec_past *past = r->course->past;
-    const ec_cargo_head *head = &r->sources.cargo.head;
+    const ec_payload_head *head = &r->sources.payload.head;
     if (head->bodies_too_many)
         ec_warn(log, "%u materials of glass or liquid, of which at most %u can be told apart, so each of their bodies refracts as if in air; give similar bodies one material",
                 head->bodies_too_many, EC_BODIES_MOST);
@@ -142,7 +142,7 @@ static void begin_again(ec_render_state *r)
     ec_rare_lights_free(&r->lights);
     ec_sources_close(&r->sources, &closed);
     r->sources = (ec_sources){.count = 0};
-    r->is_foretold = false;
+    r->is_predicted = false;
     count_from(r, r->course->past);
 }
 
@@ -157,7 +157,7 @@ static void choose_light_paths(ec_render_state *r, ec_caustics caustics)
 /* Chooses what the options leave open, by the only source before the first sample. Light paths do not scatter inside bodies. */
 static ec_result choose_open(ec_render_state *r, const ec_scene *scene, ec_caustics *caustics, const ec_log *log, ec_error *err)
 {
-    const bool follow = !(r->sources.cargo.head.effects.called.bits & EC_FEATURE_SCATTERING);
+    const bool follow = !(r->sources.payload.head.effects.called.bits & EC_FEATURE_SCATTERING);
     ec_pipeline *p = ec_sources_pipeline(&r->sources, 0, false);
     *caustics = EC_CAUSTICS_NONE;
     if (follow && ec_render_may_have_caustics(r->options, scene)) EC_TRY(ec_render_judge_caustics(r, caustics, log, err));
@@ -180,7 +180,7 @@ static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const 
     const uint32_t first = is_judged ? 1 : count;
     ec_caustics caustics = EC_CAUSTICS_NONE;
     EC_TRY(ec_sources_pack(devices, first, peers != NULL && !is_judged, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
-    r->params = r->sources.cargo.head.params;
+    r->params = r->sources.payload.head.params;
     EC_TRY(admit(r, log, err));
     EC_TRY(open_sources(r, is_judged ? NULL : peers, log, err));
     if (is_judged) EC_TRY(choose_open(r, scene, &caustics, log, err));
@@ -188,12 +188,12 @@ static ec_result load(ec_render_state *r, ec_cl *devices, uint32_t count, const 
         const ec_render_stats before = *r->stats;
         begin_again(r);
         EC_TRY(ec_sources_pack(devices, count, peers != NULL, scene, r->options, largest_batch(r), &r->sources, r->stats, err));
-        r->params = r->sources.cargo.head.params;
+        r->params = r->sources.payload.head.params;
         EC_TRY(open_sources(r, peers, log, err));
         r->stats->pack_seconds += before.pack_seconds;
         r->stats->kernel_seconds += before.kernel_seconds;
     }
-    return ec_sources_alone(&r->sources) ? EC_OK : ec_render_foretell(r, err);
+    return ec_sources_alone(&r->sources) ? EC_OK : ec_render_predict(r, err);
 }
 
 static ec_result set_up(ec_render_state *r, ec_cl *devices, uint32_t device_count, const ec_scene *scene,

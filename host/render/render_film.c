@@ -30,11 +30,11 @@ static double closing_seconds(const ec_render_state *r, uint32_t done)
     return r->look_seconds > 0 ? r->look_seconds : LOOK_SECONDS * ec_render_film_pixels(r);
 }
 
-/* Foretells rare light, once, before anybody looks at the film's error. */
-static ec_result foretell(ec_render_state *r, ec_error *err)
+/* Predicts rare light, once, before anybody looks at the film's error. */
+static ec_result predict(ec_render_state *r, ec_error *err)
 {
-    if (r->is_foretold) return EC_OK;
-    EC_TRY(ec_render_foretell(r, err));
+    if (r->is_predicted) return EC_OK;
+    EC_TRY(ec_render_predict(r, err));
     return ec_film_set_rare(r->film, &r->rare, err);
 }
 
@@ -54,7 +54,7 @@ static bool goes_on(void *user, uint32_t done)
     ec_render_state *r = user;
     r->under_way = done * ec_render_order_samples(r);
     if (done > r->order.done && r->stats->first_pixel_seconds == 0.0) r->stats->first_pixel_seconds = ec_now() - r->start;
-    r->look_failed = foretell(r, &r->look_error) != EC_OK;
+    r->look_failed = predict(r, &r->look_error) != EC_OK;
     if (r->look_failed) return false;
     make_room(r, done);
     if (done >= r->order.count) return true;
@@ -247,7 +247,7 @@ static ec_result judge(ec_render_state *r, const ec_log *log, ec_error *err)
         EC_TRY(allot(r, err));
         if (has_pilot(r) && !(r->error.error_bound <= r->goal.error)) EC_TRY(look_at_clean(r, at.samples, err));
         const bool is_new = r->past.allotment.weight && !r->film->counts;
-        if (has_pilot(r)) ec_goal_foretell(&r->goal, at, is_new ? r->past.allotment.gain : 1.0);
+        if (has_pilot(r)) ec_goal_predict(&r->goal, at, is_new ? r->past.allotment.gain : 1.0);
     }
     r->stopped_by = ec_goal_met(&r->goal, at, at_round && has_pilot(r), next_samples(r));
     if (!r->stopped_by && !ec_render_tell(r, at.samples)) r->stopped_by = "user";
@@ -278,7 +278,7 @@ static ec_result take_batch(ec_render_state *r, const ec_log *log, ec_error *err
 static ec_result take_up_goal(ec_render_state *r, ec_error *err)
 {
     const ec_mark at = ec_render_mark(r);
-    EC_TRY(foretell(r, err));
+    EC_TRY(predict(r, err));
     look_at_error(r);
     r->goal.slope = r->past.slope;
     r->goal.now = r->error;

@@ -33,10 +33,10 @@ typedef struct ec_render_state {
     double look_cpu_seconds;   /* for looks at the picture's paths, which no limit of time counts */
     bool is_withheld_noted;
     bool was_narrow;           /* the last batch ended with the kernels that the render began with (device/tiers.h) */
-    ec_rare_lights lights;     /* until their rare light is foretold; owned */
-    ec_rare rare;              /* the rare light that is foretold */
+    ec_rare_lights lights;     /* until their rare light is predicted; owned */
+    ec_rare rare;              /* the rare light that is predicted */
     ec_joined_choice joined;   /* how many light paths pay */
-    bool is_foretold;
+    bool is_predicted;
     ec_past past;              /* samples: in the film */
     uint64_t rays_before, invalid_before[EC_STAGE_COUNT]; /* the course's past */
     ec_batch_order order;      /* the batch under way */
@@ -65,9 +65,9 @@ static inline double ec_render_picture_pixels(const ec_render_state *r) { return
 static inline double ec_render_samples_done(const ec_render_state *r) { return (double)r->past.samples / ec_render_film_pixels(r); }
 ec_mark ec_render_mark(const ec_render_state *r);
 
-/* render_foretell.c: takes the first look at the picture's paths, once; its time is not the render's. Several devices have it before the first wave;
+/* render_predict.c: takes the first look at the picture's paths, once; its time is not the render's. Several devices have it before the first wave;
  * one device after that, which need not wait for it. */
-ec_result ec_render_foretell(ec_render_state *r, ec_error *err);
+ec_result ec_render_predict(ec_render_state *r, ec_error *err);
 
 /* render_add.c: adds the batch of the order, complete or given up, to the film. */
 ec_result ec_render_add_batch(ec_render_state *r, bool complete, ec_error *err);

@@ -29,14 +29,14 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
     *session = s;
     *stats = (ec_render_stats){0};
     if (!s) return ec_fail(err, "out of memory for a pipeline");
-    ec_cargo cargo;
+    ec_payload payload;
     double share;
-    ec_result result = ec_cargo_make(scene, options, largest, 1u << ec_device_kind_of(&cl->info), cl, &cargo, stats, err);
-    s->insides = cargo.insides;
-    cargo.insides = (ec_insides){0};
-    if (result == EC_OK && options->integrator == EC_INTEGRATOR_PATH) result = ec_rare_lights_find(&cargo.pack, &s->lights, err);
-    if (result == EC_OK) result = ec_pipeline_create(cl, &cargo, &cargo, &s->pipeline, stats, err);
-    ec_cargo_free(&cargo);
+    ec_result result = ec_payload_make(scene, options, largest, 1u << ec_device_kind_of(&cl->info), cl, &payload, stats, err);
+    s->insides = payload.insides;
+    payload.insides = (ec_insides){0};
+    if (result == EC_OK && options->integrator == EC_INTEGRATOR_PATH) result = ec_rare_lights_find(&payload.pack, &s->lights, err);
+    if (result == EC_OK) result = ec_pipeline_create(cl, &payload, &payload, &s->pipeline, stats, err);
+    ec_payload_free(&payload);
     const uint64_t pixels = (uint64_t)options->width * options->height;
     if (result == EC_OK) result = ec_pipeline_fit_films(&s->pipeline, pixels, pixels, err);
     const ec_params *params = &s->pipeline.params;
@@ -86,9 +86,9 @@ ec_result ec_session_look(ec_session *s, const ec_session_view *view, ec_error *
     return ec_lamp_edges_find(p, err);
 }
 
-ec_result ec_session_foretell(ec_session *s, ec_rare *rare, ec_error *err)
+ec_result ec_session_predict(ec_session *s, ec_rare *rare, ec_error *err)
 {
-    return ec_rare_paths_foretell(&s->lights, &s->pipeline, rare, NULL, err);
+    return ec_rare_paths_predict(&s->lights, &s->pipeline, rare, NULL, err);
 }
 
 static ec_result set_batch(ec_pipeline *p, const ec_session_batch *batch, ec_error *err)

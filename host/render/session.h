@@ -23,8 +23,8 @@ typedef struct ec_session_view {
 /* Sets the view of the next batches. The lens is that of the options. */
 ec_result ec_session_look(ec_session *session, const ec_session_view *view, ec_error *err);
 
-/* Foretells the rare paths of the picture that the next batches are of; to be called between batches. */
-ec_result ec_session_foretell(ec_session *session, ec_rare *rare, ec_error *err);
+/* Predicts the rare paths of the picture that the next batches are of; to be called between batches. */
+ec_result ec_session_predict(ec_session *session, ec_rare *rare, ec_error *err);
 
 /* Returns how many samples a pixel one batch may have: a pixel's samples are in flight together. */
 uint32_t ec_session_largest(const ec_session *session);

@@ -12,8 +12,8 @@ ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_s
     bool cards_alone = count > 0;
     for (uint32_t i = 0; i < count; i++) cards_alone &= !(devices[i].info.type & CL_DEVICE_TYPE_CPU);
     ec_film_beside_cards(cards_alone);
-    s->recruits = calloc(count + 1u, sizeof *s->recruits); /* there may be no devices, but peers */
-    return s->recruits ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
+    s->candidates = calloc(count + 1u, sizeof *s->candidates); /* there may be no devices, but peers */
+    return s->candidates ? EC_OK : ec_fail(err, "out of memory for %u devices", count);
 }
 
 ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene,
@@ -23,18 +23,18 @@ ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec
     uint32_t kinds = for_all ? (1u << EC_KIND_COUNT) - 1 : 0;
     EC_TRY(ec_sources_enlist(devices, count, options->lanes, s, stats, err));
     for (uint32_t i = 0; i < count; i++) kinds |= 1u << ec_device_kind_of(&devices[i].info);
-    return ec_cargo_make(scene, options, batch, kinds, count == 1 && !for_all ? devices : NULL, &s->cargo, stats, err);
+    return ec_payload_make(scene, options, batch, kinds, count == 1 && !for_all ? devices : NULL, &s->payload, stats, err);
 }
 
 /* Loads a device, in the member's thread. */
 static ec_result load(void *user, ec_batch_source **source, ec_error *err)
 {
-    ec_source_recruit *r = user;
+    ec_source_candidate *r = user;
     ec_sources *s = r->all;
     *source = &r->source.base;
-    ec_result result = ec_device_source_open(r->cl, &s->cargo, NULL, s->seed, &r->source, &r->stats, err);
+    ec_result result = ec_device_source_open(r->cl, &s->payload, NULL, s->seed, &r->source, &r->stats, err);
     pthread_mutex_lock(&s->lock);
-    if (--s->unloaded == 0) ec_cargo_free(&s->cargo);
+    if (--s->unloaded == 0) ec_payload_free(&s->payload);
     pthread_mutex_unlock(&s->lock);
     if (result == EC_OK) result = r->source.base.turn_to(*source, 0, r->source.pipeline.params.height, err);
     r->stats.wave = r->source.pipeline.room;
@@ -43,19 +43,19 @@ static ec_result load(void *user, ec_batch_source **source, ec_error *err)
 
 static ec_result open_team(ec_sources *s, const ec_peers *peers, const ec_log *log, ec_error *err)
 {
-    ec_team_recruit *recruits = calloc(s->count + peers->count, sizeof *recruits);
-    if (!recruits) return ec_fail(err, "out of memory for a team of %u", s->count + peers->count);
+    ec_team_candidate *candidates = calloc(s->count + peers->count, sizeof *candidates);
+    if (!candidates) return ec_fail(err, "out of memory for a team of %u", s->count + peers->count);
     pthread_mutex_init(&s->lock, NULL);
     for (uint32_t i = 0; i < s->count; i++) {
-        s->recruits[i] = (ec_source_recruit){.all = s, .cl = &s->devices[i]};
-        recruits[i] = (ec_team_recruit){.name = s->devices[i].info.name, .open = load, .user = &s->recruits[i]};
+        s->candidates[i] = (ec_source_candidate){.all = s, .cl = &s->devices[i]};
+        candidates[i] = (ec_team_candidate){.name = s->devices[i].info.name, .open = load, .user = &s->candidates[i]};
     }
     for (uint32_t i = 0; i < peers->count; i++)
-        if (peers->recruit(peers->user, i, &recruits[s->count + s->peer_members]))
-            s->allied_processes += recruits[s->count + s->peer_members++].processes;
-    ec_result result = ec_team_open(recruits, s->count + s->peer_members, s->cargo.head.params.width,
-                                    s->cargo.head.params.height, s->cargo.head.replicates, log, &s->team, err);
-    free(recruits);
+        if (peers->candidate(peers->user, i, &candidates[s->count + s->peer_members]))
+            s->peer_processes += candidates[s->count + s->peer_members++].processes;
+    ec_result result = ec_team_open(candidates, s->count + s->peer_members, s->payload.head.params.width,
+                                    s->payload.head.params.height, s->payload.head.replicates, log, &s->team, err);
+    free(candidates);
     if (result == EC_OK) ec_team_wait(s->team, s->count); /* limits of time do not include compiling */
     return result;
 }
@@ -69,35 +69,35 @@ ec_result ec_sources_open(ec_sources *s, uint64_t seed, const ec_peers *peers, c
     s->seed = seed;
     s->peers = peers ? *peers : none;
     s->received_before = received(s);
-    if (peers) EC_TRY(peers->send(peers->user, &s->cargo, seed, log, err));
+    if (peers) EC_TRY(peers->send(peers->user, &s->payload, seed, log, err));
     if (s->count > 1 || peers) {
         EC_TRY(open_team(s, peers ? peers : &none, log, err));
         *source = ec_team_source(s->team);
         return EC_OK;
     }
-    *source = &s->recruits->source.base;
+    *source = &s->candidates->source.base;
     s->devices->log = log;
-    return ec_device_source_open(s->devices, &s->cargo, &s->cargo, seed, &s->recruits->source, stats, err);
+    return ec_device_source_open(s->devices, &s->payload, &s->payload, seed, &s->candidates->source, stats, err);
 }
 
-const ec_pipeline *ec_sources_alone(const ec_sources *s) { return s->team ? NULL : &s->recruits->source.pipeline; }
+const ec_pipeline *ec_sources_alone(const ec_sources *s) { return s->team ? NULL : &s->candidates->source.pipeline; }
 
 ec_pipeline *ec_sources_pipeline(ec_sources *s, uint32_t device, bool waits)
 {
-    return !s->team || ec_team_is_ready(s->team, device, waits) ? &s->recruits[device].source.pipeline : NULL;
+    return !s->team || ec_team_is_ready(s->team, device, waits) ? &s->candidates[device].source.pipeline : NULL;
 }
 
 static void tell_shares(const ec_sources *s, ec_render_stats *stats)
 {
-    const double pixels = (double)s->cargo.head.params.width * s->cargo.head.params.height;
+    const double pixels = (double)s->payload.head.params.width * s->payload.head.params.height;
     bool has_failed;
     stats->share_count = s->count;
-    stats->peers = s->allied_processes;
+    stats->peers = s->peer_processes;
     stats->peer_bytes = received(s) - s->received_before;
     for (uint32_t i = 0; i < s->peer_members; i++)
         stats->peer_samples += ec_team_share(s->team, s->count + i, &has_failed) / pixels;
     for (uint32_t i = 0; i < s->count; i++) {
-        const ec_render_stats *own = &s->recruits[i].stats;
+        const ec_render_stats *own = &s->candidates[i].stats;
         ec_render_share *share = &stats->shares[i];
         share->samples = ec_team_share(s->team, i, &share->has_failed) / pixels;
         share->lanes = own->lanes;
@@ -120,8 +120,8 @@ void ec_sources_close(ec_sources *s, ec_render_stats *stats)
         tell_shares(s, stats);
         ec_team_free(s->team);
         pthread_mutex_destroy(&s->lock);
-    } else if (s->recruits && s->recruits->source.base.close) {
-        s->recruits->source.base.close(&s->recruits->source.base);
+    } else if (s->candidates && s->candidates->source.base.close) {
+        s->candidates->source.base.close(&s->candidates->source.base);
         s->devices->log = NULL;
     }
     for (uint32_t i = 0; i < s->count; i++) {
@@ -132,6 +132,6 @@ void ec_sources_close(ec_sources *s, ec_render_stats *stats)
         stats->pieces += s->devices[i].paces.pieces;
         if (s->devices[i].paces.longest > stats->longest_piece) stats->longest_piece = s->devices[i].paces.longest;
     }
-    ec_cargo_free(&s->cargo);
-    free(s->recruits);
+    ec_payload_free(&s->payload);
+    free(s->candidates);
 }

@@ -1,51 +1,51 @@
-/* The devices of a render as one source of batches: one device alone, or a team of devices that are loaded from one cargo. */
+/* The devices of a render as one source of batches: one device alone, or a team of devices that are loaded from one payload. */
 #ifndef EC_RENDER_SOURCES_H
 #define EC_RENDER_SOURCES_H
 
 #include <pthread.h>
 
-#include "device/cargo.h"
+#include "device/payload.h"
 #include "device/device_source.h"
 #include "render/team.h"
 
 /* Sources beside the devices, as the other processes of an MPI job are. */
 typedef struct ec_peers {
     uint32_t count;                   /* at most */
-    /* Called when the cargo is made, and whole, to give it to the peers. A failure ends the render. */
-    ec_result (*send)(void *user, const ec_cargo *cargo, uint64_t seed, const ec_log *log, ec_error *err);
+    /* Called when the payload is made, and whole, to give it to the peers. A failure ends the render. */
+    ec_result (*send)(void *user, const ec_payload *payload, uint64_t seed, const ec_log *log, ec_error *err);
     /* Called after that; false: number i does not take part. */
-    bool (*recruit)(void *user, uint32_t i, ec_team_recruit *recruit);
+    bool (*candidate)(void *user, uint32_t i, ec_team_candidate *candidate);
     uint64_t (*received)(void *user); /* returns the bytes that have come from them, ever; NULL: not known */
     void *user;
 } ec_peers;
 
-typedef struct ec_source_recruit {
+typedef struct ec_source_candidate {
     struct ec_sources *all;
     ec_cl *cl;
     ec_device_source source;
     ec_render_stats stats;            /* filled in by its set-up */
-} ec_source_recruit;
+} ec_source_candidate;
 
 typedef struct ec_sources {
-    ec_cargo cargo;
+    ec_payload payload;
     ec_cl *devices;
     uint32_t count;
     uint64_t seed;
-    ec_source_recruit *recruits;      /* one for each device */
+    ec_source_candidate *candidates;      /* one for each device */
     ec_team *team;                    /* NULL: one device alone */
     pthread_mutex_t lock;
-    uint32_t unloaded;                /* devices that have not taken what they need of the cargo */
+    uint32_t unloaded;                /* devices that have not taken what they need of the payload */
     uint32_t peer_members;                  /* members of the team behind the devices … */
-    uint32_t allied_processes;        /* … and how many processes they stand for */
+    uint32_t peer_processes;        /* … and how many processes they stand for */
     ec_peers peers;
     uint64_t received_before;
 } ec_sources;
 
-/* The first step, if the cargo is there already: enlists devices, with so many lanes (0: whatever suits each). To be closed on failure too. */
+/* The first step, if the payload is there already: enlists devices, with so many lanes (0: whatever suits each). To be closed on failure too. */
 ec_result ec_sources_enlist(ec_cl *devices, uint32_t count, uint32_t lanes, ec_sources *sources, ec_render_stats *stats,
                             ec_error *err);
 
-/* The first step, if it is not: also makes the cargo, for these devices, and any others if for_all. */
+/* The first step, if it is not: also makes the payload, for these devices, and any others if for_all. */
 ec_result ec_sources_pack(ec_cl *devices, uint32_t count, bool for_all, const ec_scene *scene,
                           const ec_render_options *options, uint32_t batch, ec_sources *sources, ec_render_stats *stats,
                           ec_error *err);

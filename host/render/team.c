@@ -48,7 +48,7 @@ static void *work(void *user)
 {
     member *m = user;
     ec_team *t = m->team;
-    ec_result result = m->recruit.open(m->recruit.user, &m->source, &m->why);
+    ec_result result = m->candidate.open(m->candidate.user, &m->source, &m->why);
     pthread_mutex_lock(&t->lock);
     m->is_ready = result == EC_OK;
     m->has_failed = !m->is_ready;
@@ -73,7 +73,7 @@ static ec_result tell_failures(ec_team *t, ec_error *err)
         if (!m->has_failed || m->is_told) continue;
         m->is_told = true;
         if (!ec_team_alive(t) && err) *err = m->why;
-        if (ec_team_alive(t)) ec_warn(t->log, "%s has failed, and the others take over its work: %s", m->recruit.name, m->why.text);
+        if (ec_team_alive(t)) ec_warn(t->log, "%s has failed, and the others take over its work: %s", m->candidate.name, m->why.text);
     }
     return ec_team_alive(t) ? EC_OK : EC_FAILED;
 }
@@ -232,7 +232,7 @@ double ec_team_share(const ec_team *team, uint32_t i, bool *has_failed)
     return i < team->count ? team->members[i].samples : 0;
 }
 
-ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height,
+ec_result ec_team_open(const ec_team_candidate *candidates, uint32_t count, uint32_t width, uint32_t height,
                        uint32_t replicates, const ec_log *log, ec_team **team, ec_error *err)
 {
     uint32_t sources = 0;
@@ -244,20 +244,20 @@ ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t
     pthread_cond_init(&t->work, NULL);
     pthread_cond_init(&t->news, NULL);
     t->members = calloc(count, sizeof *t->members);
-    for (uint32_t i = 0; i < count; i++) sources += recruits[i].processes ? recruits[i].processes : 1;
+    for (uint32_t i = 0; i < count; i++) sources += candidates[i].processes ? candidates[i].processes : 1;
     t->room = ec_team_window(sources, t->pixels, 4 * EC_BATCH_FIELDS);
     t->slots = calloc(t->room, sizeof *t->slots);
     if (!t->members || !t->slots) return ec_fail(err, "out of memory for a team of %u devices", count);
     t->count = count;
     for (uint32_t i = 0; i < count; i++) {
         member *m = &t->members[i];
-        *m = (member){.team = t, .recruit = recruits[i]};
-        t->sends |= m->recruit.processes > 0;
+        *m = (member){.team = t, .candidate = candidates[i]};
+        t->sends |= m->candidate.processes > 0;
     }
     for (uint32_t i = 0; i < count; i++) {
         member *m = &t->members[i];
         m->has_thread = pthread_create(&m->thread, NULL, work, m) == 0;
-        if (!m->has_thread) return ec_fail(err, "cannot start a thread for %s", m->recruit.name);
+        if (!m->has_thread) return ec_fail(err, "cannot start a thread for %s", m->candidate.name);
     }
     return EC_OK;
 }

@@ -31,18 +31,18 @@
 uint32_t ec_team_window(uint32_t members, uint64_t pixels, uint64_t bytes);
 uint64_t ec_team_bytes(uint32_t members, uint64_t pixels, uint32_t replicates, uint32_t sets, bool from_afar);
 
-typedef struct ec_team_recruit {
+typedef struct ec_team_candidate {
     const char *name;                 /* for messages */
     /* Called in the member's thread. The team closes *source, even on failure if it is not NULL. */
     ec_result (*open)(void *user, ec_batch_source **source, ec_error *err);
     void *user;
     uint32_t processes;               /* other processes that it stands for: its pieces come from afar then */
-} ec_team_recruit;
+} ec_team_candidate;
 
 typedef struct ec_team ec_team;
 
 /* Starts the threads. log gets a warning for each member that fails while there are others. */
-ec_result ec_team_open(const ec_team_recruit *recruits, uint32_t count, uint32_t width, uint32_t height,
+ec_result ec_team_open(const ec_team_candidate *candidates, uint32_t count, uint32_t width, uint32_t height,
                        uint32_t replicates, const ec_log *log, ec_team **team, ec_error *err);
 /* Leaves out a member that has failed at something else, while nothing was ordered: the next take reports it. */
 void ec_team_leave_out(ec_team *team, uint32_t member, const ec_error *why);

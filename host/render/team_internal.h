@@ -24,7 +24,7 @@ typedef struct slot {
 
 typedef struct member {
     ec_team *team;
-    ec_team_recruit recruit;
+    ec_team_candidate candidate;
     pthread_t thread;
     ec_batch_source *source;
     bool has_thread, is_ready, is_busy, has_failed, is_told;

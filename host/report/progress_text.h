@@ -1,4 +1,4 @@
-/* Describes the progress of a render, and what its pilot foretells. */
+/* Describes the progress of a render, and what its pilot predicts. */
 #ifndef EC_REPORT_PROGRESS_TEXT_H
 #define EC_REPORT_PROGRESS_TEXT_H
 

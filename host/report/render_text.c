@@ -58,7 +58,7 @@ void ec_frame_report_text(const ec_render_report *report, FILE *to)
     if (report->verbose && !report->frame->name) print_shared(report->stats, to);
 }
 
-/* Foretells the error with four times the samples: half of it if they are independent, and less if their order helps. */
+/* Predicts the error with four times the samples: half of it if they are independent, and less if their order helps. */
 static void format_more(const ec_render_stats *stats, char *text, size_t size)
 {
     *text = 0;

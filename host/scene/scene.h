@@ -230,7 +230,7 @@ void ec_scene_trim(ec_scene *scene); /* gives back unused memory */
 void ec_scene_free_geometry(ec_scene *scene);
 
 void ec_scene_free(ec_scene *scene); /* NULL is fine */
-/* Frees data that are only needed to make a cargo: vertices, triangles, pixels of images and of the environment. Counts, names, cameras, lights and
+/* Frees data that are only needed to make a payload: vertices, triangles, pixels of images and of the environment. Counts, names, cameras, lights and
  * materials stay. */
 void ec_scene_drop_data(ec_scene *scene);
 void ec_motion_free(ec_motion *motion); /* leaves an empty motion */

@@ -1,4 +1,4 @@
-/* An Open Image Denoise for test_denoise.py. It makes colours 0.9 as bright, so that what is stated of them can be foretold, or with DIM_SHOWS_ALBEDO in the
+/* An Open Image Denoise for test_denoise.py. It makes colours 0.9 as bright, so that what is stated of them can be predicted, or with DIM_SHOWS_ALBEDO in the
  * environment puts the albedo in their place. It leaves a guide that comes alone as it is. Its declarations are those that host/denoise/oidn.c calls. */
 #include <stdbool.h>
 #include <stddef.h>

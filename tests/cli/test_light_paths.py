@@ -76,13 +76,13 @@ class LightPaths(OtherWay):
         self.assertEqual(chosen["image_sha256"], self.render(*job, "--light-paths", "0.125")["image_sha256"])
 
     @full
-    def test_auto_foretells(self):
-        """How much of the variance light paths take away is foretold about right."""
+    def test_auto_predicts(self):
+        """How much of the variance light paths take away is predicted about right."""
         job = [LADDER, "--size", "96x96", "--spp", "64"]
         run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
-        foretold = float(re.search(r"about (\d+) % of the variance", run.stderr)[1]) / 100
+        predicted = float(re.search(r"about (\d+) % of the variance", run.stderr)[1]) / 100
         taken = 1 - (json.loads(run.stdout)["error"] / self.render(*job, "--light-paths", "0", "--adaptive=off")["error"]) ** 2
-        self.assertAlmostEqual(foretold, taken, delta=0.2)
+        self.assertAlmostEqual(predicted, taken, delta=0.2)
 
     def assert_none(self, of):
         job = [of, "--size", "20x18", "--spp", "8", *QUICK]

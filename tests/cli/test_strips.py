@@ -69,7 +69,7 @@ class Strips(Case):
 
     @full
     def test_light_that_may_be_missing(self):
-        """What is foretold of it goes by tiles of the whole picture, and so do its flags."""
+        """What is predicted of it goes by tiles of the whole picture, and so do its flags."""
         options = ["--size", "200x500", "--spp", "9", "--light-paths", "0"]
         self.assertIn("mirror", self.render("whole", *options, scene=PINLAMP)["error_bound_why"])
         self.in_strips("strips", *options, scene=PINLAMP)

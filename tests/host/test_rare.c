@@ -1,5 +1,5 @@
 /* tier: quick */
-/* No bound while light may be missing: what film/rare.h foretells, and what becomes of a film's error, its pixels' flags and a stored job. */
+/* No bound while light may be missing: what film/rare.h predicts, and what becomes of a film's error, its pixels' flags and a stored job. */
 #include "film/rare.h"
 
 #include <math.h>

@@ -16,12 +16,12 @@ static void make(const ec_scene *scene, ec_pipeline *p)
 {
     ec_render_options o = case_options(SIZE, SIZE, BATCH);
     ec_render_stats stats = {0};
-    ec_cargo cargo;
+    ec_payload payload;
     ec_error err = {0};
     o.light_paths = 1;
     o.compile = EC_COMPILE_FIRST;
-    CHECK_OK(ec_cargo_make(scene, &o, BATCH, 1u << ec_device_kind_of(&case_cl()->info), NULL, &cargo, &stats, &err), err);
-    CHECK_OK(ec_pipeline_create(case_cl(), &cargo, &cargo, p, &stats, &err), err);
+    CHECK_OK(ec_payload_make(scene, &o, BATCH, 1u << ec_device_kind_of(&case_cl()->info), NULL, &payload, &stats, &err), err);
+    CHECK_OK(ec_pipeline_create(case_cl(), &payload, &payload, p, &stats, &err), err);
     CHECK_OK(ec_pipeline_fit_films(p, SIZE * SIZE, SIZE * SIZE, &err), err);
 }
 

@@ -99,13 +99,13 @@ static bool stop_early(void *user, uint32_t done)
 }
 
 /* A first batch that is given up: what is not right is marked. */
-static int check_marked(const ec_team_recruit *recruits)
+static int check_marked(const ec_team_candidate *candidates)
 {
     uint32_t asked = 0, reached = 0, wrong = 0;
     ec_team *team;
     ec_error err = {0};
     bool complete;
-    if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK) return 1;
+    if (ec_team_open(candidates, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK) return 1;
     ec_batch_source *source = ec_team_source(team);
     const ec_batch_order order = {.index = 0, .end = 9, .count = PIXELS, .feature_sets = 1, .go_on = stop_early, .user = &asked};
     if (source->take(source, &order, &complete, &err) != EC_OK || complete) return 1;
@@ -135,7 +135,7 @@ static uint32_t ordered(uint32_t b)
 
 /* A film of what a team takes, in blocks as it is told, of positions from the second row of tiles on, or where it likes, of which one member fails in the
  * middle, has the bits of one batch by batch. */
-static int check_blocks(ec_team_recruit *recruits, bool is_told)
+static int check_blocks(ec_team_candidate *candidates, bool is_told)
 {
     static float batch[FIELDS * PIXELS], features[EC_AOV_FIELDS * PIXELS];
     const uint32_t rows = is_told ? HEIGHT - EC_TILE_ROWS : HEIGHT, from = PIXELS - WIDTH * rows;
@@ -144,8 +144,8 @@ static int check_blocks(ec_team_recruit *recruits, bool is_told)
     ec_film alone, film;
     ec_error err = {0};
     bool complete;
-    for (uint32_t i = 0; i < MEMBERS; i++) recruits[i].processes = 1;
-    if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK || ec_film_create(&film, WIDTH, rows, REPLICATES, &err) != EC_OK ||
+    for (uint32_t i = 0; i < MEMBERS; i++) candidates[i].processes = 1;
+    if (ec_team_open(candidates, MEMBERS, WIDTH, HEIGHT, REPLICATES, NULL, &team, &err) != EC_OK || ec_film_create(&film, WIDTH, rows, REPLICATES, &err) != EC_OK ||
         ec_film_create(&alone, WIDTH, rows, REPLICATES, &err) != EC_OK)
         return 1;
     ec_film_want_features(&film, 2, UINT32_MAX);
@@ -196,7 +196,7 @@ int main(int argc, char **argv)
     races = argc > 1;
     static fake fakes[MEMBERS];
     static uint32_t list[EC_LIST_WORDS * PIXELS];
-    ec_team_recruit recruits[MEMBERS];
+    ec_team_candidate candidates[MEMBERS];
     ec_team *team;
     ec_error err = {0};
     int wrong = 0, warnings = 0;
@@ -205,10 +205,10 @@ int main(int argc, char **argv)
     const ec_log log = {count_warning, &warnings};
     for (uint32_t i = 0; i < MEMBERS; i++) {
         fakes[i].index = i;
-        recruits[i] = (ec_team_recruit){.name = "a fake", .open = open_fake, .user = &fakes[i]};
+        candidates[i] = (ec_team_candidate){.name = "a fake", .open = open_fake, .user = &fakes[i]};
     }
     for (uint32_t i = 0; i < PIXELS; i++) list[EC_LIST_WORDS * i] = PIXELS - 1 - i;
-    if (ec_team_open(recruits, MEMBERS, WIDTH, HEIGHT, REPLICATES, &log, &team, &err) != EC_OK) return 2;
+    if (ec_team_open(candidates, MEMBERS, WIDTH, HEIGHT, REPLICATES, &log, &team, &err) != EC_OK) return 2;
     ec_batch_source *source = ec_team_source(team);
     for (uint32_t b = 3; b < BATCHES; b++) {
         const bool is_pass = b % 20 == 0;
@@ -232,11 +232,11 @@ int main(int argc, char **argv)
     printf("%d batches of %d sources, %d wrong, %d warnings, %s\n", BATCHES - 3, MEMBERS, wrong, warnings,
            shares == due ? "all samples once" : "not all samples once");
     for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].taken = 0, fakes[i].is_quick = true;
-    wrong += check_blocks(recruits, false);
+    wrong += check_blocks(candidates, false);
     fakes[1].taken = 0;
-    wrong += check_blocks(recruits, true);
+    wrong += check_blocks(candidates, true);
     for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].pause = 20000, fakes[i].is_quick = false;
-    const int unmarked = check_marked(recruits);
+    const int unmarked = check_marked(candidates);
     if (unmarked) printf("not marked\n");
     return wrong || unmarked;
 }

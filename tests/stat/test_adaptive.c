@@ -157,11 +157,11 @@ static void check_target(const char *path, double target, double most)
     /* The pilots are the same: error^2 has to fall by so much from there, and by the gain less, each along a slope of its own. Forecasts end
      * with a round, at most a quarter later each, which the slopes multiply. */
     const ec_forecast *a = &adaptive.stats.forecast, *e = &even.stats.forecast;
-    const ec_film_outlook of_even = {.samples = e->pilot_samples, .slope = e->slope}, of_adaptive = {.samples = a->pilot_samples, .slope = a->slope};
-    const double fall = ec_outlook_fall(&of_even, e->samples) * adaptive.stats.allotment_gain;
+    const ec_film_forecast of_even = {.samples = e->pilot_samples, .slope = e->slope}, of_adaptive = {.samples = a->pilot_samples, .slope = a->slope};
+    const double fall = ec_film_forecast_fall(&of_even, e->samples) * adaptive.stats.allotment_gain;
     double expected = a->pilot_samples;
-    while (ec_outlook_fall(&of_adaptive, expected) < fall) expected *= 1.01;
-    CHECK_MSG(a->samples <= 1.4 * expected && expected <= 1.4 * a->samples, "%s: %.0f samples foretold, not %.0f", path, a->samples, expected);
+    while (ec_film_forecast_fall(&of_adaptive, expected) < fall) expected *= 1.01;
+    CHECK_MSG(a->samples <= 1.4 * expected && expected <= 1.4 * a->samples, "%s: %.0f samples predicted, not %.0f", path, a->samples, expected);
     case_free(&even);
     case_free(&adaptive);
     ec_scene_free(scene);

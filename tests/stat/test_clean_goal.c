@@ -1,5 +1,5 @@
 /* tier: quick */
-/* When the clean picture is looked at, and how many samples it is foretold to take: render/clean_goal.h. On pictures whose error falls by a law, looks are
+/* When the clean picture is looked at, and how many samples it is predicted to take: render/clean_goal.h. On pictures whose error falls by a law, looks are
  * few, the end is found at the first round that has it, and forecasts hold it. */
 #include "render/clean_goal.h"
 #include "render/goal.h"
@@ -8,7 +8,7 @@
 #define WIDER 1.05 /* high95 over error */
 
 /* Samples a pixel at which a render of such a picture ends; looks: how often it was asked. */
-static double run(double error_at_pilot, double slope, double target, int *looks, ec_clean_range *foretold)
+static double run(double error_at_pilot, double slope, double target, int *looks, ec_clean_range *predicted)
 {
     ec_clean_goal goal = {0};
     *looks = 0;
@@ -20,7 +20,7 @@ static double run(double error_at_pilot, double slope, double target, int *looks
             continue;
         }
         ec_clean_goal_take(&goal, samples, &(ec_clean_look){error, error * WIDER});
-        if (++*looks == 2) *foretold = ec_clean_goal_samples(&goal, target);
+        if (++*looks == 2) *predicted = ec_clean_goal_samples(&goal, target);
         if (error * WIDER <= target) return samples;
     }
     return INFINITY;
@@ -29,13 +29,13 @@ static double run(double error_at_pilot, double slope, double target, int *looks
 static void check_law(double slope)
 {
     int looks;
-    ec_clean_range foretold = {0};
-    const double end = run(0.1, slope, 0.02, &looks, &foretold), real = 32 * pow(0.1 * WIDER / 0.02, 2 / slope);
-    printf("slope %g: ends at %g, really %g, %d looks, foretold %g (%g to %g)\n", slope, end, real, looks, foretold.expected, foretold.low, foretold.high);
+    ec_clean_range predicted = {0};
+    const double end = run(0.1, slope, 0.02, &looks, &predicted), real = 32 * pow(0.1 * WIDER / 0.02, 2 / slope);
+    printf("slope %g: ends at %g, really %g, %d looks, predicted %g (%g to %g)\n", slope, end, real, looks, predicted.expected, predicted.low, predicted.high);
     CHECK(end >= real && end <= 1.26 * real);
     CHECK(looks <= 2 + log2(end / 32) + 12);
-    CHECK(foretold.low <= real && real <= foretold.high);
-    CHECK_NEAR(log(foretold.expected / real), 0, 0.1);
+    CHECK(predicted.low <= real && real <= predicted.high);
+    CHECK_NEAR(log(predicted.expected / real), 0, 0.1);
 }
 
 /* A goal that goes by the clean picture is met by it, and not before a look. */
@@ -52,7 +52,7 @@ static void check_goal(void)
     CHECK(ec_goal_met(&goal, (ec_mark){80, 1}, true, 8) && !strcmp(ec_goal_met(&goal, (ec_mark){80, 1}, true, 8), "error"));
 }
 
-/* Where there is no bound nothing is foretold, and each doubling is looked at. */
+/* Where there is no bound nothing is predicted, and each doubling is looked at. */
 static void check_unknown(void)
 {
     ec_clean_goal goal = {0};

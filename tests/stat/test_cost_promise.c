@@ -1,6 +1,6 @@
 /* tier: full */
 /* What `eclat cost` promises, `eclat render --error` keeps: on four scenes pictures of 1, 2, 4, … samples a pixel are measured as a study
- * does, and a render for an error target stops. The error that the study foretells for as many samples, and the one that the render states,
+ * does, and a render for an error target stops. The error that the study predicts for as many samples, and the one that the render states,
  * agree within their standard errors: 4 of them, which a right program exceeds in one run of ten thousand, and a tenth for the straight
  * line between two points of the curve. */
 #include "support/cost_reference.h"
@@ -60,12 +60,12 @@ static void check(const promise_case *c)
     o.seed = 77;
     case_image image = case_render(scene, &o);
     double se;
-    const double samples = (double)image.stats.samples_per_pixel, foretold = curve_at(&row, samples, &se);
+    const double samples = (double)image.stats.samples_per_pixel, predicted = curve_at(&row, samples, &se);
     const double stated = image.stats.film.error * image.stats.film.error, spread = hypot(se, ec_film_estimate_error(&image.film).spread);
-    printf("%-14s %4.0f samples for a bound of %g %%: error %.2f %% stated, %.2f %% foretold (+- %.0f %% of squares)\n", c->name, samples,
-           100 * c->target, 100 * image.stats.film.error, 100 * sqrt(foretold), 100 * spread);
+    printf("%-14s %4.0f samples for a bound of %g %%: error %.2f %% stated, %.2f %% predicted (+- %.0f %% of squares)\n", c->name, samples,
+           100 * c->target, 100 * image.stats.film.error, 100 * sqrt(predicted), 100 * spread);
     CHECK(!strcmp(image.stats.stopped_by, "error") && image.stats.film.error_bound <= c->target && samples <= MOST);
-    CHECK_MSG(fabs(log(stated / foretold)) <= 4 * spread + 0.1, "%s: %g stated, %g foretold", c->name, stated, foretold);
+    CHECK_MSG(fabs(log(stated / predicted)) <= 4 * spread + 0.1, "%s: %g stated, %g predicted", c->name, stated, predicted);
     case_free(&image);
     ec_cost_reference_free(&study.reference);
     ec_scene_free(scene);

@@ -68,7 +68,7 @@ static bool judge(ec_film *film, ec_goal *goal, double took, double gain)
     if (is_round) {
         const ec_film_error now = ec_film_estimate_error(film);
         ec_goal_round(goal, &now, at);
-        if (has_pilot) ec_goal_foretell(goal, at, gain);
+        if (has_pilot) ec_goal_predict(goal, at, gain);
     }
     return ec_goal_met(goal, at, is_round && has_pilot, 0) != NULL;
 }
@@ -177,7 +177,7 @@ static void limits_are_met(void)
     CHECK(!ec_goal_met(&goal, (ec_mark){1e6, 1e6}, true, 8));
 }
 
-/* Ten seconds of one sample a second, by slow kernels; then a hundred a second: only these foretell. */
+/* Ten seconds of one sample a second, by slow kernels; then a hundred a second: only these predict. */
 static void slow_kernels_are_forgotten(void)
 {
     ec_goal goal = {.replicates = replicates, .pixels = 1};
@@ -186,10 +186,10 @@ static void slow_kernels_are_forgotten(void)
         ec_goal_batch(&goal, i, i, 1);
         ec_goal_restart_pace(&goal);
     }
-    ec_goal_foretell(&goal, (ec_mark){10, 10}, 1);
+    ec_goal_predict(&goal, (ec_mark){10, 10}, 1);
     CHECK(!(goal.pilot.pilot_samples > 0)); /* nothing yet */
     for (int i = 1; i <= 10; i++) ec_goal_batch(&goal, 10 + 10 * i, 10 + 0.1 * i, 0.1);
-    ec_goal_foretell(&goal, (ec_mark){110, 11}, 1);
+    ec_goal_predict(&goal, (ec_mark){110, 11}, 1);
     CHECK_MSG(fabs(goal.forecast.seconds - 20) < 0.01, "%g s", goal.forecast.seconds);
 }
 

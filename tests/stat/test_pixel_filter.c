@@ -34,7 +34,7 @@ static void check_picture(double width)
 }
 
 /* Pixels' errors are independent and stated right: over renders the mean of the picture, whose lamp lies within it, is as far from what
- * was foretold as its standard error says. The sum of 40 squared z is over 73.4 or under 16.9 in 1 run of 1 000 each. */
+ * was predicted as its standard error says. The sum of 40 squared z is over 73.4 or under 16.9 in 1 run of 1 000 each. */
 static void check_error(void)
 {
     ec_scene *scene = lamp_at(0.05, -0.1, 4, "filter-error");

@@ -1,5 +1,5 @@
 /* tiers: quick, full */
-/* Rare paths as they are foretold: against closed forms where a flat mirror shows a small light, and against long renders where a mirror
+/* Rare paths as they are predicted: against closed forms where a flat mirror shows a small light, and against long renders where a mirror
  * throws it onto a floor. */
 #include "rare/paths.h"
 #include "render/session.h"
@@ -36,14 +36,14 @@ static ec_scene *load_plane(double metallic, double half)
     return scene;
 }
 
-static ec_rare foretell(const ec_scene *scene, const ec_render_options *options)
+static ec_rare predict(const ec_scene *scene, const ec_render_options *options)
 {
     ec_error err = {0};
     ec_render_stats stats;
     ec_session *session = NULL;
     ec_rare rare;
     if (ec_session_open(case_cl(), scene, options, 1, &session, &stats, &err) != EC_OK) case_end("set-up", &err);
-    if (ec_session_foretell(session, &rare, &err) != EC_OK) case_end("chains", &err);
+    if (ec_session_predict(session, &rare, &err) != EC_OK) case_end("chains", &err);
     ec_session_close(session);
     return rare;
 }
@@ -72,7 +72,7 @@ static void check_plane(const char *what, double metallic, double angle, bool is
     const float bright = 1e6f;
     set_map(scene, WIDTH, HEIGHT, 40, y, 1, bright);
     const ec_render_options o = case_options(40, 40, 16);
-    const ec_rare rare = foretell(scene, &o);
+    const ec_rare rare = predict(scene, &o);
     const double theta = PI * (y + 0.5) / HEIGHT, omega = solid_angle(WIDTH, HEIGHT, y);
     const double expected = omega / (4 * tan(half) * tan(half) * pow(cos(theta), 3)); /* of the camera's directions, by the picture's area */
     double chance;
@@ -91,7 +91,7 @@ static void check_plane(const char *what, double metallic, double angle, bool is
 static double light_above(ec_scene *scene)
 {
     const ec_render_options o = case_options(40, 40, 16);
-    const ec_rare rare = foretell(scene, &o);
+    const ec_rare rare = predict(scene, &o);
     double chance;
     return light_of(&rare, &chance, "plane");
 }
@@ -123,7 +123,7 @@ static void check_two_suns(void)
     ec_scene_free(scene);
 }
 
-/* Counts of samples that were dropped are the render's: foretelling leaves them alone. */
+/* Counts of samples that were dropped are the render's: predicting leaves them alone. */
 static void check_invalid_counts(void)
 {
     const uint32_t wanted[EC_STAGE_COUNT] = {1, 2, 3, 4, 5};
@@ -132,21 +132,21 @@ static void check_invalid_counts(void)
     ec_render_options o = case_options(40, 40, 16);
     ec_error err = {0};
     ec_render_stats stats = {0};
-    ec_cargo cargo;
+    ec_payload payload;
     ec_pipeline p = {0};
     ec_rare_lights lights = {0};
     ec_rare rare;
     set_map(scene, WIDTH, HEIGHT, 40, 8, 1, 1e6f);
-    CHECK_OK(ec_cargo_make(scene, &o, 1, 1u << ec_device_kind_of(&case_cl()->info), NULL, &cargo, &stats, &err), err);
-    CHECK_OK(ec_rare_lights_find(&cargo.pack, &lights, &err), err);
-    CHECK_OK(ec_pipeline_create(case_cl(), &cargo, NULL, &p, &stats, &err), err);
+    CHECK_OK(ec_payload_make(scene, &o, 1, 1u << ec_device_kind_of(&case_cl()->info), NULL, &payload, &stats, &err), err);
+    CHECK_OK(ec_rare_lights_find(&payload.pack, &lights, &err), err);
+    CHECK_OK(ec_pipeline_create(case_cl(), &payload, NULL, &p, &stats, &err), err);
     CHECK_OK(ec_buffer_write(p.cl, p.buffers[EC_ARG_INVALID], 0, sizeof wanted, wanted, &err), err);
-    CHECK_OK(ec_rare_paths_foretell(&lights, &p, &rare, NULL, &err), err);
+    CHECK_OK(ec_rare_paths_predict(&lights, &p, &rare, NULL, &err), err);
     CHECK_OK(ec_pipeline_read_invalid(&p, found, &err), err);
     CHECK(rare.count > 0 && !memcmp(found, wanted, sizeof found));
     ec_pipeline_destroy(&p);
     ec_rare_lights_free(&lights);
-    ec_cargo_free(&cargo);
+    ec_payload_free(&payload);
     ec_scene_free(scene);
 }
 
@@ -165,7 +165,7 @@ static double floor_light(double wall, const char *name, ec_rare *rare)
     set_map(scene, 64, 32, 2, 10, 0, 1000); /* from -x, which the mirror faces */
     ec_render_options o = case_options(16, 16, 16384);
     o.max_depth = 3;
-    *rare = foretell(scene, &o);
+    *rare = predict(scene, &o);
     case_image image = case_render(scene, &o);
     const double mean = image.mean[1];
     case_free(&image);
@@ -203,7 +203,7 @@ static void check_bulb(double size, bool is_glass)
     ec_scene *scene = case_load(gltf_write(w, "rare-bulb"), NULL);
     free(w);
     const ec_render_options o = case_options(16, 16, 16);
-    const ec_rare rare = foretell(scene, &o);
+    const ec_rare rare = predict(scene, &o);
     bool is_blind = false;
     for (uint32_t i = 0; i < rare.count; i++) is_blind |= rare.kinds[i].is_relative;
     printf("a bulb of %g m%s: %u kinds%s\n", 2 * size, is_glass ? "" : " without glass", rare.count, is_blind ? ", nobody has come near its light" : "");
@@ -226,7 +226,7 @@ static double small_mirror_light(const char *what, int wall, const double eye[3]
     free(w);
     set_map(scene, 64, 32, column, row, 1, 1e5f);
     const ec_render_options o = case_options(64, 64, 16);
-    const ec_rare rare = foretell(scene, &o);
+    const ec_rare rare = predict(scene, &o);
     printf("a small chrome cube, the sun %s:\n", what);
     double chance;
     const double light = light_of(&rare, &chance, "chrome");
@@ -254,7 +254,7 @@ static void check_all_around(void)
     if (!case_present(model) || !case_present(map)) return;
     ec_scene *scene = case_load(model, map);
     const ec_render_options o = case_options(32, 32, 16);
-    const ec_rare rare = foretell(scene, &o);
+    const ec_rare rare = predict(scene, &o);
     printf("spheres of few millimetres under studio.hdr: %u kinds\n", rare.count);
     CHECK(rare.count > 0);
     ec_scene_free(scene);
@@ -265,7 +265,7 @@ static void check_tiles(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("lamps/lamps.gltf"), NULL);
     const ec_render_options o = case_options(61, 30, 16);
-    const ec_rare rare = foretell(scene, &o);
+    const ec_rare rare = predict(scene, &o);
     CHECK(rare.count > 0);
     for (uint32_t i = 0; i < rare.count; i++) {
         uint32_t sum = 0, most = 0;

@@ -1,4 +1,4 @@
-/* A square lamp on black, and how often samples of a pixel see it: pictures that can be foretold pixel by pixel. */
+/* A square lamp on black, and how often samples of a pixel see it: pictures that can be predicted pixel by pixel. */
 #ifndef EC_TESTS_SUPPORT_LAMP_PICTURE_H
 #define EC_TESTS_SUPPORT_LAMP_PICTURE_H
 

@@ -1,6 +1,6 @@
-/* Shared by the halves of the post: post.c has the functions for those who send and receive letters, post_thread.c owns MPI. Inside these two only. */
-#ifndef EC_RANKS_POST_INTERNAL_H
-#define EC_RANKS_POST_INTERNAL_H
+/* Shared by the halves of the transport: transport.c has the functions for those who send and receive messages, transport_thread.c owns MPI. Inside these two only. */
+#ifndef EC_RANKS_TRANSPORT_INTERNAL_H
+#define EC_RANKS_TRANSPORT_INTERNAL_H
 
 #include <pthread.h>
 #include <sys/types.h>
@@ -8,11 +8,11 @@
 #include <mpi.h>
 
 #include "base/clock.h"
-#include "ranks/post.h"
+#include "ranks/transport.h"
 
 typedef struct head {
     uint32_t kind, box;
-    uint64_t numbers[EC_LETTER_NUMBERS], bytes;
+    uint64_t numbers[EC_MESSAGE_NUMBERS], bytes;
 } head;
 
 typedef struct outgoing {
@@ -21,20 +21,20 @@ typedef struct outgoing {
     void *body;
     MPI_Request *requests;             /* for the head and the chunks */
     int request_count;
-    bool begun, done, failed, own;     /* own: nobody waits for it; the post frees it and its body */
+    bool begun, done, failed, own;     /* own: nobody waits for it; the transport frees it and its body */
     struct outgoing *next;
 } outgoing;
 
 typedef struct incoming {
-    ec_letter letter;
+    ec_message message;
     struct incoming *next;
 } incoming;
 
 typedef struct peer {
-    incoming *first, *last;            /* complete letters, in order */
-    incoming *open;                    /* the letter whose body is arriving */
+    incoming *first, *last;            /* complete messages, in order */
+    incoming *open;                    /* the message whose body is arriving */
     uint64_t filled;                   /* bytes of it so far */
-    head head;                         /* of the next letter */
+    head head;                         /* of the next message */
     MPI_Request request;
     bool receiving;                    /* a message is being received with `request` */
     double heard;                      /* time of the last message */
@@ -43,7 +43,7 @@ typedef struct peer {
     pthread_cond_t news;
 } peer;
 
-struct ec_post {
+struct ec_transport {
     pthread_t thread;
     pthread_mutex_t lock;              /* guards everything below */
     pthread_cond_t call, news;         /* call: to the thread; news: from it */
@@ -57,11 +57,11 @@ struct ec_post {
     ec_error error;                    /* why opening failed */
 };
 
-/* The thread: starts MPI, carries letters until the post is closed, and ends MPI. */
-void *ec_post_run(void *post);
+/* The thread: starts MPI, carries messages until the transport is closed, and ends MPI. */
+void *ec_transport_run(void *transport);
 
 /* Waits with the lock held, releasing it meanwhile. */
-static inline void ec_post_wait(ec_post *p, pthread_cond_t *on, double seconds)
+static inline void ec_transport_wait(ec_transport *p, pthread_cond_t *on, double seconds)
 {
     const struct timespec until = ec_deadline(seconds);
     pthread_cond_timedwait(on, &p->lock, &until);

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "ranks/post_internal.h"
+#include "ranks/transport_internal.h"
 
 enum { CHUNK = 64 << 20, TAG = 1 };   /* bytes of one message, since MPI counts in int */
 #define IDLE_SECONDS 1e-3             /* between two checks … */
@@ -19,7 +19,7 @@ enum { CHUNK = 64 << 20, TAG = 1 };   /* bytes of one message, since MPI counts 
 static uint64_t chunks_of(uint64_t bytes) { return (bytes + CHUNK - 1) / CHUNK; }
 static int chunk_bytes(uint64_t bytes, uint64_t i) { return bytes - i * CHUNK < CHUNK ? (int)(bytes - i * CHUNK) : CHUNK; }
 
-static bool is_peer(const ec_post *p, int rank)
+static bool is_peer(const ec_transport *p, int rank)
 {
     const ec_rank_place *place = &p->place;
     return rank == place->parent || (rank >= place->first_child && rank < place->first_child + place->children);
@@ -34,13 +34,13 @@ static double setting(const char *name, double otherwise)
 }
 
 /* Called with the lock held. */
-static void lose(ec_post *p, int rank)
+static void lose(ec_transport *p, int rank)
 {
     p->peers[rank].lost = true;
     pthread_cond_broadcast(&p->peers[rank].news);
 }
 
-static void begin_sending(ec_post *p, outgoing *o)
+static void begin_sending(ec_transport *p, outgoing *o)
 {
     uint64_t chunks = chunks_of(o->head.bytes);
     o->begun = true;
@@ -55,7 +55,7 @@ static void begin_sending(ec_post *p, outgoing *o)
 }
 
 /* Returns true when it has ended, successfully or not. */
-static bool test_sending(ec_post *p, outgoing *o)
+static bool test_sending(ec_transport *p, outgoing *o)
 {
     int all = 0;
     if (!o->begun) begin_sending(p, o);
@@ -67,7 +67,7 @@ static bool test_sending(ec_post *p, outgoing *o)
 }
 
 /* Returns whether something is still being sent. Called with the lock held. */
-static bool send_letters(ec_post *p)
+static bool send_messages(ec_transport *p)
 {
     bool busy = false;
     for (outgoing **at = &p->to_send; *at;) {
@@ -90,7 +90,7 @@ static void deliver(peer *from)
 {
     incoming *whole = from->open;
     from->open = NULL;
-    if (whole->letter.kind == EC_LETTER_ALIVE) {
+    if (whole->message.kind == EC_MESSAGE_ALIVE) {
         free(whole);
         return;
     }
@@ -105,33 +105,33 @@ static bool take_head(peer *from)
     const head *h = &from->head;
     incoming *in = calloc(1, sizeof *in);
     if (!in) return false;
-    in->letter = (ec_letter){.kind = h->kind, .box = h->box, .bytes = h->bytes, .body = h->bytes ? malloc(h->bytes) : NULL};
-    memcpy(in->letter.numbers, h->numbers, sizeof h->numbers);
+    in->message = (ec_message){.kind = h->kind, .box = h->box, .bytes = h->bytes, .body = h->bytes ? malloc(h->bytes) : NULL};
+    memcpy(in->message.numbers, h->numbers, sizeof h->numbers);
     from->open = in;
     from->filled = 0;
     if (h->bytes == 0) deliver(from);
-    return !h->bytes || in->letter.body;
+    return !h->bytes || in->message.body;
 }
 
 static void take_chunk(peer *from)
 {
-    const ec_letter *letter = &from->open->letter;
-    from->filled += (uint64_t)chunk_bytes(letter->bytes, from->filled / CHUNK);
-    if (from->filled == letter->bytes) deliver(from);
+    const ec_message *message = &from->open->message;
+    from->filled += (uint64_t)chunk_bytes(message->bytes, from->filled / CHUNK);
+    if (from->filled == message->bytes) deliver(from);
 }
 
 /* Advances one message of a peer by one step; *moved: there was one. Returns false if the peer is lost. */
-static bool receive_from(ec_post *p, int rank, bool *moved)
+static bool receive_from(ec_transport *p, int rank, bool *moved)
 {
     peer *from = &p->peers[rank];
     MPI_Message message;
     int there = 0, whole = 0;
-    const ec_letter *letter = from->open ? &from->open->letter : NULL;
+    const ec_message *message = from->open ? &from->open->message : NULL;
     if (!from->receiving) {
         if (MPI_Improbe(rank, TAG, p->comm, &there, &message, MPI_STATUS_IGNORE) != MPI_SUCCESS) return false;
         if (!there) return true;
-        void *to = letter ? (char *)letter->body + from->filled : (void *)&from->head;
-        int count = letter ? chunk_bytes(letter->bytes, from->filled / CHUNK) : (int)sizeof from->head;
+        void *to = message ? (char *)message->body + from->filled : (void *)&from->head;
+        int count = message ? chunk_bytes(message->bytes, from->filled / CHUNK) : (int)sizeof from->head;
         if (MPI_Imrecv(to, count, MPI_BYTE, &message, &from->request) != MPI_SUCCESS) return false;
         from->receiving = true;
     }
@@ -140,8 +140,8 @@ static bool receive_from(ec_post *p, int rank, bool *moved)
     if (!whole) return true;
     from->receiving = false;
     from->heard = ec_now();
-    p->received += letter ? (uint64_t)chunk_bytes(letter->bytes, from->filled / CHUNK) : sizeof from->head;
-    if (!letter) return take_head(from);
+    p->received += message ? (uint64_t)chunk_bytes(message->bytes, from->filled / CHUNK) : sizeof from->head;
+    if (!message) return take_head(from);
     take_chunk(from);
     return true;
 }
@@ -150,7 +150,7 @@ static bool receive_from(ec_post *p, int rank, bool *moved)
 static bool has_ended(const peer *from) { return from->process && kill(from->process, 0) != 0 && errno == ESRCH; }
 
 /* Returns whether anything was received. Called with the lock held. */
-static bool receive_letters(ec_post *p)
+static bool receive_messages(ec_transport *p)
 {
     bool any = false;
     for (int r = 0; r < p->place.size; r++) {
@@ -163,7 +163,7 @@ static bool receive_letters(ec_post *p)
     return any;
 }
 
-static void say_alive(ec_post *p)
+static void say_alive(ec_transport *p)
 {
     if (ec_now() - p->said_alive < fmin(ALIVE_SECONDS, p->lost_after / ALIVE_SIGNS)) return;
     p->said_alive = ec_now();
@@ -171,13 +171,13 @@ static void say_alive(ec_post *p)
         if (!is_peer(p, r) || p->peers[r].lost) continue;
         outgoing *o = calloc(1, sizeof *o);
         if (!o) return;
-        *o = (outgoing){.to = r, .head.kind = EC_LETTER_ALIVE, .own = true, .next = p->to_send};
+        *o = (outgoing){.to = r, .head.kind = EC_MESSAGE_ALIVE, .own = true, .next = p->to_send};
         p->to_send = o;
     }
 }
 
 /* Finds the processes of the ranks on this host, if all of them number processes alike, in one namespace. */
-static void find_processes(ec_post *p, MPI_Comm local)
+static void find_processes(ec_transport *p, MPI_Comm local)
 {
     struct stat space = {0};
     (void)stat("/proc/self/ns/pid", &space);
@@ -189,7 +189,7 @@ static void find_processes(ec_post *p, MPI_Comm local)
     free(all);
 }
 
-static void start(ec_post *p)
+static void start(ec_transport *p)
 {
     int provided = MPI_THREAD_SINGLE;
     ec_rank_place *place = &p->place;
@@ -218,17 +218,17 @@ static void start(ec_post *p)
     for (int r = 0; p->open && r < place->size; r++) p->peers[r].heard = ec_now(), pthread_cond_init(&p->peers[r].news, NULL);
 }
 
-void *ec_post_run(void *user)
+void *ec_transport_run(void *user)
 {
-    ec_post *p = user;
+    ec_transport *p = user;
     pthread_mutex_lock(&p->lock);
     start(p);
     pthread_cond_broadcast(&p->news);
     while (p->open && (!p->closing || p->to_send)) {
         say_alive(p);
-        bool busy = send_letters(p);
-        busy |= receive_letters(p);
-        ec_post_wait(p, &p->call, busy ? BUSY_SECONDS : IDLE_SECONDS);
+        bool busy = send_messages(p);
+        busy |= receive_messages(p);
+        ec_transport_wait(p, &p->call, busy ? BUSY_SECONDS : IDLE_SECONDS);
     }
     pthread_mutex_unlock(&p->lock);
     int is_there = 0;

@@ -1,5 +1,5 @@
-/* Lists what a cargo holds and fills it: params first, then buffers. */
-#include "device/cargo.h"
+/* Lists what a payload holds and fills it: params first, then buffers. */
+#include "device/payload.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,28 +18,28 @@
 #include "pack/lamp_pairs.h"
 #include "scene/texels.h"
 
-static void add_accel_buffers(ec_cargo *cargo, uint32_t which, const ec_accel *accel, bool owned)
+static void add_accel_buffers(ec_payload *payload, uint32_t which, const ec_accel *accel, bool owned)
 {
     char label[64];
     for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++) {
         const ec_accel_buffer *buffer = &accel->buffers[k];
-        uint32_t before = cargo->head.buffer_count;
+        uint32_t before = payload->head.buffer_count;
         snprintf(label, sizeof label, "%s %s", ec_accels[which].name, buffer->label);
-        ec_cargo_add(cargo, EC_ARG_ACCEL + k, label, buffer->bytes, 0, buffer->data, owned ? buffer->data : NULL);
-        if (cargo->head.buffer_count > before) cargo->buffers[before].accel = which;
+        ec_payload_add(payload, EC_ARG_ACCEL + k, label, buffer->bytes, 0, buffer->data, owned ? buffer->data : NULL);
+        if (payload->head.buffer_count > before) payload->buffers[before].accel = which;
     }
 }
 
-ec_result ec_cargo_add_accel(ec_cargo *cargo, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)
+ec_result ec_payload_add_accel(ec_payload *payload, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err)
 {
     ec_accel accel = {0};
     EC_TRY(ec_accel_build(which, input, &accel, err));
-    add_accel_buffers(cargo, which, &accel, true);
+    add_accel_buffers(payload, which, &accel, true);
     if (stats) *stats = accel.stats;
     return EC_OK;
 }
 
-static ec_result choose_accels(ec_cargo_head *head, const ec_scene *scene, const char *name, uint32_t kinds, ec_error *err)
+static ec_result choose_accels(ec_payload_head *head, const ec_scene *scene, const char *name, uint32_t kinds, ec_error *err)
 {
     if (scene->placed_count) name = "twolevel"; /* the others would have had them written out */
     for (uint32_t kind = 0; kind < EC_KIND_COUNT; kind++)
@@ -48,43 +48,43 @@ static ec_result choose_accels(ec_cargo_head *head, const ec_scene *scene, const
 }
 
 /* The structures stay in `followed`, for the next render to follow. */
-static ec_result follow_accels(ec_cargo *cargo, ec_followed *followed, ec_accel_input *input, uint32_t wanted, ec_error *err)
+static ec_result follow_accels(ec_payload *payload, ec_followed *followed, ec_accel_input *input, uint32_t wanted, ec_error *err)
 {
     EC_TRY(ec_accels_follow(followed, input, wanted, err));
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++)
-        if (wanted >> a & 1) add_accel_buffers(cargo, a, &followed->accels[a], false);
+        if (wanted >> a & 1) add_accel_buffers(payload, a, &followed->accels[a], false);
     return EC_OK;
 }
 
-static ec_result add_accels(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
+static ec_result add_accels(ec_payload *payload, const ec_scene *scene, const ec_render_options *o, ec_error *err)
 {
     ec_accel_input input = ec_accel_input_of(scene, o->grid_density);
     uint32_t wanted = 0;
     ec_result result = EC_OK;
-    for (uint32_t kind = 0; kind < EC_KIND_COUNT; kind++) wanted |= cargo->head.accels[kind];
-    if (o->followed) result = follow_accels(cargo, o->followed, &input, wanted, err);
+    for (uint32_t kind = 0; kind < EC_KIND_COUNT; kind++) wanted |= payload->head.accels[kind];
+    if (o->followed) result = follow_accels(payload, o->followed, &input, wanted, err);
     for (uint32_t a = 0; !o->followed && result == EC_OK && a < EC_ACCEL_COUNT; a++)
-        if (wanted >> a & 1) result = ec_cargo_add_accel(cargo, a, &input, NULL, err);
+        if (wanted >> a & 1) result = ec_payload_add_accel(payload, a, &input, NULL, err);
     ec_accel_input_free(&input);
     return result;
 }
 
-static ec_result add_filter(ec_cargo *cargo, const ec_render_options *o, ec_error *err)
+static ec_result add_filter(ec_payload *payload, const ec_render_options *o, ec_error *err)
 {
     if (o->filter == EC_FILTER_BOX) return EC_OK;
     float *table = malloc(EC_FILTER_ENTRIES * sizeof *table);
     if (!table) return ec_fail(err, "out of memory for a pixel filter");
     ec_pixel_filter_blackman_harris(o->filter_width > 0 ? o->filter_width : EC_FILTER_WIDTH, table);
-    ec_cargo_add(cargo, EC_ARG_PIXEL_FILTER, "pixel filter", EC_FILTER_ENTRIES * sizeof *table, 0, table, table);
+    ec_payload_add(payload, EC_ARG_PIXEL_FILTER, "pixel filter", EC_FILTER_ENTRIES * sizeof *table, 0, table, table);
     return EC_OK;
 }
 
 /* Adds a table of group numbers: the environment's, then each light's, then each material's. */
-static ec_result add_light_groups(ec_cargo *cargo, const ec_render_options *o, ec_error *err)
+static ec_result add_light_groups(ec_payload *payload, const ec_render_options *o, ec_error *err)
 {
     const ec_light_groups *groups = o->groups;
-    const ec_pack *pack = &cargo->pack;
-    const uint32_t lights = cargo->head.params.light_count, count = 1 + lights + pack->material_count;
+    const ec_pack *pack = &payload->pack;
+    const uint32_t lights = payload->head.params.light_count, count = 1 + lights + pack->material_count;
     if (!o->layers.group_count) return EC_OK;
     uint32_t *table = malloc(count * sizeof *table);
     if (!table) return ec_fail(err, "out of memory for light groups");
@@ -97,12 +97,12 @@ static ec_result add_light_groups(ec_cargo *cargo, const ec_render_options *o, e
                                                      : groups->of_light[pack->light_source[i]];
     }
     memcpy(table + 1 + lights, groups->of_material, pack->material_count * sizeof *table);
-    ec_cargo_add(cargo, EC_ARG_LIGHT_GROUPS, "light groups", count * sizeof *table, 0, table, table);
+    ec_payload_add(payload, EC_ARG_LIGHT_GROUPS, "light groups", count * sizeof *table, 0, table, table);
     return EC_OK;
 }
 
 /* Adds the table of nodes' triangles, laid out as lib/features.h reads it. */
-static ec_result add_parts(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *o, ec_error *err)
+static ec_result add_parts(ec_payload *payload, const ec_scene *scene, const ec_render_options *o, ec_error *err)
 {
     const bool begins = scene->part_count && !scene->parts[0].first;
     const uint32_t count = scene->part_count + !begins, before = count - scene->part_count;
@@ -116,7 +116,7 @@ static ec_result add_parts(ec_cargo *cargo, const ec_scene *scene, const ec_rend
         table[2 + before + i] = part->first;
         table[2 + count + before + i] = part->node == EC_NO_NODE ? 0 : part->node + 1;
     }
-    ec_cargo_add(cargo, EC_ARG_PARTS, "nodes of triangles", (2 + 2 * (uint64_t)count) * sizeof *table, 0, table, table);
+    ec_payload_add(payload, EC_ARG_PARTS, "nodes of triangles", (2 + 2 * (uint64_t)count) * sizeof *table, 0, table, table);
     return EC_OK;
 }
 
@@ -168,22 +168,22 @@ static ec_result finish_pack(ec_pack *pack, ec_error *err)
 }
 
 /* Begins to build kernels. The tree of lights is still to be built, but it is known whether there is one. */
-static void build_ahead(ec_cl *alone, const ec_cargo *cargo, const ec_render_options *o, uint32_t batch)
+static void build_ahead(ec_cl *alone, const ec_payload *payload, const ec_render_options *o, uint32_t batch)
 {
     ec_render_effects effects = {.buffer_count = 0};
-    ec_pack pack = cargo->pack; /* its arrays are the cargo's */
+    ec_pack pack = payload->pack; /* its arrays are the payload's */
     pack.light_node_count = pack.by_tree;
     ec_pipeline_effects(o, &pack, &effects);
-    ec_build_ahead(alone, cargo, &effects, o->width, o->height, batch);
+    ec_build_ahead(alone, payload, &effects, o->width, o->height, batch);
 }
 
-ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_cl *alone, uint32_t batch,
+ec_result ec_payload_pack(ec_payload *payload, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o, ec_cl *alone, uint32_t batch,
                         ec_error *err)
 {
-    EC_TRY(fill_pack(scene, called_for, o, &cargo->pack, err));
-    if (alone) build_ahead(alone, cargo, o, batch);
-    EC_TRY(finish_pack(&cargo->pack, err));
-    ec_pipeline_effects(o, &cargo->pack, &cargo->head.effects);
+    EC_TRY(fill_pack(scene, called_for, o, &payload->pack, err));
+    if (alone) build_ahead(alone, payload, o, batch);
+    EC_TRY(finish_pack(&payload->pack, err));
+    ec_pipeline_effects(o, &payload->pack, &payload->head.effects);
     return EC_OK;
 }
 
@@ -260,48 +260,48 @@ static void set_params(const ec_render_options *o, uint32_t batch, const ec_pack
 }
 
 /* Fills in the content. Where a scene is written out, takes the one with its meshes kept once, so that the job is the same with any accelerator. */
-static ec_result tell_content(const ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+static ec_result tell_content(const ec_payload *payload, const ec_scene *scene, const ec_scene *called_for,
                               const ec_render_options *o, uint32_t batch, ec_content *content, ec_error *err)
 {
     if (!o->identify) return EC_OK;
     if (scene == called_for) {
-        ec_cargo_content(&cargo->head, scene, &cargo->pack, content);
+        ec_payload_content(&payload->head, scene, &payload->pack, content);
         return EC_OK;
     }
     ec_pack kept = {0};
-    ec_cargo_head head = cargo->head;
+    ec_payload_head head = payload->head;
     ec_result result = fill_pack(called_for, called_for, o, &kept, err);
     if (result == EC_OK) result = finish_pack(&kept, err);
     if (result == EC_OK) {
         ec_pipeline_effects(o, &kept, &head.effects);
         set_params(o, batch, &kept, head.effects.called.bits, &head.params);
-        ec_cargo_content(&head, called_for, &kept, content);
+        ec_payload_content(&head, called_for, &kept, content);
     }
     ec_pack_free(&kept);
     return result;
 }
 
-static ec_result add_packed(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+static ec_result add_packed(ec_payload *payload, const ec_scene *scene, const ec_scene *called_for,
                             const ec_render_options *o, uint32_t batch, ec_render_stats *stats, ec_error *err)
 {
-    ec_pack *pack = &cargo->pack;
-    ec_cargo_head *head = &cargo->head;
+    ec_pack *pack = &payload->pack;
+    ec_payload_head *head = &payload->head;
     set_params(o, batch, pack, head->effects.called.bits, &head->params);
     head->bodies_too_many = pack->bodies.too_many;
-    EC_TRY(ec_insides_make(pack, head->effects.called.bits, &cargo->insides, err));
-    head->params.camera_medium = ec_insides_of(&cargo->insides, &scene->cameras[o->camera]);
-    EC_TRY(tell_content(cargo, scene, called_for, o, batch, &stats->content, err));
-    EC_TRY(ec_cargo_add_scene(cargo, scene, pack, err));
-    EC_TRY(ec_cargo_add_camera(cargo, scene, o, err));
-    EC_TRY(add_light_groups(cargo, o, err));
-    EC_TRY(add_parts(cargo, scene, o, err));
-    return add_filter(cargo, o, err);
+    EC_TRY(ec_insides_make(pack, head->effects.called.bits, &payload->insides, err));
+    head->params.camera_medium = ec_insides_of(&payload->insides, &scene->cameras[o->camera]);
+    EC_TRY(tell_content(payload, scene, called_for, o, batch, &stats->content, err));
+    EC_TRY(ec_payload_add_scene(payload, scene, pack, err));
+    EC_TRY(ec_payload_add_camera(payload, scene, o, err));
+    EC_TRY(add_light_groups(payload, o, err));
+    EC_TRY(add_parts(payload, scene, o, err));
+    return add_filter(payload, o, err);
 }
 
-static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
+static ec_result fill(ec_payload *payload, const ec_scene *scene, const ec_scene *called_for, const ec_render_options *o,
                       uint32_t batch, uint32_t kinds, ec_cl *alone, ec_render_stats *stats, ec_error *err)
 {
-    ec_cargo_head *head = &cargo->head;
+    ec_payload_head *head = &payload->head;
     head->triangle_count = scene->triangle_count;
     head->integrator = o->integrator;
     head->replicates = ec_render_replicates(o);
@@ -317,51 +317,51 @@ static ec_result fill(ec_cargo *cargo, const ec_scene *scene, const ec_scene *ca
     const bool traces = o->integrator != EC_INTEGRATOR_RASTER;
     if (traces) EC_TRY(choose_accels(head, scene, o->accel, kinds, err));
     double start = ec_now();
-    EC_TRY(ec_cargo_pack(cargo, scene, called_for, o, alone, batch, err));
+    EC_TRY(ec_payload_pack(payload, scene, called_for, o, alone, batch, err));
     stats->pack_seconds = ec_now() - start;
     start = ec_now();
-    if (traces) EC_TRY(add_accels(cargo, scene, o, err));
+    if (traces) EC_TRY(add_accels(payload, scene, o, err));
     if (traces && o->followed) stats->followed = o->followed->report;
     stats->accel_seconds = ec_now() - start;
     start = ec_now();
-    EC_TRY(add_packed(cargo, scene, called_for, o, batch, stats, err));
+    EC_TRY(add_packed(payload, scene, called_for, o, batch, stats, err));
     stats->pack_seconds += ec_now() - start;
     stats->replicates = head->replicates;
     stats->instances = scene->placed_count;
     stats->triangles = ec_scene_met_count(scene);
     stats->stored_triangles = scene->triangle_count;
     stats->effects = head->effects;
-    for (uint32_t i = 0; i < head->buffer_count; i++) stats->scene_bytes += cargo->buffers[i].bytes;
+    for (uint32_t i = 0; i < head->buffer_count; i++) stats->scene_bytes += payload->buffers[i].bytes;
     return EC_OK;
 }
 
-ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
+ec_result ec_payload_choose(ec_payload *payload, const ec_scene **scene, const ec_scene **called_for,
                           const ec_render_options *o, ec_error *err)
 {
     if (o->without) {
-        EC_TRY(ec_scene_view_without(*scene, o->without, (int64_t)o->without_of - 1, &cargo->view, err));
-        *scene = &cargo->view.scene;
+        EC_TRY(ec_scene_view_without(*scene, o->without, (int64_t)o->without_of - 1, &payload->view, err));
+        *scene = &payload->view.scene;
     }
     /* Meshes that are kept once are written out where an accelerator or an integrator knows one level only. */
     bool keeps = o->integrator != EC_INTEGRATOR_RASTER && (!o->accel || !strcmp(o->accel, "auto") || !strcmp(o->accel, "twolevel"));
     *called_for = *scene;
     if ((*scene)->placed_count && !keeps) {
-        EC_TRY(ec_scene_write_out(*scene, &cargo->written, err));
-        *scene = &cargo->written;
+        EC_TRY(ec_scene_write_out(*scene, &payload->written, err));
+        *scene = &payload->written;
     }
     return EC_OK;
 }
 
-ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *o, uint32_t batch, uint32_t kinds, ec_cl *alone, ec_cargo *cargo,
+ec_result ec_payload_make(const ec_scene *scene, const ec_render_options *o, uint32_t batch, uint32_t kinds, ec_cl *alone, ec_payload *payload,
                         ec_render_stats *stats, ec_error *err)
 {
     const ec_scene *called_for;
-    memset(cargo, 0, sizeof *cargo);
-    EC_TRY(ec_cargo_choose(cargo, &scene, &called_for, o, err));
-    return fill(cargo, scene, called_for, o, batch, kinds, alone, stats, err);
+    memset(payload, 0, sizeof *payload);
+    EC_TRY(ec_payload_choose(payload, &scene, &called_for, o, err));
+    return fill(payload, scene, called_for, o, batch, kinds, alone, stats, err);
 }
 
-void ec_cargo_buffer_free(ec_cargo_buffer *buffer)
+void ec_payload_buffer_free(ec_payload_buffer *buffer)
 {
     free(buffer->owned);
     ec_texels_leave(buffer->texels);
@@ -369,12 +369,12 @@ void ec_cargo_buffer_free(ec_cargo_buffer *buffer)
     buffer->texels = NULL;
 }
 
-void ec_cargo_free(ec_cargo *cargo)
+void ec_payload_free(ec_payload *payload)
 {
-    for (uint32_t i = 0; i < cargo->head.buffer_count; i++) ec_cargo_buffer_free(&cargo->buffers[i]);
-    cargo->head.buffer_count = 0;
-    ec_insides_free(&cargo->insides);
-    ec_pack_free(&cargo->pack);
-    ec_scene_written_free(&cargo->written);
-    ec_scene_view_free(&cargo->view);
+    for (uint32_t i = 0; i < payload->head.buffer_count; i++) ec_payload_buffer_free(&payload->buffers[i]);
+    payload->head.buffer_count = 0;
+    ec_insides_free(&payload->insides);
+    ec_pack_free(&payload->pack);
+    ec_scene_written_free(&payload->written);
+    ec_scene_view_free(&payload->view);
 }

@@ -1,25 +1,25 @@
-/* Functions for those who send and receive letters. */
+/* Functions for those who send and receive messages. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "ranks/post_internal.h"
+#include "ranks/transport_internal.h"
 
 #define ASKED_SECONDS 0.05            /* between two calls of go_on */
 #define FINALIZE_SECONDS 10.0             /* for ranks to end after others are lost */
 
-const ec_rank_place *ec_post_place(const ec_post *post) { return &post->place; }
+const ec_rank_place *ec_transport_place(const ec_transport *transport) { return &transport->place; }
 
-ec_result ec_post_open(ec_post **post, ec_error *err)
+ec_result ec_transport_open(ec_transport **transport, ec_error *err)
 {
-    ec_post *p = *post = calloc(1, sizeof *p);
+    ec_transport *p = *transport = calloc(1, sizeof *p);
     if (!p) return ec_fail(err, "out of memory");
     pthread_mutex_init(&p->lock, NULL);
     pthread_cond_init(&p->call, NULL);
     pthread_cond_init(&p->news, NULL);
-    if (pthread_create(&p->thread, NULL, ec_post_run, p) != 0) {
+    if (pthread_create(&p->thread, NULL, ec_transport_run, p) != 0) {
         free(p);
-        *post = NULL; /* no thread was started that could close it */
+        *transport = NULL; /* no thread was started that could close it */
         return ec_fail(err, "cannot start a thread for MPI");
     }
     pthread_mutex_lock(&p->lock);
@@ -28,7 +28,7 @@ ec_result ec_post_open(ec_post **post, ec_error *err)
     return p->open ? EC_OK : ec_fail(err, "%s", p->error.text);
 }
 
-void ec_post_close(ec_post *p, bool is_any_lost)
+void ec_transport_close(ec_transport *p, bool is_any_lost)
 {
     if (!p) return;
     pthread_mutex_lock(&p->lock);
@@ -46,7 +46,7 @@ void ec_post_close(ec_post *p, bool is_any_lost)
     for (int r = 0; p->peers && r < p->place.size; r++)
         for (incoming *next, *in = p->peers[r].first; in; in = next) {
             next = in->next;
-            free(in->letter.body);
+            free(in->message.body);
             free(in);
         }
     free(p->peers);
@@ -61,58 +61,58 @@ static ec_result lost(int rank, ec_error *err)
 }
 
 /* Called with the lock held. */
-static void queue(ec_post *p, outgoing *o, int to, const ec_letter *letter)
+static void queue(ec_transport *p, outgoing *o, int to, const ec_message *message)
 {
-    *o = (outgoing){.to = to, .head = {.kind = letter->kind, .box = letter->box, .bytes = letter->bytes}, .body = letter->body};
-    memcpy(o->head.numbers, letter->numbers, sizeof o->head.numbers);
+    *o = (outgoing){.to = to, .head = {.kind = message->kind, .box = message->box, .bytes = message->bytes}, .body = message->body};
+    memcpy(o->head.numbers, message->numbers, sizeof o->head.numbers);
     outgoing **end = &p->to_send;
     while (*end) end = &(*end)->next;
     *end = o;
     pthread_cond_signal(&p->call);
 }
 
-ec_result ec_post_send(ec_post *p, int to, const ec_letter *letter, ec_error *err)
+ec_result ec_transport_send(ec_transport *p, int to, const ec_message *message, ec_error *err)
 {
     outgoing o;
     pthread_mutex_lock(&p->lock);
-    queue(p, &o, to, letter);
+    queue(p, &o, to, message);
     while (!o.done) pthread_cond_wait(&p->peers[to].news, &p->lock);
     pthread_mutex_unlock(&p->lock);
     return o.failed ? lost(to, err) : EC_OK;
 }
 
-void ec_post_send_away(ec_post *p, int to, ec_letter *letter)
+void ec_transport_send_away(ec_transport *p, int to, ec_message *message)
 {
     outgoing *o = malloc(sizeof *o);
     if (!o) {
-        free(letter->body); /* the receiver will notice that this rank is lost */
+        free(message->body); /* the receiver will notice that this rank is lost */
         return;
     }
     pthread_mutex_lock(&p->lock);
-    queue(p, o, to, letter);
+    queue(p, o, to, message);
     o->own = true;
     pthread_mutex_unlock(&p->lock);
 }
 
-/* Removes the first letter of a box from the list. */
-static incoming *take_letter(peer *from, uint32_t box)
+/* Removes the first message of a box from the list. */
+static incoming *take_message(peer *from, uint32_t box)
 {
     incoming *before = NULL, *in = from->first;
-    while (in && in->letter.box != box) before = in, in = in->next;
+    while (in && in->message.box != box) before = in, in = in->next;
     if (!in) return NULL;
     *(before ? &before->next : &from->first) = in->next;
     if (from->last == in) from->last = before;
     return in;
 }
 
-ec_result ec_post_receive(ec_post *p, int from, uint32_t box, bool (*go_on)(void *user), void *user, ec_letter *letter,
+ec_result ec_transport_receive(ec_transport *p, int from, uint32_t box, bool (*go_on)(void *user), void *user, ec_message *message,
                           ec_error *err)
 {
     incoming *in;
     bool waits = true;
     pthread_mutex_lock(&p->lock);
-    while (!(in = take_letter(&p->peers[from], box)) && !p->peers[from].lost && waits) {
-        ec_post_wait(p, &p->peers[from].news, ASKED_SECONDS);
+    while (!(in = take_message(&p->peers[from], box)) && !p->peers[from].lost && waits) {
+        ec_transport_wait(p, &p->peers[from].news, ASKED_SECONDS);
         pthread_mutex_unlock(&p->lock);
         waits = !go_on || go_on(user);
         pthread_mutex_lock(&p->lock);
@@ -120,22 +120,22 @@ ec_result ec_post_receive(ec_post *p, int from, uint32_t box, bool (*go_on)(void
     pthread_mutex_unlock(&p->lock);
     if (!in && !waits) return ec_fail(err, "stopped waiting");
     if (!in) return lost(from, err);
-    *letter = in->letter;
+    *message = in->message;
     free(in);
     return EC_OK;
 }
 
-bool ec_post_has(ec_post *p, int from, uint32_t box)
+bool ec_transport_has(ec_transport *p, int from, uint32_t box)
 {
     bool has = false;
     pthread_mutex_lock(&p->lock);
-    for (const incoming *in = p->peers[from].first; in; in = in->next) has |= in->letter.box == box;
+    for (const incoming *in = p->peers[from].first; in; in = in->next) has |= in->message.box == box;
     has |= p->peers[from].lost;
     pthread_mutex_unlock(&p->lock);
     return has;
 }
 
-uint64_t ec_post_received(ec_post *p)
+uint64_t ec_transport_received(ec_transport *p)
 {
     pthread_mutex_lock(&p->lock);
     const uint64_t received = p->received;
@@ -143,14 +143,14 @@ uint64_t ec_post_received(ec_post *p)
     return received;
 }
 
-ec_result ec_post_spread(ec_post *p, void *bytes, uint64_t count, uint32_t box, ec_error *err)
+ec_result ec_transport_spread(ec_transport *p, void *bytes, uint64_t count, uint32_t box, ec_error *err)
 {
     const ec_rank_place *place = &p->place;
     for (uint64_t at = 0; at < count; at += EC_SPREAD_BYTES) {
-        ec_letter part = {.box = box, .bytes = count - at < EC_SPREAD_BYTES ? count - at : EC_SPREAD_BYTES, .body = (char *)bytes + at};
+        ec_message part = {.box = box, .bytes = count - at < EC_SPREAD_BYTES ? count - at : EC_SPREAD_BYTES, .body = (char *)bytes + at};
         if (place->parent >= 0) {
-            ec_letter come;
-            EC_TRY(ec_post_receive(p, place->parent, box, NULL, NULL, &come, err));
+            ec_message come;
+            EC_TRY(ec_transport_receive(p, place->parent, box, NULL, NULL, &come, err));
             const bool fits = come.bytes == part.bytes;
             if (fits) memcpy(part.body, come.body, come.bytes);
             free(come.body);
@@ -158,7 +158,7 @@ ec_result ec_post_spread(ec_post *p, void *bytes, uint64_t count, uint32_t box, 
                 return ec_fail(err, "rank %d sent %llu bytes instead of %llu", place->parent,
                                (unsigned long long)come.bytes, (unsigned long long)part.bytes);
         }
-        for (int i = 0; i < place->children; i++) (void)ec_post_send(p, place->first_child + i, &part, NULL); /* a lost child is found out later */
+        for (int i = 0; i < place->children; i++) (void)ec_transport_send(p, place->first_child + i, &part, NULL); /* a lost child is found out later */
     }
     return EC_OK;
 }

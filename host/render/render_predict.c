@@ -3,15 +3,15 @@
 #include "rare/paths.h"
 #include "render/render_state.h"
 
-/* Foretells on the first device that is loaded, or on another one if it fails, which is left out then. */
-static ec_result foretell(ec_render_state *r, ec_error *err)
+/* Predicts on the first device that is loaded, or on another one if it fails, which is left out then. */
+static ec_result predict(ec_render_state *r, ec_error *err)
 {
     const uint32_t count = r->sources.count;
     for (uint32_t i = 0; i < 2 * count; i++) { /* those that are loaded already, then the others */
         ec_error why = {0};
         ec_pipeline *p = ec_sources_pipeline(&r->sources, i % count, i >= count);
         if (!p) continue;
-        if (ec_rare_paths_foretell(&r->lights, p, &r->rare, &r->joined, &why) == EC_OK) return EC_OK;
+        if (ec_rare_paths_predict(&r->lights, p, &r->rare, &r->joined, &why) == EC_OK) return EC_OK;
         if (!r->sources.team) {
             if (err) *err = why;
             return EC_FAILED;
@@ -21,13 +21,13 @@ static ec_result foretell(ec_render_state *r, ec_error *err)
     return EC_OK;
 }
 
-ec_result ec_render_foretell(ec_render_state *r, ec_error *err)
+ec_result ec_render_predict(ec_render_state *r, ec_error *err)
 {
     const double start = ec_now(), cpu_start = ec_cpu_now();
-    if (r->is_foretold) return EC_OK;
-    EC_TRY(foretell(r, err));
+    if (r->is_predicted) return EC_OK;
+    EC_TRY(predict(r, err));
     ec_rare_lights_free(&r->lights);
-    r->is_foretold = true;
+    r->is_predicted = true;
     r->render_start += ec_now() - start;
     r->look_cpu_seconds += ec_cpu_now() - cpu_start;
     r->cpu_start += ec_cpu_now() - cpu_start;

@@ -1,7 +1,7 @@
 /* A scene and its options made ready for devices: everything that goes to one, with nothing left to be read from the scene. Made once and then only
  * read, so that any number of devices can be loaded from it, by several threads at once. */
-#ifndef EC_DEVICE_CARGO_H
-#define EC_DEVICE_CARGO_H
+#ifndef EC_DEVICE_PAYLOAD_H
+#define EC_DEVICE_PAYLOAD_H
 
 #include "accel/accel.h"
 #include "pack/pack.h"
@@ -19,7 +19,7 @@ static inline ec_device_kind ec_device_kind_of(const ec_device_info *info)
 }
 
 /* Plain values: their bytes mean the same to another process of this program. */
-typedef struct ec_cargo_head {
+typedef struct ec_payload_head {
     ec_params params;                /* but for wave and part, which depend on the device */
     ec_render_effects effects;
     ec_integrator integrator;
@@ -32,57 +32,57 @@ typedef struct ec_cargo_head {
     uint32_t triangle_count;
     uint32_t bodies_too_many;        /* number of materials of bodies, if these are too many to be told apart; else 0 */
     uint32_t buffer_count;
-} ec_cargo_head;
+} ec_payload_head;
 
-typedef struct ec_cargo_buffer {
+typedef struct ec_payload_buffer {
     uint32_t arg;                    /* ec_arg; EC_ARG_ACCEL + k for the k-th of an accelerator's */
     uint32_t accel;                  /* of which accelerator; EC_ACCEL_COUNT: of none */
     char label[64];                  /* for messages */
     uint64_t bytes;                  /* of data … */
     uint64_t slack;                  /* … and so many more on the device, of any value */
     const void *data;
-    void *owned;                     /* data, if it is to be freed, and has room for the slack; NULL: data belongs to what the cargo was made of … */
-    struct ec_texels *texels;        /* … or in these, of which the cargo is a user */
-} ec_cargo_buffer;
+    void *owned;                     /* data, if it is to be freed, and has room for the slack; NULL: data belongs to what the payload was made of … */
+    struct ec_texels *texels;        /* … or in these, of which the payload is a user */
+} ec_payload_buffer;
 
-enum { EC_CARGO_BUFFERS = EC_SCENE_BUFFERS + 4 + EC_ACCEL_COUNT * EC_ACCEL_BUFFERS };
+enum { EC_PAYLOAD_BUFFERS = EC_SCENE_BUFFERS + 4 + EC_ACCEL_COUNT * EC_ACCEL_BUFFERS };
 
 /* Not to be copied: buffers point into it. */
-typedef struct ec_cargo {
-    ec_cargo_head head;
-    ec_cargo_buffer buffers[EC_CARGO_BUFFERS];
+typedef struct ec_payload {
+    ec_payload_head head;
+    ec_payload_buffer buffers[EC_PAYLOAD_BUFFERS];
     ec_insides insides;              /* the media that a camera can be inside of; no device uses them */
-    ec_pack pack;                    /* these three hold what buffers do not own; all zero in a cargo that came from elsewhere */
+    ec_pack pack;                    /* these three hold what buffers do not own; all zero in a payload that came from elsewhere */
     ec_scene written;
     ec_scene_view view;
-} ec_cargo;
+} ec_payload;
 
-/* Makes a cargo for devices of these kinds (1 << ec_device_kind). The scene must stay as long as the cargo does. alone: the device that gets it, if
- * there is only one, which begins to build kernels meanwhile; else NULL. stats gets what is known then: times, counts, content. The cargo is to be
+/* Makes a payload for devices of these kinds (1 << ec_device_kind). The scene must stay as long as the payload does. alone: the device that gets it, if
+ * there is only one, which begins to build kernels meanwhile; else NULL. stats gets what is known then: times, counts, content. The payload is to be
  * freed on failure too. */
-ec_result ec_cargo_make(const ec_scene *scene, const ec_render_options *options, uint32_t batch, uint32_t kinds, ec_cl *alone, ec_cargo *cargo,
+ec_result ec_payload_make(const ec_scene *scene, const ec_render_options *options, uint32_t batch, uint32_t kinds, ec_cl *alone, ec_payload *payload,
                         ec_render_stats *stats, ec_error *err);
-void ec_cargo_free(ec_cargo *cargo); /* zero-initialised or freed is fine */
-void ec_cargo_buffer_free(ec_cargo_buffer *buffer); /* frees what it owns; may be called twice */
+void ec_payload_free(ec_payload *payload); /* zero-initialised or freed is fine */
+void ec_payload_buffer_free(ec_payload_buffer *buffer); /* frees what it owns; may be called twice */
 
-/* The two steps of ec_cargo_make that determine effects. The first chooses what of the scene is rendered and, in called_for, what says which effects
- * that takes: they are the cargo's or the scene itself. The second packs it, and sets the head's effects; alone and batch: as above. */
-ec_result ec_cargo_choose(ec_cargo *cargo, const ec_scene **scene, const ec_scene **called_for,
+/* The two steps of ec_payload_make that determine effects. The first chooses what of the scene is rendered and, in called_for, what says which effects
+ * that takes: they are the payload's or the scene itself. The second packs it, and sets the head's effects; alone and batch: as above. */
+ec_result ec_payload_choose(ec_payload *payload, const ec_scene **scene, const ec_scene **called_for,
                           const ec_render_options *options, ec_error *err);
-ec_result ec_cargo_pack(ec_cargo *cargo, const ec_scene *scene, const ec_scene *called_for,
+ec_result ec_payload_pack(ec_payload *payload, const ec_scene *scene, const ec_scene *called_for,
                         const ec_render_options *options, ec_cl *alone, uint32_t batch, ec_error *err);
 
-/* Adds a buffer; NULL data adds none. owned: as in ec_cargo_buffer; the cargo owns it from here on. */
-void ec_cargo_add(ec_cargo *cargo, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned);
+/* Adds a buffer; NULL data adds none. owned: as in ec_payload_buffer; the payload owns it from here on. */
+void ec_payload_add(ec_payload *payload, uint32_t arg, const char *label, uint64_t bytes, uint64_t slack, const void *data, void *owned);
 
 /* Builds an accelerator and adds its buffers; stats may be NULL. */
-ec_result ec_cargo_add_accel(ec_cargo *cargo, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
+ec_result ec_payload_add_accel(ec_payload *payload, uint32_t which, ec_accel_input *input, ec_accel_stats *stats, ec_error *err);
 
 /* camera.c: adds the keys of a moving camera; nothing for a camera that stands still */
-ec_result ec_cargo_add_camera(ec_cargo *cargo, const ec_scene *scene, const ec_render_options *options, ec_error *err);
+ec_result ec_payload_add_camera(ec_payload *payload, const ec_scene *scene, const ec_render_options *options, ec_error *err);
 /* upload_plan.c: adds the scene's buffers that are called for */
-ec_result ec_cargo_add_scene(ec_cargo *cargo, const ec_scene *scene, ec_pack *pack, ec_error *err);
+ec_result ec_payload_add_scene(ec_payload *payload, const ec_scene *scene, ec_pack *pack, ec_error *err);
 /* content.c: fills in what is rendered; params must be complete */
-void ec_cargo_content(const ec_cargo_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content);
+void ec_payload_content(const ec_payload_head *head, const ec_scene *scene, const ec_pack *pack, ec_content *content);
 
 #endif
