@@ -40,7 +40,7 @@ def install_packages():
     run = subprocess.run([os.path.join(ROOT, "tools", "install-dependencies"), "devices"],
                          env=dict(os.environ, ECLAT_TOOL="tools/test"), check=False)
     if run.returncode:
-        say("goes on with the drivers that are there")
+        say("continuing with the drivers that are present")
 
 
 def install_intel():
@@ -55,11 +55,11 @@ def install_intel():
     for command in ([sys.executable, "-m", "venv", folder], [os.path.join(folder, "bin", "pip"), "install", "-q", *INTEL]):
         run = subprocess.run(command, capture_output=True, encoding="utf-8", errors="replace", check=False)
         if run.returncode:
-            say("goes on without Intel's runtime: " + last_line(run.stderr or run.stdout))
+            say("continuing without Intel's runtime: " + last_line(run.stderr or run.stdout))
             return
     library = os.path.join(folder, "lib", "libintelocl.so")
     if not os.path.exists(library):
-        say(f"goes on without Intel's runtime: the package has no {library}")
+        say(f"continuing without Intel's runtime: the package has no {library}")
         return
     with open(icd + ".new", "w", encoding="utf-8") as file:
         file.write(library + "\n")

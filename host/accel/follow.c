@@ -62,7 +62,7 @@ static ec_result remember(ec_followed *f, const ec_accel_input *in, ec_error *er
                   copy(&i->indices, in->indices, i->all_triangles, 3 * sizeof(uint32_t)) &&
                   copy(&i->shapes, in->shapes, in->shape_count, sizeof *in->shapes) &&
                   copy(&i->placed, in->placed, in->placed_count, sizeof *in->placed);
-    return copied ? EC_OK : ec_fail(err, "out of memory for what %u triangles were", in->triangle_count);
+    return copied ? EC_OK : ec_fail(err, "out of memory for the former places of %u triangles", in->triangle_count);
 }
 
 /* Returns whether the triangles are made of the same vertices as before, wherever these are now. */

@@ -232,7 +232,7 @@ ec_result ec_grid_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
         starts = ec_allocate_lines(header->start_count + entry_count, sizeof *starts);
     }
     ec_result result = starts && triangles && (boxes || !in->bvh.boxes) ? EC_OK
-        : ec_fail(err, "out of memory for a grid of %u references and %llu cells: take a smaller density, or another structure", g.ref_count,
+        : ec_fail(err, "out of memory for a grid of %u references and %llu cells; give a smaller --grid-density or another --accel", g.ref_count,
                   (unsigned long long)(header ? cell_count(&g) : 0));
     if (result == EC_OK) {
         fill_cells(&g, counts, blocks, starts, used, (uint32_t)entry_count);

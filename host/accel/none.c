@@ -8,8 +8,8 @@
 ec_result ec_none_accel(ec_accel_input *in, ec_accel *accel, ec_error *err)
 {
     if (in->triangle_count > NONE_MOST)
-        return ec_fail(err, "without an acceleration structure at most %u triangles are traced, and the scene has %u: "
-                       "take another --accel than none", NONE_MOST, in->triangle_count);
+        return ec_fail(err, "without an acceleration structure at most %u triangles can be traced, but the scene has %u; "
+                       "use an --accel other than none", NONE_MOST, in->triangle_count);
     EC_FREED ec_ref *refs = NULL;
     ec_box bounds;
     uint32_t ref_count;

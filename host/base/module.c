@@ -18,7 +18,7 @@ static ec_result find_folder(char folder[PATH_MAX], ec_error *err)
 {
     Dl_info info;
     const bool is_found = dladdr((const void *)(uintptr_t)ec_module_load, &info) && strchr(info.dli_fname, '/') && realpath(info.dli_fname, folder);
-    if (!is_found && !realpath("/proc/self/exe", folder)) return ec_fail(err, "cannot tell where eclat lies: /proc/self/exe cannot be read");
+    if (!is_found && !realpath("/proc/self/exe", folder)) return ec_fail(err, "cannot find the folder of eclat: /proc/self/exe cannot be read");
     strrchr(folder, '/')[1] = 0;
     return EC_OK;
 }
@@ -30,7 +30,7 @@ ec_result ec_module_find(const char *file, char *path, ec_error *err)
     EC_TRY(find_folder(folder, err));
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
         if (snprintf(path, PATH_MAX, "%s%s%s", folder, places[i], file) < PATH_MAX && access(path, F_OK) == 0) return EC_OK;
-    return ec_fail(err, "%s is not where it was installed", file);
+    return ec_fail(err, "%s is missing from where it was installed; install eclat again", file);
 }
 
 ec_result ec_module_load(const char *name, const char *remedy, const void **symbol, ec_error *err)

@@ -80,7 +80,7 @@ static const char *remedy(const ec_cl *cl, const char *log)
 {
     if (is_error(log ? log : "", log ? strlen(log) : 0) || strcmp(cl->info.platform_name, "Portable Computing Language") != 0)
         return "ECLAT_DUMP_KERNELS=DIR writes source and full log there";
-    return "its compiler names no error: is its disk full, or its folder not yours? POCL_CACHE_DIR=FOLDER names another";
+    return "its compiler gives no reason; its disk may be full, or its folder not writable: POCL_CACHE_DIR=FOLDER names another";
 }
 
 ec_result ec_build_log_fail(const ec_cl *cl, const char *label, const char *source, const char *log, cl_int code, ec_error *err)

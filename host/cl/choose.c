@@ -117,7 +117,7 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
     if (id) {
         *why = from[0] == '-' ? "chosen by --device" : "chosen by ECLAT_DEVICE";
         if (is_list(devices, count, id))
-            return ec_fail(err, "%s %s: this takes one device, only eclat render takes several; name one of them", from,
+            return ec_fail(err, "%s %s: this takes one device; only eclat render takes several; name one of them", from,
                            id);
         char one[ID_SIZE];
         trim(id, strlen(id), one);
@@ -145,11 +145,11 @@ static ec_result choose_next(const ec_device_info *devices, uint32_t count, cons
                              const char *id, uint32_t *indices, uint32_t most, uint32_t *chosen, ec_error *err)
 {
     if (!*id)
-        return ec_fail(err, "the list of devices '%s' has an empty place; give numbers or names separated by commas",
+        return ec_fail(err, "the list of devices '%s' has an empty entry; give numbers or names separated by commas",
                        list);
     if (is_all(id))
-        return ec_fail(err, "the list of devices '%s' has 'all' in it; give all alone, or numbers and names", list);
-    if (*chosen == most) return ec_fail(err, "the list of devices '%s' is too long; name %u at most", list, most);
+        return ec_fail(err, "the list of devices '%s' contains all; give all alone, or numbers and names", list);
+    if (*chosen == most) return ec_fail(err, "the list of devices '%s' is too long; name at most %u", list, most);
     EC_TRY(choose_named(devices, count, from, id, &indices[*chosen], err));
     for (uint32_t i = 0; i < *chosen; i++)
         if (indices[i] == indices[*chosen])

@@ -70,7 +70,7 @@ static void set_aside(const ec_cl *cl, const char *path, const char *driver)
     for (int levels = 0; levels < 2; levels++) length += strcspn(path + length, "/") + 1; /* XX, and the rest of the hash */
     snprintf(program, sizeof program, "%.*s", (int)length - 1, path);
     snprintf(aside, sizeof aside, "%s.damaged-%ld", program, (long)getpid());
-    if (rename(program, aside) == 0) ec_warn(cl->log, "a damaged file in the driver's cache, '%s', is set aside: its kernels are compiled again", aside);
+    if (rename(program, aside) == 0) ec_warn(cl->log, "a damaged file in the driver's cache, '%s', is set aside; its kernels are compiled again", aside);
 }
 
 /* Returns whether each file of the list is as it was. One that is gone is compiled again by the driver; one that has changed would end the process. */

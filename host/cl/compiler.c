@@ -52,7 +52,7 @@ ec_result ec_compiler_start(const ec_compile_job *const *jobs, uint32_t count, e
     *compiler = (ec_compiler){.report = -1, .count = jobs[0]->kernel_count};
     EC_TRY(ec_module_find("eclat-compile", path, err));
     const int file = job_file(jobs, count);
-    if (file < 0) return ec_fail(err, "no memory for a compile job");
+    if (file < 0) return ec_fail(err, "out of memory for a compile job");
     int code = pipe2(ends, O_CLOEXEC | O_NONBLOCK) == 0 ? spawn(path, file, ends[1]) : errno;
     if (!code) compiler->states = ec_compile_states_map(file);
     close(file);

@@ -129,8 +129,8 @@ ec_result ec_devices_list(ec_device_info **devices, uint32_t *count, ec_error *e
         result = add_platform(platforms[i], devices, count, err);
     for (uint32_t i = 0; type && i < *count; i++) (*devices)[i].type = type;
     if (result == EC_OK && *count == 0)
-        result = ec_fail(err, "the installed OpenCL driver (%u platform%s) offers no device; PoCL needs a folder that it may write to, "
-                              "which POCL_CACHE_DIR=FOLDER names, and enough memory and open files (ulimit -a); else " EC_INSTALL_HINT, (unsigned)found, found == 1 ? "" : "s");
+        result = ec_fail(err, "the installed OpenCL driver (%u platform%s) offers no device; PoCL needs a writable folder, "
+                              "which POCL_CACHE_DIR=FOLDER names, and enough memory and open files (ulimit -a); otherwise " EC_INSTALL_HINT, (unsigned)found, found == 1 ? "" : "s");
     if (result != EC_OK) {
         free(*devices);
         *devices = NULL;

@@ -102,7 +102,7 @@ bool ec_drivers_unnamed(char *text, size_t size)
 {
     for (size_t i = 0; i < sizeof brought_in / sizeof *brought_in; i++) {
         if (!is_untold(brought_in[i].library, brought_in[i].icd) || is_offered(brought_in[i].platform)) continue;
-        snprintf(text, size, "%s's driver is here, but the OpenCL loader is not told of it; to use its devices: echo %s >" VENDORS "/%s",
+        snprintf(text, size, "%s's driver is installed, but the OpenCL loader does not know of it; to use its devices: echo %s >" VENDORS "/%s",
                  brought_in[i].platform, brought_in[i].library, brought_in[i].icd);
         return true;
     }

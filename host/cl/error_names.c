@@ -28,7 +28,7 @@ const char *ec_cl_error_name(cl_int code)
     switch (code) {
         EC_CL_ERRORS(EC_NAME)
         case -1001: return "CL_PLATFORM_NOT_FOUND_KHR"; /* from the ICD loader's extension */
-        default: return "an error code this program does not know";
+        default: return "an unknown error code";
     }
 #undef EC_NAME
 }

@@ -20,7 +20,7 @@ ec_result ec_pace_begin(ec_cl *cl, ec_error *err)
     if (!wanted || !*wanted) return EC_OK;
     cl->paces.limit = strtod(wanted, &end);
     if (*end || !isfinite(cl->paces.limit) || cl->paces.limit < 0)
-        return ec_fail(err, "ECLAT_LAUNCH_SECONDS=%s: must be the most seconds that a launch may take, or 0 for no limit", wanted);
+        return ec_fail(err, "ECLAT_LAUNCH_SECONDS=%s: must be the maximum seconds for a launch, or 0 for no limit", wanted);
     return EC_OK;
 }
 

@@ -19,12 +19,12 @@
 #include <strings.h>
 
 static const ec_workaround workarounds[] = {
-    {"PoCL", "3.1, 2026-11", "binaries lack what launches use", .source_only = true, .compiles_late = true, .slow_header = true},
-    {"Oclgrind", "21.10, 2026-11", "names lines of the source; what lanes that are off read counts as uninitialised once another part of the buffer is written",
+    {"PoCL", "3.1, 2026-11", "its binaries lack what launches need", .source_only = true, .compiles_late = true, .slow_header = true},
+    {"Oclgrind", "21.10, 2026-11", "it names lines of the source; what inactive lanes read counts as uninitialised once another part of the buffer is written",
      .source_only = true, .no_touch = true},
     {"rusticl", "Mesa 22.3.6, 2026-11", "its compiler takes gigabytes and many minutes for kernels of more than one lane", .most_lanes = 1,
      .source_only = true, .rounds = true},
-    {"Intel(R) OpenCL", "2026.22.10, 2026-11", "does not say that it rounds correctly, but does", .rounds = true},
+    {"Intel(R) OpenCL", "2026.22.10, 2026-11", "it rounds correctly but does not say so", .rounds = true},
 };
 
 enum { ROWS = sizeof workarounds / sizeof *workarounds };

@@ -33,7 +33,7 @@ static const ec_option options[] = {
     {.name = "json", .help = "print one JSON object instead of text; for several pairs, an array"},
     {.name = "mask", .metavar = "FILE", EC_STORED(TEXT, asked.mask),
      .help = "compare only where this picture is white, or brighter than half"},
-    {.name = "quiet", .letter = 'q', .help = "print nothing; only the exit code tells"},
+    {.name = "quiet", .letter = 'q', .help = "print nothing; only the exit code shows the result"},
     {.name = "tonemap", .metavar = "CURVE", EC_CHOSEN(asked.look.tonemap, ec_tonemap_names), EC_TOLD(asked.is_shown),
      .help = "compare sRGB values from 0 to 1, EXR through this " EC_TONE_CURVES_HELP,
      .otherwise = "neutral where A or B is a PNG, JPEG, WebP or AVIF; else linear values are compared"},
@@ -112,7 +112,7 @@ static ec_result run(ec_call *call, ec_error *err)
     }
     EC_TRY_CLEANUP(check_output("diff", asked->diff, &pairs, asked->mask, err));
     EC_TRY_CLEANUP(check_output("html", request->html, &pairs, asked->mask, err));
-    if (pairs.alone > 0) ec_warn(&call->listener->log, "%u picture%s of '%s' %s none of that name in '%s'; left out", pairs.alone,
+    if (pairs.alone > 0) ec_warn(&call->listener->log, "%u picture%s of '%s' %s no counterpart in '%s'; left out", pairs.alone,
                                  pairs.alone == 1 ? "" : "s", call->inputs[0], pairs.alone == 1 ? "has" : "have", call->inputs[1]);
     for (uint32_t i = 0; i < pairs.count; i++) EC_TRY_CLEANUP(compare_pair(&pairs.pair[i], asked, &all, err));
     if (pairs.count > 1) fprintf(all.to, "\nall       %u of %u differ\n", all.differ, pairs.count);
@@ -144,8 +144,8 @@ const ec_command ec_cmd_compare = {
                       "estimates), RMSE, relMSE, MAPE, PSNR, FLIP and SSIM. If a picture has standard errors (channels stderr.R, .G, .B), tests whether the two differ by "
                       "more than noise: in the mean, in blocks of 8x8 pixels, in single values, and in the share of outliers. EXR and Radiance files of any renderer are "
                       "read, and PNG, JPEG, WebP and AVIF: then both are compared as a screen shows them, EXR through a tone curve that takes its standard errors along. "
-                      "Pixels that are not opaque are left out. Of several pictures the last is the reference of all; of two folders, pictures are compared that are called "
-                      "alike but for the ending.",
+                      "Pixels that are not opaque are left out. Of several pictures the last is the reference of all; of two folders, pictures with the same name are compared, "
+                      "whatever their extensions.",
              .notes = notes},
     .rows = list_rows, .size = sizeof(compare_request), .run = run,
 };

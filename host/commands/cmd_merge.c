@@ -26,8 +26,8 @@ static ec_result set_denoise(void *target, const char *option, const char *value
 
 static const ec_option options[] = {
     {.name = "denoise", .metavar = "WHEN", .value_optional = true, .set = set_denoise, .choices = ec_denoiser_names,
-     .help = "denoise the picture and judge the denoiser, as eclat render --denoise does. It goes by the first hits of all samples where slices were "
-             "rendered with --denoise, else by those of 8 samples a pixel in the slice that begins with sample 0", .otherwise = "off"},
+     .help = "denoise the picture and judge the denoiser, as eclat render --denoise does. It uses the first hits of all samples if slices were "
+             "rendered with --denoise, else those of 8 samples a pixel in the slice that begins with sample 0", .otherwise = "off"},
     {.name = "exposure", .metavar = "EV|auto", EC_RANGED(EXPOSURE, exposure, -EC_EXPOSURE_MOST, EC_EXPOSURE_MOST),
      .help = EC_EXPOSURE_HELP, .otherwise = "0"},
     {.name = "json", .help = "print one JSON object instead of text"},

@@ -72,8 +72,8 @@ static ec_result run(ec_call *call, ec_error *err)
 }
 
 const ec_command ec_cmd_mix = {
-    .told = {.name = "mix", .operands = "IN.exr NAME=GAIN ... -o OUT.exr [options]", .summary = "weigh the light of a picture's layers anew",
+    .told = {.name = "mix", .operands = "IN.exr NAME=GAIN ... -o OUT.exr [options]", .summary = "change the weights of a picture's layers of light",
              .intro = "Multiplies the light groups of a picture that eclat render --light-groups made, or its direct and indirect light, by gains and adds them up. A GAIN is a "
-                      "number, or R,G,B; 1 of layers that are not named. Standard errors of the result are upper bounds: layers may err alike. With all gains 1 it is the picture, bit for bit."},
+                      "number, or R,G,B; layers that are not named have 1. Standard errors of the result are upper bounds: layers may err alike. With all gains 1 the result is the picture, bit for bit."},
     .rows = list_rows, .size = sizeof(mix_request), .run = run,
 };

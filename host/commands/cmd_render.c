@@ -98,7 +98,7 @@ static ec_result run(ec_call *call, ec_error *err)
                            .command = call->line, .job = {.argc = call->words.count - 1, .argv = call->words.list + 1, .folder = call->folder}};
     call->write = write_rendered;
     if (call->wants_picture && call->input_count > 1)
-        return ec_usage(err, "a picture is of one scene: give one, or take no picture of several, whose names are by --output with {name}");
+        return ec_usage(err, "a picture shows one scene; give one, or write files of several by --output with {name}");
     if (is_series(call, request)) return run_series(call, request, start, err);
     EC_TRY(take_request(call, request, err));
     if (request->plan_ranks) return plan(job, err);

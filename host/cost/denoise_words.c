@@ -29,8 +29,8 @@ void ec_cost_denoise_words(const ec_cost_study *study, char *text, size_t size)
         if (study->rows[i].rung.options.denoise) clean = &study->rows[i];
     if (!clean || clean->state != EC_COST_MEASURED || noisy->state != EC_COST_MEASURED || !(clean->picture_seconds > 0)) return;
     const double crossing = find_crossing(noisy, clean, &ever_pays);
-    if (!ever_pays) snprintf(text, size, "does not pay on this scene: whatever the error, samples alone are as soon there; it takes %s a picture", ec_seconds(clean->picture_seconds).text);
+    if (!ever_pays) snprintf(text, size, "does not pay on this scene: samples alone reach any error as soon; it takes %s a picture", ec_seconds(clean->picture_seconds).text);
     else if (!(crossing > 0)) snprintf(text, size, "pays at every error down to 0.1 %%; it takes %s a picture", ec_seconds(clean->picture_seconds).text);
-    else snprintf(text, size, "pays down to an error of %s, which takes %s; for less samples alone are sooner there", ec_percent(crossing).text,
+    else snprintf(text, size, "pays down to an error of %s, which takes %s; samples alone reach a smaller error sooner", ec_percent(crossing).text,
                   ec_seconds(ec_cost_seconds_to(noisy, crossing, &beyond)).text);
 }

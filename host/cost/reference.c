@@ -82,7 +82,7 @@ static void warn_of_rare_paths(const ec_cost_study *study, const ec_film *film)
     char way[EC_RARE_WAY];
     if (!e.is_open) return;
     ec_rare_way(e.through, e.light, way, sizeof way);
-    ec_warn(study->log, "the reference has no bound of its error: rare bright paths (%s) are hardly met yet; all errors are without their light", way);
+    ec_warn(study->log, "the reference has no bound of its error: rare bright paths (%s) are hardly met yet, and all errors lack their light", way);
 }
 
 ec_result ec_cost_reference_render(ec_cost_study *study, double deadline, ec_error *err)

@@ -94,7 +94,7 @@ static void add_roulettes(rung_list *list)
 static void add_clamps(rung_list *list)
 {
     static const double limits[] = {1, 10, 100};
-    begin(list, "clamp", "Most of a sample's indirect light, in mean luminances, instead of no limit");
+    begin(list, "clamp", "Limit of a sample's indirect light, in mean luminances, instead of none");
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
         char id[48];
         snprintf(id, sizeof id, "clamp-%g", limits[i]);

@@ -60,7 +60,7 @@ static void explain_the_rest(study_state *s, const char *by)
             snprintf(row->note, sizeof row->note, "%s before", by);
         } else {
             row->state = EC_COST_TOO_SMALL;
-            snprintf(row->note, sizeof row->note, "budget too small; --budget %dm would do", (int)ceil(enough / 60));
+            snprintf(row->note, sizeof row->note, "budget too small; --budget %dm would be enough", (int)ceil(enough / 60));
         }
     }
 }
@@ -116,7 +116,7 @@ static ec_result fit_size(study_state *s, ec_error *err)
     while (o->height >= 2 * LEAST && o->width >= 2 && all * ENOUGH * rate * o->width * o->height > 0.5 * (s->deadline - ec_now())) o->width /= 2, o->height /= 2;
     for (uint32_t i = 0; i < study->row_count; i++) study->rows[i].rung.options.width = o->width, study->rows[i].rung.options.height = o->height;
     if (o->height < height)
-        ec_note(study->log, "pictures of %ux%u pixels in place of %ux%u, so that the budget reaches more rungs; --size takes another", o->width, o->height, width, height);
+        ec_note(study->log, "pictures of %ux%u pixels instead of %ux%u, so that the budget covers more rungs; --size sets another size", o->width, o->height, width, height);
     return EC_OK;
 }
 

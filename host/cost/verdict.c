@@ -127,7 +127,7 @@ static void say_effects(const ec_cost_study *study, char *text, size_t size)
         }
         if (most == UINT32_MAX) break;
         said[most] = true;
-        say(text, size, "%s %.*s %s", n ? "," : " Leaving something out errs: without", EC_CUT(study->rows[most].rung.name, 60), ec_percent(sqrt(study->rows[most].bias2)).text);
+        say(text, size, "%s %.*s %s", n ? "," : " Leaving an effect out makes an error: without", EC_CUT(study->rows[most].rung.name, 60), ec_percent(sqrt(study->rows[most].bias2)).text);
         if (n == NAMED_MOST - 1) break;
     }
     if (memchr(said, true, sizeof said)) say(text, size, ".");

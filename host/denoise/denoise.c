@@ -53,8 +53,8 @@ ec_result ec_denoiser_find(ec_denoiser asked, ec_denoiser *found, ec_error *err)
 
 static const char *why_not(const ec_film *film, const ec_film_error *noisy)
 {
-    if (ec_film_replicates(film) < EC_JUDGE_REPLICATES) return "it takes 4 samples a pixel, and --replicates 4 or more, of which one half judges the other";
-    if (!(ec_film_feature_samples(film) > 0)) return "first hits, by which a denoiser goes, are of the slice that begins with sample 0, which is not here";
+    if (ec_film_replicates(film) < EC_JUDGE_REPLICATES) return "it needs 4 samples a pixel, and --replicates 4 or more, so that one half can judge the other";
+    if (!(ec_film_feature_samples(film) > 0)) return "a denoiser needs first hits, which only the slice that begins with sample 0 has, and that slice is missing";
     if (!(noisy->mean_luminance > 0)) return "the picture is black";
     return NULL;
 }
@@ -64,7 +64,7 @@ static ec_result make_room(work *w, ec_error *err)
     float **const planes[] = {&w->half[0], &w->half[1], &w->albedo, &w->normal, &w->clean.denoised, &w->clean.best, &w->clean.error};
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
         *planes[i] = malloc(pixels_of(w) * (planes[i] == &w->clean.error ? 1 : 3) * sizeof(float));
-        if (!*planes[i]) return ec_fail(err, "out of memory for denoising %u x %u pixels; leave --denoise out or render fewer", w->film->width, w->film->height);
+        if (!*planes[i]) return ec_fail(err, "out of memory for denoising %u x %u pixels; leave --denoise out, or give a smaller --size", w->film->width, w->film->height);
     }
     return EC_OK;
 }

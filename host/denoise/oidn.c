@@ -39,7 +39,7 @@ static ec_result find_functions(ec_oidn *oidn, void *library, ec_error *err)
 {
 #define FIND(result, name, arguments)                                                                                                                \
     *(void **)&oidn->name = dlsym(library, "oidn" #name);                                                                                            \
-    if (!oidn->name) return ec_fail(err, "--denoise: the Open Image Denoise that is installed has no oidn" #name "; install version 2");
+    if (!oidn->name) return ec_fail(err, "--denoise: the installed Open Image Denoise has no oidn" #name "; install version 2");
     FUNCTIONS(FIND)
     return EC_OK;
 }
@@ -48,7 +48,7 @@ static ec_result check(const ec_oidn *oidn, const char *what, ec_error *err)
 {
     const char *text = NULL;
     if (oidn->GetDeviceError(oidn->device, &text) == 0) return EC_OK;
-    return ec_fail(err, "--denoise: Open Image Denoise %s: %s; leave --denoise out", what, text ? text : "it does not say why");
+    return ec_fail(err, "--denoise: Open Image Denoise %s: %s; leave --denoise out", what, text ? text : "no reason given");
 }
 
 /* Opens the processor as a device. Threads are not pinned, since others render beside. */

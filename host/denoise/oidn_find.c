@@ -62,6 +62,6 @@ ec_result ec_oidn_load(void **library, ec_error *err)
     *library = open_file(FILE_NAME);
     if (!*library) *library = open_of_python();
     if (*library) return EC_OK;
-    return ec_fail(err, "--denoise oidn: Intel's Open Image Denoise (" FILE_NAME ") is not installed; install the system's package of it, version 2, or "
-                        "PyPI's by 'pip install pyoidn' (from Python: 'pip install eclat[denoise]'); ECLAT_OIDN names it where it lies elsewhere; --denoise atrous does without");
+    return ec_fail(err, "--denoise oidn: Intel's Open Image Denoise (" FILE_NAME ") is not installed; install version 2 from the system's packages or "
+                        "by 'pip install pyoidn' (from Python: 'pip install eclat[denoise]'); ECLAT_OIDN names it if it is elsewhere; --denoise atrous does without it");
 }

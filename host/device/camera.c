@@ -15,7 +15,7 @@ static ec_result set_lens(const ec_camera *c, const ec_render_options *o, ec_par
 {
     if (o->fstop == 0) return EC_OK;
     if (c->type == EC_CAMERA_ORTHOGRAPHIC)
-        return ec_fail(err, "camera %u is orthographic, its rays do not meet in a lens: choose a perspective one, or leave out --fstop and --focus",
+        return ec_fail(err, "camera %u is orthographic, so its rays do not meet in a lens; choose a perspective camera, or leave out --fstop and --focus",
                        o->camera);
     if (!(o->fstop > 0 && o->focus > 0)) return ec_fail(err, "a lens needs a positive fstop and a positive focus");
     double focal_length = EC_SENSOR_HEIGHT / (2 * tan(0.5 * c->yfov)), radius = focal_length / (2 * o->fstop);

@@ -312,7 +312,7 @@ static ec_result fill(ec_payload *payload, const ec_scene *scene, const ec_scene
     for (int k = 0; k < 3; k++) head->params.scene_centre[k] = (float)scene->center[k];
     head->wave = o->wave;
     if (scene->motion.segments && !ec_traces_paths(o->integrator))
-        return ec_fail(err, "only the path tracer blurs what moves: leave out --shutter, or take --integrator path");
+        return ec_fail(err, "only the path tracer renders motion blur; leave out --shutter, or give --integrator path");
     EC_TRY(ec_pipeline_set_camera(&scene->cameras[o->camera], o, &head->params, err));
     const bool traces = o->integrator != EC_INTEGRATOR_RASTER;
     if (traces) EC_TRY(choose_accels(head, scene, o->accel, kinds, err));

@@ -25,7 +25,7 @@ static ec_result sort_into_tiles(ec_pipeline *p, const uint32_t *scalars, uint32
     EC_TRY(ec_buffer_read(p->cl, *ends, 0, count * 4, tiles, err));
     uint64_t entries = scan(tiles, count);
     if (entries > UINT32_MAX)
-        return ec_fail(err, "the tiles of %ux%u pixels would list %llu triangles, more than 2^32: render a smaller picture",
+        return ec_fail(err, "the tiles of %ux%u pixels would list %llu triangles, more than 2^32; give a smaller --size",
                        p->params.width, p->params.height, (unsigned long long)entries);
     EC_TRY(ec_buffer_create(p->cl, "tile starts", count * 4, tiles, starts, err));
     EC_TRY(ec_buffer_write(p->cl, *ends, 0, count * 4, tiles, err));

@@ -131,7 +131,7 @@ static ec_result build(ec_pipeline *p, candidate *c, ec_error *err)
 {
     teller t = {.log = p->cl->log, .begun = ec_now()};
     const bool is_late = ec_compiles_late(&p->cl->info), is_done = !is_late || is_compiled(p, c);
-    if (!is_done && !c->is_helped) ec_say(t.log, "compiling kernels for what this scene calls for; the next render finds them");
+    if (!is_done && !c->is_helped) ec_say(t.log, "compiling kernels for the effects of this scene; the next render reuses them");
     t.said = t.begun;
     p->kernels = c->set;
     ec_result result = ec_kernel_set_build(p, &p->kernels, err);

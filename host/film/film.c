@@ -78,7 +78,7 @@ static ec_result start_counting(ec_film *film, ec_error *err)
     const uint64_t pixels = pixels_of(film);
     if (film->counts) return EC_OK;
     if (film->part_count != 1 || film->parts[0].batch || film->batch_count % film->replicates)
-        return ec_fail(err, "pixels can only go on by themselves after a whole round");
+        return ec_fail(err, "internal error: pixels can get samples of their own only after a whole round");
     film->counts = malloc(pixels * sizeof *film->counts);
     if (!film->counts) return ec_fail(err, "out of memory for the sample counts of %llu pixels", (unsigned long long)pixels);
     for (uint64_t p = 0; p < pixels; p++) film->counts[p] = (uint32_t)film->samples[0];

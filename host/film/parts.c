@@ -138,11 +138,11 @@ static ec_result check_free(const ec_film *film, uint32_t first, uint32_t count,
         uint64_t from = part->first > first ? part->first : first;
         uint64_t to = (uint64_t)part->first + part->count < end ? (uint64_t)part->first + part->count : end;
         if (from < to)
-            return ec_fail(err, "batches %llu to %llu are there twice", (unsigned long long)from,
+            return ec_fail(err, "batches %llu to %llu occur twice", (unsigned long long)from,
                            (unsigned long long)to - 1);
     }
     if ((film->cut && end > there) || (cut && end < there))
-        return ec_fail(err, "the picture ended within batch %llu, and takes no batch after that",
+        return ec_fail(err, "the picture ended within batch %llu, so no batch may follow",
                        (unsigned long long)(end < there ? end : there) - 1);
     return EC_OK;
 }

@@ -40,7 +40,7 @@ static ec_result check_memory(deformer *d, const ec_gltf_primitive *p)
     uint64_t memory = ec_memory_of_machine();
     d->bytes += d->g->accessors[p->streams.of[EC_POSITION]].count * 72;
     if (d->bytes <= memory) return EC_OK;
-    return ec_fail(d->err, "%s: its deformed meshes need %llu MB, this machine has %llu MB", d->g->path,
+    return ec_fail(d->err, "%s: its deformed meshes need %llu MB, but this machine has %llu MB; simplify the scene", d->g->path,
                    (unsigned long long)(d->bytes >> 20), (unsigned long long)(memory >> 20));
 }
 

@@ -37,7 +37,7 @@ ec_result ec_flatten_empty(const ec_flattener *f, const ec_gltf *g, const ec_pla
     }
     if (hidden < 0 && flat < 0) {
         if (!f->triangle_bound) return ec_fail(f->err, "%s: nothing to render: the scene has no triangles", g->path);
-        return ec_fail(f->err, "%s: nothing to render: of %llu triangles %u have no area and %u positions that "
+        return ec_fail(f->err, "%s: nothing to render: of %llu triangles, %u have no area and %u have positions that "
                        "are NaN, infinite or beyond 1e18", g->path, (unsigned long long)f->triangle_bound, s->dropped_degenerate, s->dropped_nonfinite);
     }
     if (hidden >= 0) EC_TRY(add_cause(g, hidden, true, why, sizeof why, f->err));

@@ -29,7 +29,7 @@ static ec_result check_memory(const ec_flattener *f, const char *path)
     uint64_t bytes = f->vertex_bound * per_vertex + f->triangle_bound * 16;
     uint64_t memory = ec_memory_of_machine();
     if (bytes <= memory) return EC_OK;
-    return ec_fail(f->err, "%s: %llu triangles once all instances are counted need %llu MB, this machine has %llu MB",
+    return ec_fail(f->err, "%s: %llu triangles, with all instances counted, need %llu MB, but this machine has %llu MB; simplify the scene",
                    path, (unsigned long long)f->triangle_bound, (unsigned long long)(bytes >> 20),
                    (unsigned long long)(memory >> 20));
 }
@@ -119,6 +119,6 @@ ec_result ec_flatten(ec_gltf *g, const ec_placement_list *placements, ec_scene *
         ec_note(log, "%s: %u triangles without area are left out", g->path, s->dropped_degenerate);
     warn_odd(&f.odd_uv, g, "texture coordinates are NaN or beyond 1e18", "they are clamped", log);
     warn_odd(&f.odd_colors, g, "values of vertex colours are NaN or out of 0..1", "they are clamped", log);
-    warn_odd(&f.odd_normals, g, "normals are NaN or infinite", "the triangles' own take their place", log);
+    warn_odd(&f.odd_normals, g, "normals are NaN or infinite", "the triangles' own normals are used instead", log);
     return EC_OK;
 }

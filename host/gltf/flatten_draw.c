@@ -49,7 +49,7 @@ ec_result ec_flattener_count(ec_flattener *f, const ec_draw *d)
     f->triangle_bound += d->p->triangle_count;
     f->vertex_bound += range < corners ? range : corners;
     if (f->triangle_bound > INT32_MAX || f->vertex_bound > INT32_MAX)
-        return ec_fail(f->err, "%s: more than %d triangles or vertices once all instances are counted; simplify the scene",
+        return ec_fail(f->err, "%s: more than %d triangles or vertices with all instances counted; simplify the scene",
                        d->g->path, INT32_MAX);
     if (range > f->remap_size) f->remap_size = range;
     for (int i = 0; i < EC_STREAMS; i++) /* glTF: tangents without normals are ignored */

@@ -54,7 +54,7 @@ static ec_result unpack(ec_gltf *g, int32_t view, ec_error *err)
         return ec_fail(err, "%s: bufferViews[%d], compressed by meshopt, reaches beyond buffers[%d]; the file is damaged or truncated", g->path,
                        view, p->buffer);
     if (!is_plausible(p, v->length))
-        return ec_fail(err, "%s: bufferViews[%d], compressed by meshopt: %llu elements of %u bytes do not go with its mode, filter or length",
+        return ec_fail(err, "%s: bufferViews[%d], compressed by meshopt: %llu elements of %u bytes do not fit its mode, filter or length",
                        g->path, view, (unsigned long long)p->count, p->stride);
     v->length = p->count * p->stride;
     v->owned = calloc(v->length + 256, 1); /* the decoder's filters work on whole blocks */

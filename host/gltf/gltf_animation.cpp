@@ -162,7 +162,7 @@ static bool apply(json &root, const json &animation, const std::string &name, co
         path to = split(pointer);
         const field *target = find_target(root, to);
         if (!target) {
-            ec_warn(log, "%s: %s moves %s, which eclat does not; it is left out", gltf->path, where.c_str(),
+            ec_warn(log, "%s: %s animates %s, which is not supported; it is left out", gltf->path, where.c_str(),
                     shortened(printable(pointer), 200).c_str());
             continue;
         }
@@ -197,11 +197,11 @@ std::vector<uint32_t> choose_animations(const json &root, const ec_scene_choice 
     list_animations(root, gltf->contents);
     if (!choice->animated) {
         if (names.count)
-            ec_note(log, "%s: %u animation%s: shown as stored, --at SECONDS takes a moment", gltf->path, names.count,
+            ec_note(log, "%s: %u animation%s: shown as stored; --at SECONDS chooses a moment", gltf->path, names.count,
                     names.count > 1 ? "s" : "");
         return {};
     }
-    if (!names.count) throw bad_file("there is no animation in it; leave out --at, --animation, --frames and --shutter");
+    if (!names.count) throw bad_file("the file has no animation; leave out --at, --animation, --frames and --shutter");
     gltf->animated = make_array<bool>(list_of(root, "nodes").size());
     gltf->blurs = choice->shutter;
     bool all = choice->animation && std::string(choice->animation) == "all";

@@ -70,7 +70,7 @@ void convert_cameras(const json &list, ec_gltf *gltf, const ec_log *log)
         const json &lens = in[in["type"].get_ref<const std::string &>()];
         const bool has_aspect = out.type == EC_CAMERA_PERSPECTIVE && lens.contains("aspectRatio");
         if (has_aspect && !(out.aspect >= 1 / widest_aspect && out.aspect <= widest_aspect)) {
-            ec_warn(log, "%s: %s: aspectRatio %g is no shape of a picture; it is ignored", gltf->path, where.c_str(), double(out.aspect));
+            ec_warn(log, "%s: %s: aspectRatio %g is out of range; it is ignored", gltf->path, where.c_str(), double(out.aspect));
             out.aspect = 0;
         }
         if (out.type == EC_CAMERA_ORTHOGRAPHIC && !(out.xmag > 0 && out.ymag > 0))
@@ -113,7 +113,7 @@ void convert_lights(const json &root, ec_gltf *gltf, const ec_log *log)
         set_light(in, out, odd);
         if (odd) ec_warn(log, "%s: light %u has values out of KHR_lights_punctual's range; they are clamped", gltf->path, index);
         if (in.value("range", 1.0) == 0)
-            ec_warn(log, "%s: light %u has range 0, which KHR_lights_punctual does not allow; it is taken as endless", gltf->path, index);
+            ec_warn(log, "%s: light %u has range 0, which KHR_lights_punctual does not allow; it is taken as infinite", gltf->path, index);
     });
 }
 

@@ -130,7 +130,7 @@ void check_extensions(const json &root, ec_gltf *gltf, const ec_log *log)
     if (!missing.empty())
         throw bad_file("the file requires " + comma_list(missing) + ", which eclat does not support; export it without");
     if (!ignored.empty())
-        ec_warn(log, "%s: not supported, what it describes is left out: %s", gltf->path, comma_list(ignored).c_str());
+        ec_warn(log, "%s: not supported, so what they describe is left out: %s", gltf->path, comma_list(ignored).c_str());
     gltf->quantized = used.count("KHR_mesh_quantization") || needed.count("KHR_mesh_quantization");
     copy_strings(used, gltf->contents.extensions);
     copy_strings(ignored, gltf->contents.ignored);

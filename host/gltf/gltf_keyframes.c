@@ -29,7 +29,7 @@ static ec_result check_times(const curve *c, const char *where, ec_error *err)
     for (uint64_t i = 0; i < c->times->count; i++) {
         float time = key_time(c, i);
         if (!isfinite(time) || time <= last)
-            return ec_fail(err, "%s: the times of its keys must grow: key %llu is at %g s, after %g s", where,
+            return ec_fail(err, "%s: the times of its keys must increase: key %llu is at %g s, after %g s", where,
                            (unsigned long long)i, (double)time, (double)last);
         last = time;
     }
@@ -47,7 +47,7 @@ static ec_result open_curve(ec_gltf *g, const ec_gltf_keyframes *k, const char *
     bool fits = per_key * keys == c->values->count && per_key >= 1 && per_key <= MAX_NUMBERS &&
                 (c->components == 1 || per_key == 1);
     if (!fits)
-        return ec_fail(err, "%s: accessors[%d] has %llu elements, which does not go with the %llu keys of accessors[%d]", where, k->output,
+        return ec_fail(err, "%s: accessors[%d] has %llu elements, which does not match the %llu keys of accessors[%d]", where, k->output,
                        (unsigned long long)c->values->count, (unsigned long long)c->times->count, k->input);
     c->per_key = (uint32_t)per_key;
     return EC_OK;

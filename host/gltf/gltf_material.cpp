@@ -49,7 +49,7 @@ static ec_texture_use make_use(const json &material, const char *path, const std
     if (transform) set_transform(use, uv_set, *transform);
     if (uv_set < 0 || uv_set > 1) {
         const char *slash = std::strrchr(path, '/');
-        ec_warn(log, "%s: %s.%s wants TEXCOORD_%lld, but only sets 0 and 1 are supported; the texture is left out", gltf->path, where.c_str(),
+        ec_warn(log, "%s: %s.%s uses TEXCOORD_%lld, but only sets 0 and 1 are supported; the texture is left out", gltf->path, where.c_str(),
                 slash ? slash + 1 : path, (long long)uv_set);
         return no_texture;
     }
@@ -130,7 +130,7 @@ static void set_material(ec_material &out, const json &in, const std::string &wh
     if (const json *older = find_path(in, EC_KHR "volume_scatter/multiscatterColor")) /* of drafts of the extension before 2026 */
         for (size_t i = 0; i < 3; i++) out.scatter[i] = (*older)[i].get<float>();
     if (find_path(in, EC_KHR "volume_scatter/multiscatterColorTexture"))
-        ec_warn(log, "%s: %s has a multiscatterColorTexture, which is left out: bodies scatter alike all over", gltf->path, where.c_str());
+        ec_warn(log, "%s: %s has a multiscatterColorTexture, which is left out: a body scatters the same everywhere", gltf->path, where.c_str());
     const json *volume = find_extension(in, "KHR_materials_volume");
     for (float &absorption : out.absorption) absorption = 0; /* the file has a colour in its place */
     bool passes = find_extension(in, "KHR_materials_transmission") || find_extension(in, "KHR_materials_diffuse_transmission");

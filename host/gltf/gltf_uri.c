@@ -55,7 +55,7 @@ static const char *escape_reason(const char *uri, const char *decoded, size_t de
     if (has_scheme(uri) || has_scheme(decoded)) return "it has a scheme";
     if (strchr(decoded, '\\')) return "it holds a backslash";
     if (decoded[0] == '/') return "it is an absolute path";
-    if (climbs_out(decoded)) return "it climbs out with \"..\"";
+    if (climbs_out(decoded)) return "it leaves the folder with \"..\"";
     return NULL;
 }
 

@@ -25,5 +25,5 @@ bool ec_image_decode(const uint8_t *bytes, uint64_t length, ec_image *image, ec_
     if (length >= 12 && !memcmp(bytes + 4, "ftyp", 4)) return ec_image_decode_avif(bytes, (size_t)length, image, err);
     if (length >= sizeof ktx2 && !memcmp(bytes, ktx2, sizeof ktx2))
         return ec_image_decode_ktx2(bytes, (size_t)length, image, err);
-    return ec_decode_fail(err, "it is none of PNG, JPEG, WebP, AVIF and KTX2");
+    return ec_decode_fail(err, "it is not a PNG, JPEG, WebP, AVIF or KTX2");
 }

@@ -58,10 +58,10 @@ static ec_result check_face(const ec_gltf *g, int f, const face *faces, ec_error
     if (one->width != one->height)
         return ec_fail(err, "%s: %s has %u x %u pixels; faces must be square", g->path, where, one->width, one->height);
     if (one->width > FACE_MOST)
-        return ec_fail(err, "%s: %s has %u x %u pixels, more than the %d x %d that are read; shrink the cube", g->path,
+        return ec_fail(err, "%s: %s has %u x %u pixels, more than the limit of %d x %d; shrink the cube", g->path,
                        where, one->width, one->height, FACE_MOST, FACE_MOST);
     if (one->width != faces->width)
-        return ec_fail(err, "%s: %s has %u x %u pixels, and the faces before it %u x %u; all must be of one size",
+        return ec_fail(err, "%s: %s has %u x %u pixels, but the first face has %u x %u; all faces must have one size",
                        g->path, where, one->width, one->height, faces->width, faces->width);
     return one->rgb ? EC_OK : ec_fail(err, "%s: out of memory for %s", g->path, where);
 }
@@ -90,7 +90,7 @@ ec_result ec_gltf_image_light_load(const ec_gltf *g, ec_scene *s, const ec_log *
     if (!light->used || light->intensity == 0) return EC_OK;
     EC_TRY_CLEANUP(load_faces(g, &cube, log, err));
     if (light->size != cube.size)
-        ec_warn(log, "%s: image-based light %d says that its faces have %u pixels a side; they have %u, and are taken as they are",
+        ec_warn(log, "%s: image-based light %d says that its faces have %u pixels a side, but they have %u; their own size is used",
                 g->path, light->index, light->size, cube.size);
     EC_TRY_CLEANUP(ec_cube_environment(&cube, light->rotation, &s->environment, err));
     const float *constant = s->environment.constant;

@@ -17,10 +17,10 @@ static ec_result open_attribute(ec_gltf *g, int32_t node, int32_t accessor, cons
         return ec_fail(err, "%s: %s: accessors[%d] must hold vectors of %u floats or normalised integers", g->path, what,
                        accessor, components);
     if (a->view < 0 && a->count > IMPLIED_PLACES)
-        return ec_fail(err, "%s: %s: accessors[%d] has no bufferView for its %llu elements; at most %u are taken without",
+        return ec_fail(err, "%s: %s: accessors[%d] has no bufferView for its %llu elements; at most %u may do without",
                        g->path, what, accessor, (unsigned long long)a->count, IMPLIED_PLACES);
     if (*count && *count != a->count)
-        return ec_fail(err, "%s: %s: accessors[%d] has %llu elements, another attribute %llu", g->path, what, accessor,
+        return ec_fail(err, "%s: %s: accessors[%d] has %llu elements, but another attribute has %llu", g->path, what, accessor,
                        (unsigned long long)a->count, (unsigned long long)*count);
     *count = a->count;
     return EC_OK;
@@ -64,7 +64,7 @@ ec_result ec_gltf_place_instances(ec_gltf *g, ec_placement_list *placements, con
         const ec_gltf_node *node = &g->nodes[placements->items[i].node];
         if (!node->instances.used || placements->items[i].mesh < 0) continue;
         if (node->skin < 0) EC_TRY(place(g, i, placements, err));
-        else ec_warn(log, "%s: nodes[%d] has a skin, which stands at one place; its instances are left out", g->path,
+        else ec_warn(log, "%s: nodes[%d] has a skin, which cannot be instanced; its instances are left out", g->path,
                      placements->items[i].node);
     }
     return EC_OK;

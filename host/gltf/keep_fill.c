@@ -192,7 +192,7 @@ ec_result ec_keep_fill(ec_keeping *k, ec_flattener *f)
         reach = fmax(reach, reach_of(&k->meshes[k->candidate[i]], &one));
         id += s->shapes[one.shape].count;
         if (id >= UINT32_MAX)
-            return ec_fail(f->err, "%s: more than %u triangles once all instances are counted; simplify the scene",
+            return ec_fail(f->err, "%s: more than %u triangles with all instances counted; simplify the scene",
                            k->g->path, UINT32_MAX - 1);
         s->placed[s->placed_count++] = one;
         ec_part_add(s, one.id, (uint32_t)k->placements->items[i].node);

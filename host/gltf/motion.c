@@ -45,7 +45,7 @@ static ec_result read_vertices(ec_tracks *t, const ec_gltf *g, const ec_placemen
         if (from->placement != placement) {
             placement = from->placement;
             int32_t mesh = placement < placements->count ? placements->items[placement].mesh : -1;
-            if (mesh < 0) return ec_fail(err, "%s: a mesh is not there all the time the shutter is open", g->path);
+            if (mesh < 0) return ec_fail(err, "%s: a mesh is missing for part of the time while the shutter is open", g->path);
             d = ec_draw_of(g, &placements->items[placement], t->scene->center);
         }
         d.p = &g->meshes[d.at->mesh].primitives[from->primitive];
@@ -175,7 +175,7 @@ ec_result ec_gltf_move(const ec_scene_choice *choice, ec_gltf *base, ec_scene *s
     if (!s->motion.segments)
         ec_note(log, "%s: nothing moves from %g s to %g s", base->path, choice->opens, choice->closes);
     else if (s->motion.deviation > EC_MOTION_DEVIATION)
-        ec_warn(log, "%s: %u straight pieces leave the true motion by %.2g %% of what is swept; give a shorter --shutter", base->path,
+        ec_warn(log, "%s: %u straight pieces deviate from the true motion by %.2g %% of the distance moved; give a shorter --shutter", base->path,
                 s->motion.segments, 100 * s->motion.deviation);
     return EC_OK;
 }

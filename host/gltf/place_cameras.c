@@ -42,7 +42,7 @@ ec_result ec_camera_look(const ec_viewpoint *v, const double center[3], ec_camer
         finite = finite && isfinite(camera->position[i]) && isfinite(up[i]);
     }
     if (!finite || !ec_normalize(forward))
-        return ec_fail(err, "a camera at %g,%g,%g cannot look at %g,%g,%g: give two points that are apart", v->eye[0],
+        return ec_fail(err, "a camera at %g,%g,%g cannot look at %g,%g,%g: give two different points", v->eye[0],
                        v->eye[1], v->eye[2], v->target[0], v->target[1], v->target[2]);
     set_frame(camera, forward, up);
     return EC_OK;

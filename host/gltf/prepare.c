@@ -36,7 +36,7 @@ ec_result ec_flatten_prepare(ec_gltf *g, const ec_placement_list *placements, ec
     if (skipped.no_positions)
         ec_warn(log, "%s: %u primitives without POSITION are left out", g->path, skipped.no_positions);
     if (skipped.left_over)
-        ec_warn(log, "%s: %u primitives have corners left over, too few for a triangle; those are left out", g->path, skipped.left_over);
+        ec_warn(log, "%s: %u primitives have leftover vertices, too few for a triangle; these are left out", g->path, skipped.left_over);
     scene->skipped_primitives = skipped.no_positions;
     return EC_OK;
 }

@@ -38,7 +38,7 @@ ec_result ec_pose_skin(ec_gltf *g, int32_t skin, const ec_placement_list *placem
         float stored[16];
         double matrix[16];
         if (at < 0)
-            return ec_fail(err, "%s: skins[%d] has nodes[%d] as a joint, which is not in the scene of the mesh",
+            return ec_fail(err, "%s: skins[%d] has nodes[%d] as a joint, but that node is not in the mesh's scene",
                            g->path, skin, node);
         if (bind) ec_gltf_accessor_floats(bind, pose->joint_count, 16, stored);
         for (int i = 0; i < 16; i++) matrix[i] = bind ? (double)stored[i] : identity[i];
@@ -69,7 +69,7 @@ ec_result ec_pose_blend(const ec_gltf *g, const ec_gltf_primitive *p, const ec_p
         for (int i = 0; i < 4; i++) {
             if (!(weight[i] > 0) || !isfinite(weight[i])) continue;
             if (!(joint[i] < (float)pose->joint_count))
-                return ec_fail(err, "%s: %s: vertex %u hangs on joint %g, but its skin has %u", g->path, where, vertex,
+                return ec_fail(err, "%s: %s: vertex %u uses joint %g, but its skin has %u joints", g->path, where, vertex,
                                (double)joint[i], pose->joint_count);
             add(blend, &pose->joints[(uint32_t)joint[i]], weight[i]);
             total += weight[i];

@@ -136,7 +136,7 @@ static void decode(const table *t, picture *p)
 static const char *instead_of(const table *t)
 {
     bool directions = t->slot == EC_SLOT_NORMAL || t->slot == EC_SLOT_CLEARCOAT_NORMAL || t->slot == EC_SLOT_ANISOTROPY;
-    return directions ? "the map is left out" : "taken as white";
+    return directions ? "the map is left out" : "it is taken as white";
 }
 
 static int64_t take_picture(table *t, picture *p)
@@ -177,7 +177,7 @@ static int64_t map_texture(table *t, int32_t index)
     if (t->texture[index] != UNSEEN) return t->texture[index];
     const ec_gltf_texture *in = &t->g->textures[index];
     if (in->image < 0)
-        ec_warn(t->log, "%s: textures[%d] has no image in a format that is read; %s", t->g->path, index, instead_of(t));
+        ec_warn(t->log, "%s: textures[%d] has no image in a supported format; %s", t->g->path, index, instead_of(t));
     int64_t image = in->image < 0 ? UNUSABLE : take_picture(t, picture_of(t, index));
     if (image < 0) return t->texture[index] = UNUSABLE;
     t->s->textures[t->s->texture_count] = (ec_texture){(uint32_t)image, in->wrap_s, in->wrap_t, in->nearest};

@@ -94,7 +94,7 @@ static ec_result allocate(ec_thick_mesh *m, uint64_t parts, ec_error *err)
 {
     const uint64_t vertices = parts * ec_ball_vertices(m), indices = parts * ec_ball_indices(m);
     if (vertices > INT32_MAX || indices * 4 + vertices * 64 > ec_memory_of_machine())
-        return ec_fail(err, "%s: %llu points or lines are more than fit as surfaces", m->g->path, (unsigned long long)parts);
+        return ec_fail(err, "%s: %llu points or lines are too many to be made into surfaces", m->g->path, (unsigned long long)parts);
     bool ok = (m->indices = malloc((size_t)indices * sizeof *m->indices)) != NULL;
     for (int i = 0; i < EC_STREAMS; i++) {
         if (i == EC_TANGENT || (i > EC_NORMAL && m->from->streams.of[i] < 0)) continue;

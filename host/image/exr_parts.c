@@ -14,7 +14,7 @@ struct ec_exr_file {
 
 static ec_result damaged(const ec_exr_file *file, exr_result_t code, ec_error *err)
 {
-    return ec_fail(err, "cannot read '%s': %s; the file is damaged, take an older one or render it again", file->input.path,
+    return ec_fail(err, "cannot read '%s': %s; the file is damaged; use an older one or render it again", file->input.path,
                    ec_exr_reason(&file->input, code));
 }
 

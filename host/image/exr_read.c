@@ -67,7 +67,7 @@ static ec_result allocate_planes(const ec_exr_input *in, const exr_attr_chlist_t
     for (uint64_t i = 0; i < count; i++) planes += is_wanted(wanted, list->entries[i].name.str);
     const uint64_t bytes = pixels * planes * sizeof(float), free_now = ec_memory_free(); /* or memory is promised, and the process killed later */
     if (bytes > free_now)
-        return ec_fail(err, "cannot read '%s': %u x %u pixels with %llu channels take %.1f GB of memory, and %.1f are free; crop it", in->path, exr->width,
+        return ec_fail(err, "cannot read '%s': %u x %u pixels with %llu channels need %.1f GB of memory, but %.1f GB are free; crop it", in->path, exr->width,
                        exr->height, (unsigned long long)planes, (double)bytes / 1e9, (double)free_now / 1e9);
     exr->names = calloc(count, sizeof *exr->names);
     exr->planes = calloc(count, sizeof *exr->planes);

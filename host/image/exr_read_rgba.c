@@ -14,7 +14,7 @@ static ec_result copy_planes(const char *path, const ImfRgba *pixels, ec_exr *ex
     for (uint32_t c = 0; c < exr->channel_count; c++) {
         const char *name = exr->names[c];
         if (!name[0] || name[1] || !strchr("RGBA", name[0]))
-            return ec_fail(err, "cannot read '%s': of a DWA compressed file only R, G, B and A are read, not channel '%s'; "
+            return ec_fail(err, "cannot read '%s': only R, G, B and A of a DWA-compressed file are read, not channel '%s'; "
                                 "save it with ZIP compression", path, name);
         for (uint64_t i = 0; exr->planes[c] && i < count; i++) {
             const ImfRgba *p = &pixels[i];

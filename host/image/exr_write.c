@@ -215,7 +215,7 @@ static ec_result write_header_again(ec_exr_rows *rows, const ec_exr_part *part, 
     bool fits = code == EXR_ERR_SUCCESS && header.size == rows->header_size;
     if (fits && write_all(NULL, rows, header.bytes, header.size, 0, NULL) < 0) code = EXR_ERR_WRITE_IO;
     if (code != EXR_ERR_SUCCESS) return failed(rows, code, err);
-    return fits ? EC_OK : ec_fail(err, "cannot write '%s': what is told of the picture does not fit its header", rows->path);
+    return fits ? EC_OK : ec_fail(err, "cannot write '%s': its attributes do not fit into its header", rows->path);
 }
 
 ec_result ec_exr_rows_end(ec_exr_rows *rows, const ec_attribute *attributes, uint32_t attribute_count, ec_error *err)

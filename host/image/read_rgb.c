@@ -17,7 +17,7 @@ static ec_result exr_to_rgb(const char *path, uint32_t *width, uint32_t *height,
     if (!planes[0] && !planes[1] && !planes[2]) planes[0] = planes[1] = planes[2] = ec_exr_plane(&exr, "Y");
     uint64_t pixels = (uint64_t)exr.width * exr.height;
     if (!planes[0] || !planes[1] || !planes[2])
-        result = ec_fail(err, "cannot read '%s': it has no channels R, G, B (nor Y); its first channel is '%s'", path,
+        result = ec_fail(err, "cannot read '%s': it has no channels R, G, B (or Y); its first channel is '%s'", path,
                          exr.names[0]);
     else if (!(*rgb = malloc(pixels * 3 * sizeof(float))))
         result = ec_fail(err, "cannot read '%s': %u x %u pixels do not fit into memory", path, exr.width, exr.height);

@@ -40,12 +40,12 @@ static ec_result check(int fd, const char *path, ec_error *err)
     off_t size = lseek(fd, 0, SEEK_END);
     int is_sealed = size > SEAL_SIZE && pread(fd, seal, SEAL_SIZE, size - SEAL_SIZE) == SEAL_SIZE && !memcmp(seal, mark, MARK_SIZE);
     if (!is_sealed)
-        return ec_fail(err, "cannot read '%s': it is no checkpoint or slice of eclat's, or was cut short; give the file that --checkpoint "
+        return ec_fail(err, "cannot read '%s': it is not a checkpoint or slice of eclat, or is cut short; give the file that --checkpoint "
                             "or --samples wrote", path);
     int failed = digest_of(fd, size - SEAL_SIZE, digest);
     if (failed) return ec_fail(err, "cannot read '%s': %s", path, strerror(failed));
     if (!memcmp(digest, seal + MARK_SIZE, sizeof digest)) return EC_OK;
-    return ec_fail(err, "cannot read '%s': it is not as it was written, its check sum is another; take an older one or render it again", path);
+    return ec_fail(err, "cannot read '%s': its checksum does not match, so it is damaged; use an older one or render it again", path);
 }
 
 ec_result ec_seal_check(const char *path, ec_error *err)

@@ -5,7 +5,7 @@
 /* Each has an enum, a name, and a text for help. Options, reports, the library and the manual use these rows. */
 #define EC_TONE_CURVES(ROW) \
     ROW(NEUTRAL, "neutral", "Khronos PBR Neutral") \
-    ROW(NONE, "none", "what is over 1 is cut off") \
+    ROW(NONE, "none", "values over 1 are cut off") \
     ROW(ACES, "aces", "Hill's fit of ACES, as ACESFilmic in three.js") \
     ROW(AGX, "agx", "AgX as in three.js") \
     ROW(FILMIC, "filmic", "Hejl and Burgess-Dawson's, as Cineon in three.js")

@@ -67,7 +67,7 @@ ec_result ec_parse_channels(const char *option, const char *text, ec_channel_set
         const size_t size = strcspn(word, ",");
         const ec_channel_set found = named(word, size);
         if (!found)
-            return ec_usage(err, "--%s: '%.*s' is no channel; give all, default, A, samples, stderr, low95, high95, heavy, clamped, denoised, best, albedo, "
+            return ec_usage(err, "--%s: '%.*s' is not a channel; give all, default, A, samples, stderr, low95, high95, heavy, clamped, denoised, best, albedo, "
                                  "normal, depth, direct, indirect, position, uv, motion, cryptomatte, CryptoObject, CryptoMaterial, CryptoAsset or a single channel of a layer, such as stderr.Y, separated by commas", option, EC_CUT(word, size < 80 ? (int)size : 80));
         *set |= found;
         word += size;

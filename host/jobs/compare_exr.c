@@ -50,7 +50,7 @@ static ec_result weave(const char *path, const ec_exr *exr, const char *const *n
     }
     if (!broken) return EC_OK;
     return ec_fail(err, "cannot compare '%s': %llu of its values %s NaN or infinite, the first in pixel (%llu, %llu); render it again or "
-                   "mend the pixels", path, (unsigned long long)broken, broken == 1 ? "is" : "are",
+                   "repair the pixels", path, (unsigned long long)broken, broken == 1 ? "is" : "are",
                    (unsigned long long)(first % exr->width), (unsigned long long)(first / exr->width));
 }
 

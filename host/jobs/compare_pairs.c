@@ -83,7 +83,7 @@ static ec_result match(const char *a, const char *b, ec_compare_pairs *pairs, ec
         else pairs->alone++;
     }
     if (result == EC_OK && pairs->count == 0)
-        result = ec_fail(err, "nothing to compare: no picture in '%s' is called like one in '%s', but for the ending", a, b);
+        result = ec_fail(err, "nothing to compare: no picture in '%s' has the name of one in '%s', apart from the extension", a, b);
     free_list(of_a, count_a);
     free_list(of_b, count_b);
     return result;

@@ -7,6 +7,6 @@ ec_result ec_require_denoiser(ec_denoiser asked, ec_denoiser *found, const ec_lo
     if (asked == EC_DENOISER_NONE) return EC_OK;
     EC_TRY(ec_denoiser_find(asked, found, err));
     if (asked == EC_DENOISER_AUTO && *found == EC_DENOISER_ATROUS)
-        ec_note(log, "Intel's Open Image Denoise is not installed (the system's package of it, version 2, or 'pip install pyoidn'); --denoise filters by itself, which leaves more of the noise");
+        ec_note(log, "Intel's Open Image Denoise is not installed (version 2 of the system's package, or 'pip install pyoidn'); --denoise uses eclat's own filter, which leaves more noise");
     return EC_OK;
 }

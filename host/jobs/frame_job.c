@@ -117,8 +117,8 @@ static ec_frame_state look_at(const ec_output *output, const ec_identity *identi
         if (!is_whole) snprintf(difference, size, "'%s' is damaged", output->path);
         return is_whole ? EC_FRAME_DONE : EC_FRAME_DAMAGED;
     }
-    if (!is_frame) snprintf(what, sizeof what, "it is no frame of a sequence, or damaged");
-    snprintf(difference, size, "'%s' is there already: %s", output->path, what);
+    if (!is_frame) snprintf(what, sizeof what, "it is not a frame of a sequence, or is damaged");
+    snprintf(difference, size, "'%s' already exists: %s", output->path, what);
     return EC_FRAME_OTHER;
 }
 

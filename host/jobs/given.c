@@ -123,7 +123,7 @@ ec_result ec_given_read(ec_given_options *given, const char **operand, int argc,
         }
         const ec_option *row = find_word(word, rows, row_count);
         const bool is_apart = row && ec_option_takes_value(row) == true && !equals;
-        if (!row || (is_apart && i + 1 == argc) || (equals && !row->metavar)) return ec_usage(err, "'%s' is no option, or lacks its value", word);
+        if (!row || (is_apart && i + 1 == argc) || (equals && !row->metavar)) return ec_usage(err, "'%s' is not an option, or lacks its value", word);
         EC_TRY(ec_given_add(given, row->name, is_apart ? argv[++i] : equals ? equals + 1 : NULL, err));
     }
     return EC_OK;

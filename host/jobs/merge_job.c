@@ -14,7 +14,7 @@ static ec_result take_slices(char **paths, int count, bool is_partial, ec_merge 
     for (int i = 0; i < count; i++) EC_TRY(ec_merge_take(merge, paths[i], log, err));
     if (!ec_merge_missing(merge, missing, sizeof missing)) return EC_OK;
     if (!is_partial) return ec_fail(err, "samples %s are missing; render them with --samples, or write what there is with --partial", missing);
-    ec_warn(log, "samples %s are missing: the picture is of the others", missing);
+    ec_warn(log, "samples %s are missing; the picture is made of the others", missing);
     return EC_OK;
 }
 

@@ -131,7 +131,7 @@ ec_result ec_parse_size(const char *option, const char *text, uint32_t *width, u
     if (w < 1 || h < 1 || w > EC_SIZE_MAX_SIDE || h > EC_SIZE_MAX_SIDE)
         return ec_usage(err, "--%s: '%s': each side must be from 1 to %d pixels", option, text, EC_SIZE_MAX_SIDE);
     if (w * h > EC_SIZE_MAX_PIXELS)
-        return ec_usage(err, "--%s: '%s' is more than %d pixels in all", option, text, EC_SIZE_MAX_PIXELS);
+        return ec_usage(err, "--%s: '%s' has more than %d pixels in all", option, text, EC_SIZE_MAX_PIXELS);
     *width = (uint32_t)w;
     *height = (uint32_t)h;
     return EC_OK;

@@ -66,7 +66,7 @@ ec_result ec_outputs_add(ec_outputs *outputs, const char *path, ec_error *err)
         return ec_usage(err, "-o: '%s' has no known extension; use .exr (all data), .png, .jpg, .avif or .jxl (picture), or .hdr (radiance)", path);
     const ec_format *format = kind == EC_OUTPUT_EXR ? NULL : &ec_formats[kind - EC_OUTPUT_PIXELS];
     if (format && format->encode && !*format->encode)
-        return ec_usage(err, "-o: '%s' takes %s, which this eclat was built without; write a .png, or build eclat with %s-dev", path, format->library, format->library);
+        return ec_usage(err, "-o: '%s' needs %s, which this eclat was built without; write a .png, or build eclat with %s-dev", path, format->library, format->library);
     if (strlen(path) >= sizeof outputs->file[0].path)
         return ec_usage(err, "-o: the path is longer than %d bytes", PATH_MAX - 1);
     for (int i = 0; i < outputs->count; i++)
@@ -91,7 +91,7 @@ ec_result ec_outputs_add_named(ec_outputs *outputs, const char *scene, ec_error 
         size += vsnprintf(path + stem, PATH_MAX - (size_t)stem, ending, args);
         va_end(args);
     }
-    if (stem == 0 || size >= PATH_MAX) return ec_usage(err, "'%s' gives the picture no name: add -o FILE", scene);
+    if (stem == 0 || size >= PATH_MAX) return ec_usage(err, "'%s' gives no name for the picture; add -o FILE", scene);
     return ec_outputs_add(outputs, path, err);
 }
 
@@ -151,6 +151,6 @@ void ec_outputs_check_room(const ec_outputs *outputs, uint64_t pixel_count, ec_c
         uint64_t needed = pixel_count * (output->kind == EC_OUTPUT_EXR ? ec_channels_bytes(channels) : 3), /* uncompressed */
                  room = room_for(output->path);
         if (needed <= room) continue;
-        ec_warn(log, "'%s' may take up to %s, and its disk has %s left", output->path, ec_bytes(needed).text, ec_bytes(room).text);
+        ec_warn(log, "'%s' may need up to %s, but its disk has %s left", output->path, ec_bytes(needed).text, ec_bytes(room).text);
     }
 }

@@ -48,7 +48,7 @@ ec_result ec_render_job_take_up(ec_render_job *job, const ec_given_options *now,
     const char *path = job->request->resume;
     EC_TRY(ec_store_read(path, &job->stored, err));
     if (job->stored.job.merged)
-        return ec_fail(err, "cannot go on from '%s': it was merged; render what is missing with --samples, and merge that", path);
+        return ec_fail(err, "cannot continue from '%s': it was merged; render what is missing with --samples, and merge that", path);
     EC_TRY(ec_render_request_resume(&job->stored.job, now, job->request, &job->before, err));
     EC_TRY(make_command(job, now, err));
     job->job.argc = job->stored.job.argc;
@@ -57,7 +57,7 @@ ec_result ec_render_job_take_up(ec_render_job *job, const ec_given_options *now,
     const ec_render_request *r = job->request;
     const uint32_t first = r->has_slice ? r->options.slice_first : 0, end = r->has_slice ? r->options.slice_end : 0;
     if (first != job->stored.job.first || end != job->stored.job.end)
-        return ec_fail(err, "cannot go on from '%s': it is of other samples than --samples %u:%u; leave that out", path,
+        return ec_fail(err, "cannot continue from '%s': its samples are not --samples %u:%u; leave that out", path,
                        r->slice_first, r->slice_end);
     return EC_OK;
 }
@@ -90,12 +90,12 @@ static ec_result admit(void *user, const ec_render_stats *stats, ec_error *err)
         return EC_OK;
     }
     if (ec_identity_differs(&job->stored.job.identity, &job->job.identity, difference, sizeof difference))
-        return ec_fail(err, "cannot go on from '%s': %s; use the scene, options and version that it was made with, or start anew",
+        return ec_fail(err, "cannot continue from '%s': %s; use the scene, options and version that it was made with, or start anew",
                        job->request->resume, difference);
     if (!ec_layers_are_same(&job->film.layers, &job->request->options.layers))
-        return ec_fail(err, "cannot go on from '%s': it has not the layers of its own command; take an older file, or start anew", job->request->resume);
+        return ec_fail(err, "cannot continue from '%s': it lacks the layers of its own command; use an older file, or start anew", job->request->resume);
     if (strcmp(job->stored.job.device, job->device_text))
-        ec_warn(log, "'%s' was rendered on %s: where that rounds otherwise than %s, the last bits are not those of one run",
+        ec_warn(log, "'%s' was rendered on %s; where that rounds differently from %s, the last bits are not those of a single run",
                 job->request->resume, job->stored.job.device, job->device_text);
     return EC_OK;
 }
@@ -177,7 +177,7 @@ ec_course ec_render_job_course(ec_render_job *job)
     job->job.error_target = request->options.error_target;
     job->job.time_limit = request->options.time_limit;
     request->options.identify = request->has_slice || request->checkpoint;
-    const char *whole_for = job->in_memory ? "a picture without output files" : ec_render_whole_for(request);
+    const char *whole_for = job->in_memory ? "a render without output files" : ec_render_whole_for(request);
     ec_course course = {.admit = request->options.identify ? admit : NULL,
                         .loaded = drop_scene,
                         .keep = request->checkpoint || request->snapshot ? keep : NULL,

@@ -52,7 +52,7 @@ static ec_result finish_rows(ec_render_job *job, ec_render_report *report, ec_er
     ec_row_writer *rows = job->rows;
     EC_TRY(ec_row_writer_finish(rows, &told, err));
     if (told.rows < height)
-        ec_warn(&job->listener->log, "the strips from row %u on are not complete: they have no samples (0 in the samples channel) and are black", told.rows);
+        ec_warn(&job->listener->log, "the strips from row %u on are incomplete: they have no samples (0 in the samples channel) and are black", told.rows);
     job->stats.film = told.error;
     report->mean_luminance = told.error.mean_luminance;
     report->replicates = told.replicates;
@@ -76,7 +76,7 @@ ec_result ec_render_job_deliver(ec_render_job *job, double start, ec_error *err)
     report.total_seconds = ec_now() - start;
     report.peak_memory_bytes = ec_peak_memory_bytes();
     if (job->stats.invalid_samples > 0)
-        ec_warn(&job->listener->log, "%llu samples were not finite and count as black: please report the scene", (unsigned long long)job->stats.invalid_samples);
+        ec_warn(&job->listener->log, "%llu samples were not finite and count as black; please report the scene", (unsigned long long)job->stats.invalid_samples);
     EC_TRY(ec_render_job_tell(job, &report, err));
     return denoised == EC_OK ? EC_OK : ec_fail(err, "%s; the picture is written as it is", undenoised.text);
 }

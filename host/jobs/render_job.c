@@ -106,13 +106,13 @@ ec_result ec_render_job_light(ec_render_job *job, ec_error *err)
         job->scene->environment.lent = true;
         job->scene->has_environment = job->share->has_environment;
     } else if (environment) {
-        if (job->scene->has_environment) ec_note(log, "--light takes the place of the image-based light that the scene has");
+        if (job->scene->has_environment) ec_note(log, "--light replaces the scene's image-based light");
         EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
     } else if (!job->request->adjusts_env) {
         ec_scene_light light;
         EC_TRY(ec_scene_find_light(job->scene, &light, err));
         if (!light.any) {
-            ec_note(log, "the scene has no light: the built-in studio lights it (--light takes another)");
+            ec_note(log, "the scene has no light; the built-in studio lights it (--light chooses another)");
             environment = EC_STUDIO;
             EC_TRY(ec_scene_set_environment(job->scene, environment, log, err));
         }
@@ -138,7 +138,7 @@ static ec_result check_memory(const ec_render_job *job, ec_error *err)
     const ec_render_options *options = &job->request->options;
     const uint32_t peers = job->ranks ? (uint32_t)ec_ranks_count(job->ranks) - 1 : 0;
     const char *reason = ec_render_whole_for(job->request), *instead = "leave it out";
-    if (job->in_memory) reason = "a picture without output files", instead = "name one by the option output";
+    if (job->in_memory) reason = "a render without output files", instead = "name one by the option output";
     if (peers) reason = "an MPI job", instead = "start one process without mpirun";
     if (job->device_count > 1) reason = "more than one --device", instead = "name one";
     uint64_t needed = ec_strip_whole_for(options, job->devices, job->device_count, peers);

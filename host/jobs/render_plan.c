@@ -107,10 +107,10 @@ ec_result ec_render_plan(ec_render_job *job, ec_plan *plan, ec_error *err)
     ec_cl_close(&cl);
     listener->end(listener->user);
     EC_TRY(result);
-    if (!(p.last.samples > p.first.samples)) return ec_fail(err, "--plan: the pilot was over before its second round; give more --spp or --time");
+    if (!(p.last.samples > p.first.samples)) return ec_fail(err, "--plan: the pilot ended before its second round; give more --spp or --time");
     const ec_render_stats *s = &job->stats;
     const double samples = options.spp ? options.spp : s->forecast.samples;
-    if (!(samples < 1e9)) return ec_fail(err, "--plan: how many samples it takes is not known; give --spp N, or an --error that a pilot can predict");
+    if (!(samples < 1e9)) return ec_fail(err, "--plan: the number of samples is unknown; give --spp N, or an --error that a pilot can predict");
     uint32_t before;
     const double batches = ec_schedule_find(replicates, (uint64_t)samples, &before) + (before > 0), a_batch = samples / batches;
     const double a_sample = (p.last.seconds - p.first.seconds) / (p.last.samples - p.first.samples) * (double)p.pixels;

@@ -37,7 +37,7 @@ static char *say_how_to_go_on(const ec_render_job *job)
 {
     char *words[] = {(char *)job->program, (char[]){"render"}, (char[]){"--resume"}, (char *)job->request->checkpoint};
     char *command = job->request->checkpoint && !is_complete(job) ? ec_command_line(4, words) : NULL;
-    if (command) ec_say(&job->listener->log, "should this be cut off, it goes on from the last checkpoint with: %s", command);
+    if (command) ec_say(&job->listener->log, "if this is interrupted, continue from the last checkpoint with: %s", command);
     return command;
 }
 
@@ -45,10 +45,10 @@ static char *say_how_to_go_on(const ec_render_job *job)
 static void hint_at_resume(const ec_render_job *job, const char *command)
 {
     char hint[5000];
-    const char *how = job->share != NULL ? "the same command goes on behind what is done"
-                      : command ? "it goes on from the last checkpoint, alone or behind mpirun, with: "
-                                : "with --checkpoint FILE it could be gone on with";
-    snprintf(hint, sizeof hint, "asked to stop, as mpirun asks all where one rank has died; %s%s", how, command ? command : "");
+    const char *how = job->share != NULL ? "the same command continues after what is done"
+                      : command ? "continue from the last checkpoint, alone or under mpirun, with: "
+                                : "with --checkpoint FILE it could be continued";
+    snprintf(hint, sizeof hint, "asked to stop, as by mpirun when a rank has died; %s%s", how, command ? command : "");
     job->listener->hint(job->listener->user, hint);
 }
 
@@ -81,12 +81,12 @@ static void announce(const ec_render_job *job)
         snprintf(range, sizeof range, "samples %u to %u of ", job->request->slice_first, job->request->slice_end);
     const unsigned long long there = samples_there(job);
     if (is_complete(job)) {
-        ec_say(&job->listener->log, "'%s' has %llu samples a pixel already, and %u are asked for: the picture is written "
+        ec_say(&job->listener->log, "'%s' already has %llu samples a pixel, and %u are asked for; the picture is written "
                        "as it is", job->request->resume, there, samples_asked(job->request));
         return;
     }
     if (job->request->resume)
-        ec_say(&job->listener->log, "going on from '%s', %llu samples a pixel", job->request->resume, there);
+        ec_say(&job->listener->log, "continuing from '%s' at %llu samples a pixel", job->request->resume, there);
     if (job->share && job->frame.name)
         snprintf(range, sizeof range, "%.*s (%u of %u): ", EC_CUT(job->frame.name, 80), job->frame.place, job->frame.count);
     else if (job->share)
@@ -105,7 +105,7 @@ static void warn_of_rounding(const ec_render_job *job, const ec_log *log)
         for (uint32_t k = 0; k < job->device_count; k++)
             is_alike &= !strcmp(one->name, job->devices[k].name) && !strcmp(one->driver, job->devices[k].driver);
         if (is_alike || ec_device_rounds(one)) continue;
-        ec_warn(log, "%s does not say that it rounds division and square root correctly: where it does not, the last bits are not those of one "
+        ec_warn(log, "%s does not say that it rounds division and square root correctly; if it does not, the last bits differ from those of one "
                      "device", one->name);
     }
 }
@@ -120,7 +120,7 @@ static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *
             job->devices[count] = job->devices[i];
             job->device_indices[count++] = job->device_indices[i];
         } else if (count || i + 1 < wanted) {
-            ec_warn(log, "%s is out, and the others take over its work: %s", job->devices[i].name, why.text);
+            ec_warn(log, "%s has failed, and the others take over its work: %s", job->devices[i].name, why.text);
         } else if (err) {
             *err = why;
         }
@@ -156,7 +156,7 @@ static void cast_shadow(ec_render_job *job, ec_cl *cl)
     if (spp < LEAST_OF_SHADOW) spp = LEAST_OF_SHADOW;
     if (ec_shadow_cast(cl, job->scene, &job->request->options, (uint32_t)spp, listener->progress, listener->user, &job->film, &job->shadow_error, &listener->log,
                        &why) != EC_OK)
-        ec_warn(&listener->log, "no shadow is in the alpha: %s", why.text);
+        ec_warn(&listener->log, "the alpha has no shadow: %s", why.text);
 }
 
 ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
@@ -170,8 +170,8 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     listener->begin(listener->user, &job->request->options, true); /* before this there is nothing to save */
     if (job->ranks) ec_ranks_note_binding(job->ranks, job->devices, job->device_count, log);
     else if (!job->share && !job->request->has_slice && ec_ranks_apart() > 1)
-        ec_warn(log, "srun started %d processes that know nothing of one another: each renders all of the picture; with 'srun --mpi=pmix', or what "
-                      "'srun --mpi=list' has, they render it together", ec_ranks_apart());
+        ec_warn(log, "srun started %d processes that do not know of one another, so each renders the whole picture; with 'srun --mpi=pmix', or "
+                      "a type that 'srun --mpi=list' shows, they render it together", ec_ranks_apart());
     announce(job);
     char *going_on = say_how_to_go_on(job);
     if (job->ranks) hint_at_resume(job, going_on);
@@ -185,10 +185,10 @@ ec_result ec_render_job_run(ec_render_job *job, ec_error *err)
     const bool has_picture = job->film.batch_count || job->rows;
     if (result == EC_OK && !has_picture) result = ec_fail(err, "no batch of samples was finished");
     if (result != EC_OK && !has_picture && listener->should_stop(listener->user) && job->has_kept)
-        return ec_fail(err, "interrupted before there was a picture; 'eclat render --resume %s' goes on", job->request->checkpoint);
+        return ec_fail(err, "interrupted before there was a picture; 'eclat render --resume %s' continues", job->request->checkpoint);
     if (result != EC_OK && !has_picture && listener->should_stop(listener->user))
         return ec_fail(err, "interrupted before there was a picture; nothing is written");
     if (result == EC_OK && job->film.unsampled && job->request->checkpoint && !job->has_kept && !*job->keep_error.text)
-        ec_warn(log, "no checkpoint is written: there was no whole wave of samples yet");
+        ec_warn(log, "no checkpoint is written, since no wave of samples was complete");
     return result;
 }

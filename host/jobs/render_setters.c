@@ -43,7 +43,7 @@ SETTER(up)
     const double *up = REQUEST->look.to.up;
     REQUEST->look.has_up = true;
     EC_TRY(ec_parse_triple(option, value, REQUEST->look.to.up, err));
-    if (up[0] == 0 && up[1] == 0 && up[2] == 0) return ec_usage(err, "--%s: '%s' is no direction", option, value);
+    if (up[0] == 0 && up[1] == 0 && up[2] == 0) return ec_usage(err, "--%s: '%s' is not a direction; give three numbers, not all 0", option, value);
     return EC_OK;
 }
 
@@ -73,8 +73,8 @@ SETTER(fog)
 {
     double fog[3];
     EC_TRY(ec_parse_triple(option, value, fog, err));
-    if (!(fog[0] >= 0 && fog[0] <= 1e30)) return ec_usage(err, "--%s: '%s': the first number, what fog takes of light per metre, must be from 0 to 1e30", option, value);
-    if (!(fog[1] >= 0 && fog[1] <= 1)) return ec_usage(err, "--%s: '%s': the second number, the share that is scattered, must be from 0 to 1", option, value);
+    if (!(fog[0] >= 0 && fog[0] <= 1e30)) return ec_usage(err, "--%s: '%s': the first number, the extinction per metre, must be from 0 to 1e30", option, value);
+    if (!(fog[1] >= 0 && fog[1] <= 1)) return ec_usage(err, "--%s: '%s': the second number, the scattering albedo, must be from 0 to 1", option, value);
     if (!(fabs(fog[2]) <= 0.999)) return ec_usage(err, "--%s: '%s': the third number, the mean cosine, must be from -0.999 to 0.999", option, value);
     memcpy(REQUEST->options.fog, fog, sizeof fog);
     return EC_OK;
@@ -193,7 +193,7 @@ SETTER(rr)
     double survival = !strcmp(value, "off");
     if (survival == 0 && strcmp(value, "auto") &&
         (ec_parse_real(option, value, 0, 1, &survival, err) != EC_OK || survival == 0))
-        return ec_usage(err, "--%s: '%s' is neither a probability over 0 and up to 1 nor auto nor off", option, value);
+        return ec_usage(err, "--%s: '%s' is neither a probability above 0 and up to 1, nor auto or off", option, value);
     REQUEST->options.survival = survival;
     return EC_OK;
 }

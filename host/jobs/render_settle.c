@@ -39,7 +39,7 @@ static ec_result check_plan(const ec_option *options, int count, const bool *giv
     if (!plan || !given[plan - options]) return EC_OK;
     for (int i = 0; i < count; i++)
         if (given[i] && options[i].uses & EC_OPTION_PART)
-            return ec_usage(err, "--plan and --%s: a plan needs one whole picture from its first sample on; leave --%s out", options[i].name,
+            return ec_usage(err, "--plan and --%s: a plan needs one whole picture, from the first sample on; leave --%s out", options[i].name,
                             options[i].name);
     return EC_OK;
 }
@@ -54,7 +54,7 @@ ec_result ec_combinations_check_grid(double density, const char *accel, bool tak
 static ec_result check_shutter(const ec_scene_choice *choice, ec_error *err)
 {
     if (!choice->shutter || !choice->at_given) return EC_OK;
-    return ec_usage(err, "--at shows one moment and --shutter all from one to another; give one of them");
+    return ec_usage(err, "--at shows one moment, --shutter all from one to another; give one of them");
 }
 
 static ec_result check_combinations(const ec_option *options, int count, const bool *given, const ec_render_options *asked,
@@ -191,7 +191,7 @@ static ec_result check_scenarios(const ec_render_request *request, ec_error *err
     if (!request->scenarios && request->folder) return ec_usage(err, "--out belongs to --scenarios; other pictures are named with -o");
     if (!request->scenarios) return EC_OK;
     if (!request->folder || !*request->folder) return ec_usage(err, "--scenarios needs --out FOLDER, for its pictures");
-    if (request->outputs.count) return ec_usage(err, "--scenarios and -o: each picture is called as its scenario, in the folder of --out; leave -o out");
+    if (request->outputs.count) return ec_usage(err, "--scenarios and -o: each picture is named after its scenario, in the folder of --out; leave -o out");
     if (request->frames.given) return ec_usage(err, "--scenarios and --frames: a scenario is one picture, from one place; leave --frames and --orbit out");
     return EC_OK;
 }
@@ -204,8 +204,8 @@ static ec_result settle_channels(const ec_render_request *request, ec_error *err
 {
     if (!request->channels) return EC_OK;
     if (request->has_slice && request->channels & ec_channels_all() & ~ec_channels_of(EC_PLANE_RGB))
-        return ec_usage(err, "--samples and --channels: a slice holds all of them; name none but layers, as direct, or leave --channels out");
-    return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--channels are those of an EXR, and -o names none; leave it out or write one too");
+        return ec_usage(err, "--samples and --channels: a slice holds all of them; name only layers, such as direct, or leave --channels out");
+    return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--channels belongs to an EXR, and -o names none; leave it out or write one too");
 }
 
 /* Finds layers and mattes, and refuses options that do not go with them. */
@@ -222,12 +222,12 @@ static ec_result settle_layers(ec_render_request *request, ec_error *err)
     const char *other = request->snapshot ? "snapshot" : o->layers.mattes ? keeps : NULL;
     if (other) return ec_usage(err, "--%s and --%s: checkpoints, slices and snapshots do not store these layers; leave one out", o->layers.mattes ? "channels cryptomatte" : what, other);
     if (o->clamp > 0) return ec_usage(err, "--%s and --clamp: a clamp takes light from the sum, and no layer says which; leave one out", what);
-    if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths know no layers; leave one out", what);
+    if (any_light && o->light_paths > 0) return ec_usage(err, "--%s and --light-paths: light paths have no layers; leave one out", what);
     if (any_light && o->integrator != EC_INTEGRATOR_PATH) return ec_usage(err, "--%s belongs to --integrator path; leave it out or choose that", what);
     if (o->layers.kinds >> EC_LAYER_MOTION & 1 && !request->choice.shutter)
         return ec_usage(err, "--channels motion tells how far things go while the shutter is open; give --shutter A:B too");
     if (o->wave > EC_LAYER_WAVE_MOST) return ec_usage(err, "--%s: --wave can be %u at most; give fewer", what, EC_LAYER_WAVE_MOST);
-    return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--%s: layers are those of an EXR, and -o names none; write one too", what);
+    return writes_exr(&request->outputs) ? EC_OK : ec_usage(err, "--%s: only an EXR has layers, and -o names none; write one too", what);
 }
 
 /* Checks --ocio, whose views are for pictures shown on a screen. */
@@ -244,7 +244,7 @@ static ec_result settle_ocio(const ec_render_request *request, const ec_option *
 static ec_result settle_files(const ec_render_request *request, ec_error *err)
 {
     const bool is_clear = request->background.kind == EC_BACKDROP_TRANSPARENT;
-    if (request->has_slice && request->options.hides_environment) return ec_usage(err, "--background and --samples: merging knows no background; leave one out");
+    if (request->has_slice && request->options.hides_environment) return ec_usage(err, "--background and --samples: eclat merge has no backgrounds; leave one out");
     for (int i = 0; i < request->outputs.count; i++) {
         const ec_format *format = ec_output_format(&request->outputs.file[i]);
         const char *path = request->outputs.file[i].path;

@@ -108,7 +108,7 @@ static ec_result give_picture(const reading *r, const cJSON *scenario, ec_entry 
     if (exposure) EC_TRY(give(r, entry, "exposure", err, "%.9g", log2(cJSON_GetNumberValue(exposure))));
     if (!lighting || ec_given_has(r->given, "env") || ec_given_has(r->given, "light")) return EC_OK;
     const bool fits = snprintf(path, sizeof path, "%.*s%s", *lighting == '/' ? 0 : r->base, r->file, lighting) < (int)sizeof path;
-    if (!fits || access(path, R_OK) != 0) return ec_fail(err, "its \"lighting\", '%s', cannot be read; put it there, or light all by another map with --env FILE", path);
+    if (!fits || access(path, R_OK) != 0) return ec_fail(err, "its \"lighting\", '%s', cannot be read; put it there, or give one map for all with --env FILE", path);
     return give(r, entry, "env", err, "%s", path);
 }
 
@@ -135,7 +135,7 @@ static ec_result add(const reading *r, const cJSON *scenario, ec_entries *entrie
     ec_error why = {0};
     ec_entry *entry;
     if (!name || !*name || *name == '.' || strchr(name, '/') || !strcmp(name, "index"))
-        return ec_fail(err, "%s: scenario %u has no name that a file can have; its \"name\" may hold no slash, begin with no dot and not be index", r->file,
+        return ec_fail(err, "%s: scenario %u has no usable \"name\"; it may not contain a slash, begin with a dot or be index", r->file,
                        entries->count + 1);
     for (uint32_t i = 0; i < entries->count; i++)
         if (!strcmp(entries->list[i].name, name)) return ec_fail(err, "%s: two scenarios are called '%s'; give one of them another name", r->file, name);
@@ -154,7 +154,7 @@ static ec_result read_text(const char *path, char **text, ec_error *err)
     if (!file) return ec_fail(err, "cannot open '%s': %s", path, strerror(errno));
     const bool is_read = getdelim(text, &size, 0, file) >= 0;
     fclose(file);
-    return is_read ? EC_OK : ec_fail(err, "cannot read '%s': it is empty, or cannot be read", path);
+    return is_read ? EC_OK : ec_fail(err, "cannot read '%s': it is empty or cannot be read", path);
 }
 
 ec_result ec_scenarios_read(const char *path, const char *folder, const ec_given_options *given, ec_entries *entries, ec_error *err)
@@ -169,7 +169,7 @@ ec_result ec_scenarios_read(const char *path, const char *folder, const ec_given
         result = ec_fail(err, "%s: line %u is not valid JSON", path, line);
     }
     const cJSON *list = cJSON_GetObjectItemCaseSensitive(root, "scenarios"), *one;
-    if (root && cJSON_GetArraySize(list) == 0) result = ec_fail(err, "%s: there are no \"scenarios\" in it, each with a \"name\" and a \"model\"", path);
+    if (root && cJSON_GetArraySize(list) == 0) result = ec_fail(err, "%s: it has no \"scenarios\", each with a \"name\" and a \"model\"", path);
     const reading r = {path, folder, slash ? (int)(slash + 1 - path) : 0, given, cJSON_GetObjectItemCaseSensitive(root, "defaults")};
     cJSON_ArrayForEach(one, list) {
         if (result == EC_OK) result = add(&r, one, entries, err);

@@ -63,8 +63,8 @@ static ec_result look_around(sequence *s, ec_inputs *inputs, ec_error *err)
         if (s->states[i] == EC_FRAME_OTHER && !r->overwrite && others++ == 0) ec_fail(err, "%s", difference);
     }
     if (!others) return EC_OK;
-    if (others > 1) ec_fail_more(err, " (so with %u frames)", others);
-    ec_fail_more(err, "; --overwrite renders what is not of this sequence again, -o names other files");
+    if (others > 1) ec_fail_more(err, " (%u frames in all)", others);
+    ec_fail_more(err, "; --overwrite replaces frames that are not of this sequence, -o names other files");
     return EC_FAILED;
 }
 
@@ -155,12 +155,12 @@ static ec_result conclude(const sequence *s, bool stopped, double start, ec_erro
 {
     uint32_t there = s->rendered + s->skipped;
     EC_TRY(tell_all(s, ec_now() - start, err));
-    if (s->skipped) ec_say(&s->listener->log, "%u of %u frames were there already", s->skipped, s->count);
+    if (s->skipped) ec_say(&s->listener->log, "%u of %u frames already existed", s->skipped, s->count);
     if (stopped)
-        return ec_fail(err, "interrupted: %u of %u frames are there; the same command goes on with the others", there,
+        return ec_fail(err, "interrupted: %u of %u frames are done; the same command renders the others", there,
                        s->count);
     if (s->failed)
-        return ec_fail(err, "%u of %u frames failed; the same command renders only those once that is mended",
+        return ec_fail(err, "%u of %u frames failed; once that is fixed, the same command renders only those",
                        s->failed, s->count);
     return EC_OK;
 }

@@ -212,15 +212,15 @@ static ec_result conclude(const series *s, bool stopped, ec_error *err)
                 EC_REAL("total_seconds", ec_now() - s->start));
         EC_TRY(tell_json(s, object, err));
     }
-    if (s->skipped) ec_say(log, "%u of %u pictures were there already", s->skipped, s->count);
+    if (s->skipped) ec_say(log, "%u of %u pictures already existed", s->skipped, s->count);
     list_blanks(s, names, sizeof names);
-    if (s->blank && s->count > 1) ec_warn(log, "%u of %u pictures show no surface, as said above: %s", s->blank, s->count, names);
+    if (s->blank && s->count > 1) ec_warn(log, "%u of %u pictures show no surface, as warned above: %s", s->blank, s->count, names);
     for (uint32_t i = 0; i < s->entries->count; i++)
         if (s->entries->list[i].why_not && is_of_shard(s, i)) say_failure(s, &s->entries->list[i], s->entries->list[i].why_not, EC_FAILURE);
     if (stopped)
-        return ec_fail(err, "interrupted: %u of %u pictures are there; the same command goes on with the others", s->rendered + s->skipped, s->count);
+        return ec_fail(err, "interrupted: %u of %u pictures are done; the same command renders the others", s->rendered + s->skipped, s->count);
     if (s->failed)
-        return ec_fail(err, "%u of %u pictures failed; the same command renders only those once that is mended", s->failed, s->count);
+        return ec_fail(err, "%u of %u pictures failed; once that is fixed, the same command renders only those", s->failed, s->count);
     return EC_OK;
 }
 

@@ -24,7 +24,7 @@ eclat_result eclat_ranks_serve(eclat_ranks *ranks, const eclat_listener *listene
     const ec_log log = ec_lib_listener(&ear).log;
     const ec_result result = ec_ranks_serve(r, &log, &why);
     if (result == EC_OK) ec_ranks_leave(r);
-    else ec_fail_more(&why, "; this was rank %d; eclat render --resume FILE goes on from what --checkpoint FILE has kept", ec_ranks_number(r));
+    else ec_fail_more(&why, "; this was rank %d; eclat render --resume FILE continues from what --checkpoint FILE saved", ec_ranks_number(r));
     return ec_lib_end(result, &why, err);
 }
 

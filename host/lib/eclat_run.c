@@ -41,7 +41,7 @@ static ec_result run(eclat_job *job, eclat_picture *p, const ec_listener *listen
     call->line = p->line;
     call->stop = job->command->is_interactive ? find_descriptor(job) : -1;
     if (job->command->is_shared) call->ranks = job->ranks;
-    else if (job->ranks) ec_note(&listener->log, "only render is shared out; rank 0 does this alone");
+    else if (job->ranks) ec_note(&listener->log, "only render runs on several ranks; rank 0 does this alone");
     ec_result result = job->command->run ? job->command->run(call, err) : ec_lib_view(job, call, err), told = listener->report(listener->user, result == EC_OK ? err : NULL);
     return result == EC_OK ? told : result;
 }

@@ -13,8 +13,8 @@
 static ec_result load(const ec_view_module **module, ec_error *err)
 {
     const void *symbol = NULL;
-    EC_TRY(ec_module_load("view", "this eclat has no preview window: install the package eclat-view, or build eclat where libglfw3-dev, "
-                                  "libepoxy-dev, libstb-dev and fonts-dejavu-core are; 'eclat render' needs none of them", &symbol, err));
+    EC_TRY(ec_module_load("view", "this eclat has no preview window; install the package eclat-view, or build eclat with libglfw3-dev, "
+                                  "libepoxy-dev, libstb-dev and fonts-dejavu-core; 'eclat render' needs none of them", &symbol, err));
     *module = symbol;
     return EC_OK;
 }

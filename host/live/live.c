@@ -35,16 +35,16 @@ static ec_result start_threads(ec_live *live, ec_error *err)
 {
     void *(*const work[EC_LIVE_THREADS])(void *) = {ec_live_loader, ec_live_renderer, ec_live_watcher};
     start(live);
-    if (live->leave < 0) return ec_fail(err, "no descriptor for a live session");
+    if (live->leave < 0) return ec_fail(err, "no file descriptor left for a live session");
     for (; live->threads < EC_LIVE_THREADS; live->threads++)
         if (pthread_create(&live->thread[live->threads], NULL, work[live->threads], live) != 0)
-            return ec_fail(err, "no thread for a live session: end other programs, or raise `ulimit -u`");
+            return ec_fail(err, "no thread left for a live session; end other programs, or raise `ulimit -u`");
     return EC_OK;
 }
 
 static ec_result check(ec_live *live, const char *against, ec_error *err)
 {
-    if (live->request.exposure.is_auto) return ec_usage(err, "--exposure auto: a window shows what it is told, by keys too; give a number of stops");
+    if (live->request.exposure.is_auto) return ec_usage(err, "--exposure auto: keys set the exposure of a window; give a number of stops");
     EC_TRY(ec_render_check_files(&live->request, err));
     EC_TRY(ec_device_find(live->request.device, &live->device, &live->device_index, &live->device_why, err));
     return against ? ec_image_read_rgb(against, &live->against_width, &live->against_height, &live->against, err) : EC_OK;

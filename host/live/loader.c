@@ -104,7 +104,7 @@ static ec_result load(loader *l, ec_error *err)
         return result;
     }
     ec_error lost = {0};
-    if (s->job.scene->lost_image) ec_fail(&lost, "%s: %.1200s; taken as white", live->request.scene, s->job.scene->lost_image);
+    if (s->job.scene->lost_image) ec_fail(&lost, "%s: %.1200s; it is taken as white", live->request.scene, s->job.scene->lost_image);
     pthread_mutex_lock(&live->lock);
     ec_live_scene *old = live->scene;
     live->facts = facts;

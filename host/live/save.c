@@ -123,6 +123,6 @@ void ec_renderer_serve_save(ec_renderer *r, const ec_live_asked *asked)
         bool is_unsaved = save(r, &asked->saved, told, sizeof told, &err) != EC_OK;
         finish(r, asked, is_unsaved, is_unsaved ? err.text : told);
     } else if (!ec_live_same_camera(&asked->saved, &asked->wish)) {
-        finish(r, asked, true, "not saved: the camera moved before its first samples were there; rest, and save again");
+        finish(r, asked, true, "not saved: the camera moved before the first samples were complete; keep it still and save again");
     }
 }

@@ -145,7 +145,7 @@ ec_result ec_pack_map(const ec_environment *e, ec_packed_map *map, ec_error *err
     *map = (ec_packed_map){.width = e->width, .height = e->height};
     const size_t row_count = (size_t)e->height + 1, count = e->width * row_count;
     if (count > 1u << 26)
-        return ec_fail(err, "the environment map has %u x %u pixels; at most 2^26 are handled: shrink it", e->width, e->height);
+        return ec_fail(err, "the environment map has %u x %u pixels; at most 2^26 are supported; shrink it", e->width, e->height);
     EC_FREED double *weights = malloc(count * sizeof *weights);
     EC_FREED double *rows = malloc(2 * row_count * sizeof *rows);
     map->texels = malloc(4 * count * sizeof(float));

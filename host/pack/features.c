@@ -143,7 +143,7 @@ static void scan_material(scan *s)
     const ec_material *m = s->m;
     scan_base_color(s);
     if (!m->double_sided && !ec_refracts(m) && !ec_bounds(m)) call(s, EC_FEATURE_CULLING, "is single-sided");
-    if (m->alpha_mode != EC_ALPHA_OPAQUE) call(s, EC_FEATURE_ALPHA, "leaves open what its alpha says");
+    if (m->alpha_mode != EC_ALPHA_OPAQUE) call(s, EC_FEATURE_ALPHA, "is transparent where its alpha says so");
     if (m->unlit) {
         call(s, EC_FEATURE_UNLIT, "is unlit");
         return;
@@ -275,7 +275,7 @@ static void scan_motion(const ec_scene *scene, ec_effects *effects)
     if (m->triangle_count) used = (size_t)snprintf(what, sizeof what, "%u triangles", m->triangle_count);
     if (m->light_count) used += (size_t)snprintf(what + used, sizeof what - used, "%s%u lights", used ? ", " : "", m->light_count);
     if (m->camera_count) snprintf(what + used, sizeof what - used, "%s%u cameras", used ? ", " : "", m->camera_count);
-    ec_effects_call(effects, EC_FEATURE_MOTION, "%s move, by %u straight ways within %.2g %%", what, m->segments,
+    ec_effects_call(effects, EC_FEATURE_MOTION, "%s move, in %u straight steps within %.2g %%", what, m->segments,
                     100 * m->deviation);
 }
 
@@ -285,7 +285,7 @@ ec_result ec_pack_effects(const ec_scene *scene, const ec_bodies *bodies, ec_eff
     EC_TRY(scan_materials(scene, scan_material, effects, err));
     EC_TRY(scan_materials(scene, scan_images, effects, err));
     if (scene->placed_count)
-        ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once stand in %u places", scene->placed_count);
+        ec_effects_call(effects, EC_FEATURE_INSTANCES, "meshes kept once appear in %u places", scene->placed_count);
     scan_motion(scene, effects);
     scan_bodies(bodies, effects);
     scan_lights(scene, effects);

@@ -71,7 +71,7 @@ ec_result ec_pack_textures(const ec_scene *scene, ec_pack *pack, ec_error *err)
         if (used[i]) pack->texel_words += image_words(&scene->images[i]);
     }
     if (pack->texel_words > UINT32_MAX)
-        return ec_fail(err, "the scene's images take %.1f GiB as texels; at most 16 GiB can be addressed: shrink them",
+        return ec_fail(err, "the scene's images take %.1f GiB as texels, and at most 16 GiB can be addressed; shrink them",
                        (double)pack->texel_words * 4 / (1 << 30));
     for (uint32_t t = 0; t < pack->texture_count; t++) {
         const ec_texture *texture = &scene->textures[t / 2];

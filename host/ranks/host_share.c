@@ -13,7 +13,7 @@ void ec_mpi_note_binding(const ec_device_info *devices, uint32_t count, const ec
     bool is_processor = false;
     for (uint32_t i = 0; i < count; i++) is_processor |= (devices[i].type & CL_DEVICE_TYPE_CPU) != 0;
     if (!is_processor || sched_getaffinity(0, sizeof own, &own) != 0 || CPU_COUNT(&own) >= all) return;
-    ec_note(log, "the launcher gave this process %d of %ld cores, and the others hardly more: 'mpirun --bind-to none' gives them all",
+    ec_note(log, "the launcher gave this process %d of %ld cores, and the others hardly more; 'mpirun --bind-to none' gives them all",
             CPU_COUNT(&own), all);
 }
 

@@ -8,8 +8,8 @@ ec_result ec_ranks_join(ec_ranks **ranks, ec_error *err)
 {
     const void *symbol = NULL;
     *ranks = NULL;
-    EC_TRY(ec_module_load("mpi", "this eclat has no MPI, so that each of these processes would render all of the picture: install the package eclat-mpi, "
-                                 "or build eclat where libopenmpi-dev is, or share the samples out by hand with --samples and eclat merge", &symbol, err));
+    EC_TRY(ec_module_load("mpi", "this eclat has no MPI, so each of these processes would render the whole picture; install the package eclat-mpi, "
+                                 "build eclat with libopenmpi-dev, or divide the samples by hand with --samples and eclat merge", &symbol, err));
     const ec_ranks_module *module = symbol;
     const ec_result result = module->join(ranks, err);
     if (*ranks) ((ec_ranks_head *)*ranks)->module = module;

@@ -97,7 +97,7 @@ void ec_plan_text(const ec_plan *p, const char *device, FILE *to)
     fprintf(to, "measured    scene %.3g s, kernels %.3g s, a batch %.3g s, adding one up %.3g s, a block %.3g s, on %s\n", p->load, p->start,
             p->batch, p->add,
             p->add_block, device);
-    fprintf(to, "sent        scene: %s to each rank, down a tree of %d to one; sums, to rank 0: %s a batch, or %s a block of %u or %u\n",
+    fprintf(to, "sent        scene: %s to each rank, along a tree with %d branches; sums to rank 0: %s a batch, or %s a block of %u or %u\n",
             ec_bytes(p->scene_bytes).text, EC_TREE_FANOUT, ec_bytes(ec_batch_bytes(p->feature_sets) * p->pixels).text,
             ec_bytes(ec_sums_bytes(p->replicates, p->feature_sets) * p->pixels).text, EC_FILM_FIRST, EC_FILM_FIRST * EC_FILM_RADIX);
     fprintf(

@@ -40,7 +40,7 @@ static ec_result send_sheet(ec_ranks *r, const ec_payload *payload, uint64_t see
     return EC_OK;
 }
 
-#define OTHER_PROGRAM "runs another version of eclat: its samples would differ; install the same one everywhere"
+#define OTHER_PROGRAM "runs another version of eclat, whose samples would differ; install the same version everywhere"
 
 /* A rank's answer to the job: EC_READY_*, a number, and a text. */
 enum { EC_READY_RANKS };
@@ -95,7 +95,7 @@ ec_result ec_job_send(ec_ranks *r, const ec_payload *payload, uint64_t seed, con
     char text[4096];
     const int used = snprintf(text, sizeof text, "%s%s%s", r->own, r->device ? "\n" : "", r->device ? r->device : "");
     if (used >= (int)sizeof text)
-        return ec_fail(err, "--device takes %zu characters at most in an MPI job", sizeof text - strlen(r->own) - 2);
+        return ec_fail(err, "--device takes at most %zu characters in an MPI job", sizeof text - strlen(r->own) - 2);
     const ec_message word = {.kind = EC_WORD_JOB, .box = EC_BOX_WORD, .bytes = (uint64_t)used + 1, .body = text,
                             .numbers = {[EC_JOB_PROGRAM] = program_hash(), [EC_JOB_ROUNDS] = r->own_round}};
     readiness all = {.kind = EC_READY};
@@ -150,8 +150,8 @@ static void look_at_rounding(const ec_ranks *r, const ec_message *word, const ch
     for (uint32_t i = 0; i < count; i++) {
         ec_device_drivers(&devices[i], 1, driver, sizeof driver);
         if (strstr(drivers, driver) || (word->numbers[EC_JOB_ROUNDS] && ec_device_rounds(&devices[i]))) continue;
-        snprintf(line, sizeof line, "rank %d has %s and rank 0 %.300s: where one of these does not round division and square root correctly, the "
-                                    "last bits are not those of one device", r->place->rank, driver, drivers);
+        snprintf(line, sizeof line, "rank %d has %s and rank 0 has %.300s; if one of these does not round division and square root correctly, the "
+                                    "last bits differ from those of one device", r->place->rank, driver, drivers);
         add_line(own, line);
         return;
     }

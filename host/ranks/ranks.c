@@ -13,8 +13,8 @@ static ec_result fail_of_launcher(int size, ec_error *err)
     int length;
     MPI_Get_library_version(library, &length);
     library[strcspn(library, ",\n")] = 0;
-    return ec_fail(err, "%d processes were started, but each finds %d: the launcher is of another MPI than this eclat (%s); use the mpirun of that "
-                        "one, or build eclat with the launcher's (cmake -DMPI_C_COMPILER=MPICC)", ec_ranks_launched(), size, library);
+    return ec_fail(err, "%d processes were started, but each finds %d: the launcher belongs to another MPI than this eclat (%s); use the mpirun of "
+                        "that MPI, or build eclat with the launcher's (cmake -DMPI_C_COMPILER=MPICC)", ec_ranks_launched(), size, library);
 }
 
 static ec_result join(ec_ranks **ranks, ec_error *err)

@@ -97,7 +97,7 @@ static ec_result take_orders(server *s, const ec_error *unfit, ec_error *err)
 static void pass_on(void *user, ec_severity severity, const char *text)
 {
     const server *s = user;
-    if (severity == EC_WARNING) ec_warn(s->log, "told by rank %d: %s", s->ranks->place->rank, text);
+    if (severity == EC_WARNING) ec_warn(s->log, "from rank %d: %s", s->ranks->place->rank, text);
 }
 
 /* Opens the devices that can be opened. If there are none, fails with the last one's reason, unless there are ranks below. */
@@ -109,7 +109,7 @@ static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_c
         ec_error why = {0};
         if (ec_cl_open(&infos[i], &devices[opened], &why) == EC_OK) opened++;
         else if (opened || is_inner || i + 1 < *count)
-            ec_warn(log, "%s is out, and the others take over its work: %s", infos[i].name, why.text);
+            ec_warn(log, "%s has failed, and the others take over its work: %s", infos[i].name, why.text);
         else *err = why;
     }
     *count = opened;

@@ -118,7 +118,7 @@ ec_result ec_transport_receive(ec_transport *p, int from, uint32_t box, bool (*g
         pthread_mutex_lock(&p->lock);
     }
     pthread_mutex_unlock(&p->lock);
-    if (!in && !waits) return ec_fail(err, "given up");
+    if (!in && !waits) return ec_fail(err, "stopped waiting");
     if (!in) return lost(from, err);
     *message = in->message;
     free(in);
@@ -155,7 +155,7 @@ ec_result ec_transport_spread(ec_transport *p, void *bytes, uint64_t count, uint
             if (fits) memcpy(part.body, come.body, come.bytes);
             free(come.body);
             if (!fits)
-                return ec_fail(err, "rank %d sent %llu bytes in place of %llu", place->parent,
+                return ec_fail(err, "rank %d sent %llu bytes instead of %llu", place->parent,
                                (unsigned long long)come.bytes, (unsigned long long)part.bytes);
         }
         for (int i = 0; i < place->children; i++) (void)ec_transport_send(p, place->first_child + i, &part, NULL); /* a lost child is found out later */

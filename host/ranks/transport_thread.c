@@ -195,7 +195,7 @@ static void start(ec_transport *p)
     ec_rank_place *place = &p->place;
     MPI_Comm local;
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS || provided < MPI_THREAD_FUNNELED) {
-        ec_fail(&p->error, "this MPI cannot be used by a program with threads (MPI_THREAD_FUNNELED); use another one");
+        ec_fail(&p->error, "this MPI does not support programs with threads (MPI_THREAD_FUNNELED); use another MPI");
         return;
     }
     MPI_Comm_dup(MPI_COMM_WORLD, &p->comm);

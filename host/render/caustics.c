@@ -27,7 +27,7 @@ static double least_mean(const ec_rare *rare)
 
 static void note_common(const ec_joined_choice *joined, const ec_log *log)
 {
-    ec_note(log, "caustics: light paths are traced too, one for %.0f from the camera, since they take about %.0f %% of the variance away (--light-paths 0: none)",
+    ec_note(log, "caustics: light paths are traced too, one for every %.0f from the camera, since they remove about %.0f %% of the variance (--light-paths 0: none)",
             1 / joined->number, 100 * joined->share);
 }
 
@@ -35,7 +35,7 @@ static void note_rare(const ec_rare_kind *most, double variance, const ec_log *l
 {
     char way[EC_RARE_WAY];
     ec_rare_way(most->through, most->light, way, sizeof way);
-    ec_note(log, "caustics: paths %s are so rare that their noise would be %.0f %% at 64 samples a pixel; light paths are traced too, one for %.0f from the "
+    ec_note(log, "caustics: paths %s are so rare that their noise would be %.0f %% at 64 samples a pixel; light paths are traced too, one for every %.0f from the "
                  "camera, and guide directions (--light-paths 0: none)", way, 12.5 * sqrt(variance), 1 / EC_LIGHT_PATHS_RARE);
 }
 

@@ -102,7 +102,7 @@ ec_result ec_render_find_limit(ec_render_state *r, uint32_t rows, const ec_log *
     if (o->clamp > 0 && !(r->limit > 0)) {
         EC_TRY(ec_render_pilot_mean(r, PILOT, rows, &mean, err));
         if (mean > 0) r->limit = (float)(o->clamp * rounded(mean));
-        else ec_note(log, "--clamp: the picture's pilot is black, so that there is no mean luminance to go by and nothing is limited");
+        else ec_note(log, "--clamp: the picture's pilot is black and has no mean luminance, so nothing is limited");
     }
     r->stats->clamp_luminance = (double)r->limit;
     return EC_OK;

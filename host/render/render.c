@@ -17,7 +17,7 @@ static ec_result check_ends(const ec_render_options *o, ec_error *err)
 {
     bool ends = (o->survival >= 0.0 && o->survival < 1.0) || o->max_depth;
     if (!ec_traces_paths(o->integrator) || ends) return EC_OK;
-    return ec_fail(err, "a survival probability of %g with unlimited depth: nothing would end a path; set max_depth, or a survival under 1", o->survival);
+    return ec_fail(err, "a survival probability of %g with unlimited depth would never end a path; set max_depth, or a survival under 1", o->survival);
 }
 
 /* Notes effects of --without that the scene does not call for: no option is without effect in silence. */
@@ -65,7 +65,7 @@ static ec_result choose_film(ec_render_state *r, const ec_log *log, ec_error *er
     if (!r->strip_rows) EC_TRY(r->source->turn_to(r->source, 0, r->options->height, err));
     r->stats->wave = alone->room;
     if (alone->room < alone->first_room)
-        ec_note(log, "the device had memory for a wave of %u paths, not of %u; --wave sets it", alone->room, alone->first_room);
+        ec_note(log, "the device has memory for a wave of %u paths, not of %u; --wave sets the size", alone->room, alone->first_room);
     return EC_OK;
 }
 
@@ -104,16 +104,16 @@ static ec_result open_sources(ec_render_state *r, const ec_peers *peers, const e
 static void tell_scattering(const ec_render_options *o, const ec_log *log)
 {
     if (o->integrator != EC_INTEGRATOR_PATH)
-        ec_note(log, "bodies absorb here what they would scatter: only --integrator path scatters light inside them");
+        ec_note(log, "bodies absorb the light that they would scatter; only --integrator path scatters light inside bodies");
     else if (o->light_paths > 0)
-        ec_note(log, "--light-paths: none are sent, since light paths do not scatter inside bodies, as light does in this scene");
+        ec_note(log, "--light-paths: none are traced, since light scatters inside bodies in this scene, and light paths do not");
 }
 
 /* Notes what light paths leave out. */
 static void tell_unjoined(const ec_render_options *o, uint64_t called, const ec_log *log)
 {
     if (o->integrator == EC_INTEGRATOR_LIGHT && (called & (EC_FEATURE_SMOOTH | EC_FEATURE_TRANSMISSION)))
-        ec_note(log, "what is seen in mirrors and through glass is missing here: paths from the lights are joined to the camera where a surface scatters");
+        ec_note(log, "what is seen in mirrors and through glass is missing: paths from the lights reach the camera only from surfaces that scatter");
 }
 
 /* Checks that the scene is what the course expects. */
@@ -122,7 +122,7 @@ static ec_result admit(ec_render_state *r, const ec_log *log, ec_error *err)
     const ec_past *past = r->course->past;
     const ec_payload_head *head = &r->sources.payload.head;
     if (head->bodies_too_many)
-        ec_warn(log, "%u materials of glass or liquid, of which %u can be told apart: each of their bodies refracts as if in air; give bodies that are alike one material",
+        ec_warn(log, "%u materials of glass or liquid, of which at most %u can be told apart, so each of their bodies refracts as if in air; give similar bodies one material",
                 head->bodies_too_many, EC_BODIES_MOST);
     if (r->options->scattering == EC_SCATTERING_MULTIPLE && !(head->effects.called.bits & EC_FEATURE_MULTISCATTER))
         ec_note(log, "--scattering multiple: the scene has no rough metal or glass");

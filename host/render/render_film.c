@@ -214,7 +214,7 @@ static void note_withheld(ec_render_state *r, const ec_log *log)
     if (!r->goal.is_withheld || r->is_withheld_noted) return;
     r->is_withheld_noted = true;
     ec_rare_way(r->error.through, r->error.light, way, sizeof way);
-    ec_note(log, "the samples so far would do for --error %g, but there is no bound: rare bright paths (%s) are hardly met yet; the render goes on to its other limits",
+    ec_note(log, "the samples so far would be enough for --error %g, but there is no bound: rare bright paths (%s) are hardly met yet; the render goes on to its other limits",
             r->goal.error, way);
 }
 

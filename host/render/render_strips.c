@@ -25,12 +25,12 @@ ec_result ec_render_choose_rows(ec_render_state *r, const ec_log *log, ec_error 
     r->stats->strips = rows ? (o->height + rows - 1) / rows : 1;
     if (rows == o->height || (!rows && !o->memory)) return EC_OK;
     if (!rows)
-        return ec_fail(err, "--memory: %.0f MB are not enough for scene and program, and for %u rows of this picture, %.1f MB; give %.0fM or more, "
-                            "or a picture less wide", (double)o->memory / 1e6, EC_STRIP_STEP, (double)ec_strip_least(o) / 1e6,
+        return ec_fail(err, "--memory: %.0f MB are not enough for scene, program and %u rows of this picture, %.1f MB; give %.0fM or more, "
+                            "or a narrower picture", (double)o->memory / 1e6, EC_STRIP_STEP, (double)ec_strip_least(o) / 1e6,
                        ceil((double)((int64_t)(o->memory + ec_strip_least(o)) - budget) / 1e6));
     if (!can) return ec_strip_refuse(o, whole, budget, r->course->whole_for, "leave it out", err);
     r->strip_rows = rows;
-    ec_note(log, "not all %u rows fit into %s memory at a time: the picture is rendered in %u strips of %u", o->height, o->memory ? "that" : "free",
+    ec_note(log, "not all %u rows fit into %s memory at once; the picture is rendered in %u strips of %u rows", o->height, o->memory ? "that" : "free",
             r->stats->strips, rows);
     return EC_OK;
 }

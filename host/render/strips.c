@@ -69,7 +69,7 @@ uint64_t ec_strip_least(const ec_render_options *o)
 ec_result ec_strip_refuse(const ec_render_options *o, uint64_t whole, int64_t budget, const char *whole_for,
                           const char *instead, ec_error *err)
 {
-    return ec_fail(err, "%ux%u pixels take %.0f MB and there are %.0f: they would be rendered in strips, one after the other, but %s is for pictures that "
-                        "are rendered whole; %s, or give more --memory or a smaller --size", o->width, o->height, (double)whole / 1e6,
+    return ec_fail(err, "%ux%u pixels need %.0f MB, but %.0f MB are free, so they would be rendered in strips, "
+                        "but %s needs the picture whole; %s, or give more --memory or a smaller --size", o->width, o->height, (double)whole / 1e6,
                    budget > 0 ? (double)budget / 1e6 : 0.0, whole_for ? whole_for : "this", instead);
 }

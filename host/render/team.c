@@ -73,7 +73,7 @@ static ec_result tell_failures(ec_team *t, ec_error *err)
         if (!m->has_failed || m->is_told) continue;
         m->is_told = true;
         if (!ec_team_alive(t) && err) *err = m->why;
-        if (ec_team_alive(t)) ec_warn(t->log, "%s is out, and the others take over its work: %s", m->candidate.name, m->why.text);
+        if (ec_team_alive(t)) ec_warn(t->log, "%s has failed, and the others take over its work: %s", m->candidate.name, m->why.text);
     }
     return ec_team_alive(t) ? EC_OK : EC_FAILED;
 }

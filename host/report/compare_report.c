@@ -68,7 +68,7 @@ static void print_noise_of(char name, const ec_measured *image, const char *form
     else if (isfinite(image->replicates))
         fprintf(to, "standard errors of %c from %.0f replicates", name, image->replicates);
     else
-        fprintf(to, "standard errors of %c from replicates unknown, taken for many", name);
+        fprintf(to, "standard errors of %c from an unknown number of replicates, taken as many", name);
 }
 
 static void print_noise(const ec_compare_report *report, FILE *to)
@@ -141,8 +141,8 @@ void ec_compare_report_text(const ec_compare_report *report, FILE *to)
     if (report->tested && report->difference.unequal > 0) print_test(&report->test, to);
     print_verdict(report, to);
     if (report->differ && is_bent(report))
-        fprintf(to, "caution   tone curves bend noise of more than %.0f %% in ways that standard errors do not tell: take more samples, or compare EXR with EXR\n", 100 * EC_NOISE_BENT);
-    if (report->is_lossy_a && report->differ) fprintf(to, "lossy     A is a %s, whose losses are differences too: save a PNG\n", report->format_a);
+        fprintf(to, "caution   tone curves bend noise of more than %.0f %% in ways that standard errors do not show; take more samples, or compare EXR with EXR\n", 100 * EC_NOISE_BENT);
+    if (report->is_lossy_a && report->differ) fprintf(to, "lossy     A is a %s, whose losses are differences too; save a PNG\n", report->format_a);
     print_unbound('A', report->why_a, to);
     print_unbound('B', report->why_b, to);
 }

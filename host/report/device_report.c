@@ -48,7 +48,7 @@ void ec_device_report_text(const ec_device_report *report, FILE *to)
             "memory", "max alloc");
     for (uint32_t i = 0; i < report->count; i++) print_row(report, i, width, to);
     if (report->chosen >= 0)
-        fprintf(to, "* default: %" PRId64 " (%s); --device or ECLAT_DEVICE takes another\n", report->chosen, report->why);
+        fprintf(to, "* default: %" PRId64 " (%s); --device or ECLAT_DEVICE chooses another\n", report->chosen, report->why);
 }
 
 cJSON *ec_device_json(const ec_device_info *device, uint32_t index)

@@ -36,9 +36,9 @@ void ec_error_help(const ec_film_error *e, char *text, size_t size)
     if (!e->is_open) return;
     if (e->unmet_samples > 0) snprintf(samples, sizeof samples, "some %s samples a pixel", ec_count(ceil(e->unmet_samples)).text);
     if (*e->through)
-        snprintf(text, size, "%s; or a rougher \"%s\", a larger light, --without specular; or --clamp 10, which says what it takes away", samples,
+        snprintf(text, size, "%s; or a rougher \"%s\", a larger light, --without specular; or --clamp 10, which reports what it removes", samples,
                  e->through);
-    else snprintf(text, size, "%s; or a larger light; or --clamp 10, which says what it takes away", samples);
+    else snprintf(text, size, "%s; or a larger light; or --clamp 10, which reports what it removes", samples);
 }
 
 void ec_error_text(const ec_film_error *e, char *text, size_t size)

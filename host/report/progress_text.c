@@ -27,9 +27,9 @@ void ec_forecast_text(const ec_forecast *f, const ec_render_options *options, ch
     if (f->spread > 0.3) snprintf(tail, sizeof tail, "; a few pixels hold most of the noise: it may well be more");
     if (!isfinite(f->seconds))
         snprintf(text, size, "%s %s", options->error_target > 0 ? ec_percent(options->error_target).text : "the end",
-                 f->is_open ? "is not foreseeable: rare bright paths decide" : "cannot be predicted yet");
+                 f->is_open ? "cannot be predicted: rare bright paths decide" : "cannot be predicted yet");
     else if (f->is_open)
-        snprintf(text, size, "about %s samples a pixel, %s; the error then is not foreseeable: rare bright paths decide", samples, span);
+        snprintf(text, size, "about %s samples a pixel, %s; the error then cannot be predicted: rare bright paths decide", samples, span);
     else if (options->error_target > 0 && f->error_bound <= options->error_target * 1.02)
         snprintf(text, size, "%s needs about %s samples a pixel, %s%s", ec_percent(options->error_target).text, samples, span, tail);
     else

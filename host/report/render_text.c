@@ -73,7 +73,7 @@ static void print_heavy(const ec_render_report *report, FILE *to)
     char more[128];
     double pixels = (double)report->options->width * report->options->height;
     format_more(report->stats, more, sizeof more);
-    fprintf(to, "pixels   %" PRIu64 " (%s) want more samples for an error of their own (channel heavy): theirs is at least what is stated%s\n",
+    fprintf(to, "pixels   %" PRIu64 " (%s) need more samples for an error of their own (channel heavy): it is at least what is stated%s\n",
             report->heavy_pixels, ec_percent((double)report->heavy_pixels / pixels).text, more);
 }
 
@@ -138,7 +138,7 @@ void ec_render_report_text(const ec_render_report *report, FILE *to)
     if (stats->forecast.pilot_samples > 0) {
         char forecast[256];
         ec_forecast_text(&stats->forecast, report->options, forecast, sizeof forecast);
-        fprintf(to, "forecast %s; said after %.0f samples\n", forecast, stats->forecast.pilot_samples);
+        fprintf(to, "forecast %s; made after %.0f samples\n", forecast, stats->forecast.pilot_samples);
     }
     if (stats->instances)
         fprintf(to, "geometry %" PRIu64 " triangles in %u instances, %" PRIu64 " of them stored\n", stats->triangles,

@@ -42,7 +42,7 @@ static void print_lights(const ec_scene_report *report, FILE *to)
             report->light_types[EC_LIGHT_POINT], report->light_types[EC_LIGHT_SPOT],
             report->light_types[EC_LIGHT_DIRECTIONAL],
             report->scene->has_environment ? "an environment" : "no environment");
-    if (report->takes_studio) fputs("            none at all: a render takes the built-in studio\n", to);
+    if (report->takes_studio) fputs("            none at all: a render uses the built-in studio\n", to);
 }
 
 static void print_cameras(const ec_scene *scene, FILE *to)

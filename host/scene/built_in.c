@@ -16,7 +16,7 @@ static ec_result read_sun(const char *spec, double *azimuth, double *elevation, 
     if (strspn(numbers, "0123456789+-.eE,") == strlen(numbers) && sscanf(numbers, "%lf,%lf%n", azimuth, elevation, &used) == 2 && !numbers[used] &&
         fabs(*azimuth) <= 36000 && *elevation >= 0 && *elevation <= 90)
         return EC_OK;
-    return ec_fail(err, "environment \"%.*s\": " EC_SKY "AZIMUTH,ELEVATION is two numbers of degrees, the second from 0 to 90, e.g. " EC_SKY "30,45",
+    return ec_fail(err, "environment \"%.*s\": " EC_SKY "AZIMUTH,ELEVATION needs two numbers in degrees, the second from 0 to 90, e.g. " EC_SKY "30,45",
                    EC_CUT(spec, 200));
 }
 

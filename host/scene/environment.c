@@ -36,9 +36,9 @@ static void clean(float *values, uint64_t count, const char *spec, const ec_log 
             bright++;
         }
     }
-    if (bad) ec_warn(log, "%s: %llu values are NaN, infinite or negative; taken as 0", spec, (unsigned long long)bad);
+    if (bad) ec_warn(log, "%s: %llu values are NaN, infinite or negative; they are taken as 0", spec, (unsigned long long)bad);
     if (bright)
-        ec_warn(log, "%s: %llu values are above %g; taken as that", spec, (unsigned long long)bright, (double)EC_RADIANCE_MOST);
+        ec_warn(log, "%s: %llu values are above %g; they are clamped to it", spec, (unsigned long long)bright, (double)EC_RADIANCE_MOST);
 }
 
 ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *log, ec_error *err)
@@ -46,7 +46,7 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
     ec_environment e = {0};
     int color = parse_color(spec, e.constant);
     if (color < 0)
-        return ec_fail(err, "environment \"%.*s\": three comma-separated numbers, none negative, are needed, e.g. 1,1,1",
+        return ec_fail(err, "environment \"%.*s\": give three numbers separated by commas, none negative, e.g. 1,1,1",
                        EC_CUT(spec, 200));
     if (color) {
         clean(e.constant, 3, spec, log);
@@ -58,7 +58,7 @@ ec_result ec_scene_set_environment(ec_scene *s, const char *spec, const ec_log *
         memset(e.constant, 0, sizeof e.constant);
         EC_TRY(ec_image_read_rgb(spec, &e.width, &e.height, &e.rgb, err));
         if (ec_hdr_has_exposure(spec))
-            ec_warn(log, "%s: its EXPOSURE is not applied: pixels are taken as they are stored, as by most programs; --env-strength scales them", spec);
+            ec_warn(log, "%s: its EXPOSURE is not applied: pixels are used as stored, as most programs do; --env-strength scales them", spec);
         clean(e.rgb, 3 * (uint64_t)e.width * e.height, spec, log);
     }
     if (!s->environment.lent) free(s->environment.rgb);

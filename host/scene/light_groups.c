@@ -70,7 +70,7 @@ static ec_result refuse_name(const finder *f, const char *name, ec_error *err)
 
 static ec_result too_many(ec_error *err)
 {
-    return ec_fail(err, "--light-groups: there can be %d groups at most; put several lights into one, as in key=lamp+sun", EC_GROUPS_MOST);
+    return ec_fail(err, "--light-groups: there can be at most %d groups; put several lights into one, as in key=lamp+sun", EC_GROUPS_MOST);
 }
 
 /* Puts all sources of one name into a group. */

@@ -98,7 +98,7 @@ static ec_result find(const ec_scene *s, enum ec_matte_kind kind, ec_matte_names
 ec_result ec_matte_names_find(const ec_scene *s, uint32_t kinds, ec_matte_names *names, ec_error *err)
 {
     if (s->node_count >= FLOAT_WHOLE || s->material_count >= FLOAT_WHOLE)
-        return ec_fail(err, "--channels cryptomatte: the scene has %u nodes and %u materials, and there can be %u of each", s->node_count, s->material_count, FLOAT_WHOLE - 1);
+        return ec_fail(err, "--channels cryptomatte: the scene has %u nodes and %u materials, but there can be at most %u of each", s->node_count, s->material_count, FLOAT_WHOLE - 1);
     for (uint32_t k = 0; k < EC_MATTE_KINDS; k++)
         if (kinds >> k & 1) EC_TRY(find(s, k, names, err));
     return EC_OK;

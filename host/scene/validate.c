@@ -55,9 +55,9 @@ static ec_result check_vertices(const ec_scene *s, ec_error *err)
         if (!all_finite(ec_scene_stream(s, i), ec_stream_width[i] * n)) return ec_fail(err, "internal error: a vertex stream is not finite");
     for (uint64_t i = 0; i < n; i++) {
         if (s->normals && !unit_or_zero(s->normals + 3 * i))
-            return ec_fail(err, "internal error: normal %llu is not unit", (unsigned long long)i);
+            return ec_fail(err, "internal error: normal %llu is not a unit vector", (unsigned long long)i);
         if (s->tangents && !unit_or_zero(s->tangents + 4 * i))
-            return ec_fail(err, "internal error: tangent %llu is not unit", (unsigned long long)i);
+            return ec_fail(err, "internal error: tangent %llu is not a unit vector", (unsigned long long)i);
     }
     return EC_OK;
 }

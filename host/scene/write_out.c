@@ -66,8 +66,8 @@ ec_result ec_scene_write_out(const ec_scene *s, ec_scene *w, ec_error *err)
     bool fits = triangles <= INT32_MAX && vertices <= INT32_MAX && needed <= memory;
     if (!allocate(s, fits ? vertices + 1 : 0, fits ? triangles + 1 : 0, w) || !fits) {
         ec_scene_written_free(w);
-        return ec_fail(err, "%llu triangles of %u instances written out need %llu MB, and this machine has %llu MB; leave --accel out or take "
-                       "twolevel, which keeps meshes once", (unsigned long long)triangles, s->placed_count,
+        return ec_fail(err, "%llu triangles of %u expanded instances need %llu MB, but this machine has %llu MB; leave --accel out or use "
+                       "twolevel, which keeps each mesh once", (unsigned long long)triangles, s->placed_count,
                        (unsigned long long)(needed >> 20), (unsigned long long)(memory >> 20));
     }
     copy_flat(s, ec_scene_flat_count(s), flat_vertices, w);

@@ -70,7 +70,7 @@ static bool is_scene(const char *name)
 /* Lists all that differs in the scene: "the scene's camera and geometry". */
 static void describe_scene(const ec_identity *there, const ec_identity *here, char *text, size_t size)
 {
-    snprintf(text, size, "not the same are the scene's");
+    snprintf(text, size, "the scenes differ in");
     for (uint32_t i = 0, found = 0; i < here->count; i++) {
         const ec_trait *own = &here->traits[i];
         const char *other = ec_identity_value(there, own->name);
@@ -82,9 +82,9 @@ static void describe_scene(const ec_identity *there, const ec_identity *here, ch
 
 static void describe(const char *name, const char *there, const char *here, char *text, size_t size)
 {
-    if (!strcmp(name, "kernels")) snprintf(text, size, "it is of another version of eclat, whose kernels are not the same");
-    else if (!strcmp(name, "settings")) snprintf(text, size, "the settings of the render are not the same");
-    else if (!strcmp(name, "files")) snprintf(text, size, "the scene's files are not the same");
+    if (!strcmp(name, "kernels")) snprintf(text, size, "it is from another version of eclat, whose kernels differ");
+    else if (!strcmp(name, "settings")) snprintf(text, size, "the render settings differ");
+    else if (!strcmp(name, "files")) snprintf(text, size, "the scene's files differ");
     else if (!there || !here) snprintf(text, size, "%s is %s there and %s here", name, there ? there : "not given", here ? here : "not given");
     else snprintf(text, size, "%s is %s there and %s here", name, there, here);
 }

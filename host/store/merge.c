@@ -39,17 +39,17 @@ static ec_result check_same_job(const ec_merge *merge, const ec_stored *next, co
     const ec_job *here = &merge->all.job, *there = &next->job;
     char difference[1200];
     if (ec_identity_differs(&here->identity, &there->identity, difference, sizeof difference))
-        return ec_fail(err, "'%s' is not of the same job as '%s': %s; merge slices of one scene, with the same options and version", path,
+        return ec_fail(err, "'%s' is not from the same job as '%s': %s; merge slices of one scene, with the same options and version", path,
                        merge->first_path, difference);
     if (merge->all.film.limit != next->film.limit)
-        return ec_fail(err, "'%s' and '%s': --clamp limits a sample to a luminance of %g there and of %g here, since the devices' pilots are not the "
-                            "same; render slices on devices of one kind", merge->first_path, path, (double)merge->all.film.limit, (double)next->film.limit);
+        return ec_fail(err, "'%s' and '%s': --clamp limits a sample to a luminance of %g in one and %g in the other, since the devices' pilots "
+                            "differ; render slices on devices of one kind", merge->first_path, path, (double)merge->all.film.limit, (double)next->film.limit);
     if (!ec_layers_are_same(&merge->all.film.layers, &next->film.layers))
-        return ec_fail(err, "'%s' and '%s' have not the same layers; render both with the same --channels and --light-groups", merge->first_path, path);
+        return ec_fail(err, "'%s' and '%s' have different layers; render both with the same --channels and --light-groups", merge->first_path, path);
     if (next->film.counts || merge->all.film.counts)
-        return ec_fail(err, "'%s': pixels of an adaptive render have samples of their own number, and cannot be merged; give it alone", path);
+        return ec_fail(err, "'%s': an adaptive render has a different number of samples in each pixel and cannot be merged; give it alone", path);
     if (strcmp(here->device, there->device))
-        ec_warn(log, "'%s' was rendered on %s, '%s' on %s: where they round otherwise the last bits are not those of one run", merge->first_path,
+        ec_warn(log, "'%s' was rendered on %s, '%s' on %s: where they round differently, the last bits are not those of a single run", merge->first_path,
                 here->device, path, there->device);
     return EC_OK;
 }
@@ -85,7 +85,7 @@ static ec_result check_end(const ec_merge *merge, const ec_film *next, const cha
 {
     const ec_film *all = &merge->all.film, *ended = all->cut ? all : next;
     if (!ended->cut || ec_film_end(ended == all ? next : all) <= ec_film_end(ended)) return EC_OK;
-    return ec_fail(err, "'%s' and '%s': one ends within a batch, after %llu samples a pixel, and the other goes on behind that; leave one of them out",
+    return ec_fail(err, "'%s' and '%s': one ends within a batch, after %llu samples a pixel, and the other continues after that; leave one of them out",
                    merge->first_path, path, samples_before(ended, ec_film_end(ended)) - ended->cut);
 }
 
@@ -115,7 +115,7 @@ ec_result ec_merge_take(ec_merge *merge, const char *path, const ec_log *log, ec
     ec_result result;
     EC_TRY(ec_store_read(path, &next, err));
     if (next.film.batch_count == 0) {
-        result = ec_fail(err, "'%s' was cut off within its first batch, and has none to merge; leave it out, or go on with --resume", path);
+        result = ec_fail(err, "'%s' stopped within its first batch and has none to merge; leave it out, or continue it with --resume", path);
         goto cleanup;
     }
     if (!merge->first_path) {

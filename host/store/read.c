@@ -32,7 +32,7 @@ static ec_result check_sums(const char *path, const ec_sums *sums, uint64_t pixe
     for (uint64_t i = 0; i < EC_FILM_FEATURES * sums->sets * pixels; i++) all &= fabsf(sums->features[i]) <= FLT_MAX;
     for (uint64_t i = 0; i < 3 * pixels; i++) all &= sums->tail[i] >= 0 && sums->tail[i] <= FLT_MAX;
     if (all) return EC_OK;
-    return ec_fail(err, "cannot read '%s': sums in it are none of any samples; take an older file or render it again", path);
+    return ec_fail(err, "cannot read '%s': its sums are out of range; use an older file or render it again", path);
 }
 
 /* Reads a batch. Features come along if the film wants them of batches from `first` on and the file has them; else *features stays NULL. */
@@ -67,7 +67,7 @@ static ec_result read_part(ec_exr_file *file, const char *path, uint32_t layer, 
 
 static ec_result no_sense(const char *path, ec_error *err)
 {
-    return ec_fail(err, "cannot read '%s': its parts are not of its batches; take an older file", path);
+    return ec_fail(err, "cannot read '%s': its parts do not match its batches; use an older file", path);
 }
 
 static ec_result check_counts(const char *path, const ec_film *film, ec_error *err)
@@ -76,7 +76,7 @@ static ec_result check_counts(const char *path, const ec_film *film, ec_error *e
     if (pixels && film->batch_count % film->replicates) return no_sense(path, err);
     for (uint64_t p = 0; p < pixels; p++)
         if (film->counts[p] < film->samples[0])
-            return ec_fail(err, "cannot read '%s': pixels have fewer samples than all of them; take an older file", path);
+            return ec_fail(err, "cannot read '%s': some pixels have fewer samples than each must have; use an older file", path);
     return EC_OK;
 }
 
@@ -142,7 +142,7 @@ ec_result ec_store_read(const char *path, ec_stored *s, ec_error *err)
     ec_result result;
     const char *text = ec_exr_text(file, "eclat.state");
     if (!text)
-        result = ec_fail(err, "cannot read '%s': it is no checkpoint or slice of eclat's; give the file that --checkpoint or --samples wrote",
+        result = ec_fail(err, "cannot read '%s': it is not a checkpoint or slice of eclat; give the file that --checkpoint or --samples wrote",
                          path);
     else result = ec_state_read(text, path, s, &state, err);
     if (result == EC_OK) result = ec_film_create(&s->film, width, height, state.replicates, err);

@@ -283,9 +283,9 @@ ec_result ec_state_read(const char *text, const char *path, ec_stored *s, ec_sta
     double format = cJSON_GetNumberValue(cJSON_GetObjectItemCaseSensitive(state, "format"));
     ec_result result = EC_OK;
     if (!state) {
-        result = ec_fail(err, "cannot read '%s': its eclat.state is no JSON; take an older file or render it again", path);
+        result = ec_fail(err, "cannot read '%s': its eclat.state is not JSON; use an older file or render it again", path);
     } else if (format != FORMAT) {
-        result = ec_fail(err, "cannot read '%s': it was written by another version of eclat (format %g, this one reads %d); use that version, or render anew",
+        result = ec_fail(err, "cannot read '%s': it was written by another version of eclat (format %g, this one reads %d); use that version, or render it again",
                          path, format, FORMAT);
     } else {
         read_job(&r, &s->job);
@@ -293,7 +293,7 @@ ec_result ec_state_read(const char *text, const char *path, ec_stored *s, ec_sta
         read_film(&r, film);
         r.is_wrong |= !film->batch_count && !s->past.under_way;
         if (r.is_wrong)
-            result = ec_fail(err, "cannot read '%s': what it says of its sums makes no sense; take an older file or render it again", path);
+            result = ec_fail(err, "cannot read '%s': its description of its sums makes no sense; use an older file or render it again", path);
     }
     cJSON_Delete(state);
     return result;

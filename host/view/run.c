@@ -158,7 +158,7 @@ static eclat_result conclude(const ec_window *w, eclat_error *err)
     const eclat_status *s = &w->status;
     if (s->has_failed) return ec_view_fail(err, "%s", s->trouble[s->has_failed - 1]);
     if (w->request->script && why_stuck(s)) return ec_view_fail(err, "%s", why_stuck(s));
-    if (w->input.saves != s->saves) return ec_view_fail(err, "not saved: the window was closed before the picture's first samples were there");
+    if (w->input.saves != s->saves) return ec_view_fail(err, "not saved: the window was closed before the picture's first samples were complete");
     if (s->is_unsaved) return ec_view_fail(err, "%s", s->told);
     if (w->request->stats) report_frames(w);
     return ECLAT_OK;

@@ -49,7 +49,7 @@ eclat_result ec_script_read(ec_script *s, const char *name, eclat_error *err)
         if (!line[strspn(line, " \t\r")]) continue;
         if (s->count == EC_SCRIPT_STEPS) result = ec_view_fail(err, "%s:%d: more than %d steps", name, number, EC_SCRIPT_STEPS);
         else if (!read_step(line, &s->steps[s->count]))
-            result = ec_view_fail(err, "%s:%d: '%.200s' is no step; see 'eclat view --help'", name, number, line);
+            result = ec_view_fail(err, "%s:%d: '%.200s' is not a step; see 'eclat view --help'", name, number, line);
         else s->count++;
     }
     if (result == ECLAT_OK && ferror(file)) result = ec_view_fail(err, "cannot read the script '%s': %s", name, strerror(errno));

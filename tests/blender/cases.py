@@ -243,7 +243,7 @@ class Reports(Scene):
     def test_errors_of_the_add_on(self):
         scene = scenes.fresh()
         with mock.patch.dict(os.environ, ECLAT="/none/eclat"):
-            self.fails(scene, "'/none/eclat' is no program that can be run; it comes from the environment variable ECLAT")
+            self.fails(scene, "'/none/eclat' is not a program that can be run; it comes from the environment variable ECLAT")
         scene.camera.data.type = "PANO"
         self.fails(scene, "the camera is panoramic")
 

@@ -264,7 +264,7 @@ class Program(Case):
         self.assertEqual(program.find(path, {}), path)
         self.assertEqual(program.find("", {"ECLAT": path}), path)
         self.assertEqual(program.find("", {"PATH": self.folder}), path)
-        for preferred, environment, says in (("/none", {}, "'/none'.*preferences"), ("", {"ECLAT": "/none"}, "'/none'.*ECLAT"), ("", {"PATH": "/none"}, "not there; looked for")):
+        for preferred, environment, says in (("/none", {}, "'/none'.*preferences"), ("", {"ECLAT": "/none"}, "'/none'.*ECLAT"), ("", {"PATH": "/none"}, "was not found")):
             with self.assertRaisesRegex(trouble.Trouble, says):
                 program.find(preferred, environment)
 
@@ -277,7 +277,7 @@ class Program(Case):
     def test_a_failure_is_one_line(self):
         with self.assertRaisesRegex(trouble.Trouble, "none.glb: cannot open"):
             self.end_of(ECLAT, "render", self.path("none.glb")).result()
-        with self.assertRaisesRegex(trouble.Trouble, "code 3 and without a word"):
+        with self.assertRaisesRegex(trouble.Trouble, "code 3 and no message"):
             self.end_of(self.script("exit 3")).result()
         with self.assertRaisesRegex(trouble.Trouble, "cannot be started"):
             process.Process([self.path("none")], self.folder)

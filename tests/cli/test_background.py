@@ -200,7 +200,7 @@ class Background(Case):
                               (["--background", "fff"], "neither env nor"),
                               (["--background", "blur:90"], "--background"),
                               (["--png-depth", "12"], "--png-depth"),
-                              (["--background", "white", "--samples", "0:8", "-o", "a.exr"], "merging knows no background"),
+                              (["--background", "white", "--samples", "0:8", "-o", "a.exr"], "eclat merge has no backgrounds"),
                               (["--frames", "0:1", "-o", "a.%d.jpg"], "cannot store the identity of the frame's job"),
                               (["-o", "a.gif"], "has no known extension; use .exr (all data), .png, .jpg, .avif or .jxl (picture), or .hdr (radiance)")]:
             self.assertIn(says, self.assert_one_error(eclat("render", self.scene, *OPTIONS, *options, cwd=self.folder), 2))

@@ -155,7 +155,7 @@ class Checkpoint(Case):
             state = self.state()
             self.assertEqual((state["batches"], state["parts"], state["underWay"] > 0), (0, [], True))
             error = self.assert_one_error(eclat("merge", self.kept, "-o", self.path("m.exr")), 1)
-            self.assertIn("was cut off within its first batch", error)
+            self.assertIn("stopped within its first batch", error)
             again = self.render("--resume", self.kept)
             self.assertEqual((whole["image_sha256"], whole["samples"]), (again["image_sha256"], again["samples"]))
             self.assertEqual(planes, read_exr(self.path("a.exr"))[1])
@@ -223,8 +223,8 @@ class Checkpoint(Case):
         before = os.stat(self.kept).st_mtime_ns
         for limit in [[], ["--spp", "8"]]:
             run = self.assert_ok(eclat("render", "--resume", "kept.exr", *limit, cwd=self.folder))
-            self.assertEqual(run.stderr, "eclat: 'kept.exr' has 20 samples a pixel already, and "
-                             f"{(limit or ['--spp', '20'])[1]} are asked for: the picture is written as it is\n")
+            self.assertEqual(run.stderr, "eclat: 'kept.exr' already has 20 samples a pixel, and "
+                             f"{(limit or ['--spp', '20'])[1]} are asked for; the picture is written as it is\n")
         self.assertEqual(os.stat(self.kept).st_mtime_ns, before)  # it has all that there is
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--checkpoint", "other.exr", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.kept)[1], read_exr(self.path("other.exr"))[1])
@@ -239,8 +239,8 @@ class Checkpoint(Case):
     def test_begun_anew_where_it_was_to_be_gone_on_with(self):
         job = ["render", CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept, "-q", "-o", self.path("a.exr")]
         self.assertEqual(self.assert_ok(eclat(*job)).stderr, "")
-        self.assertEqual(self.assert_ok(eclat(*job)).stderr, f"eclat: warning: '{self.kept}' has 16 samples a pixel of this render, which begins anew "
-                         f"and writes over them; '--resume {self.kept}' goes on\n")
+        self.assertEqual(self.assert_ok(eclat(*job)).stderr, f"eclat: warning: '{self.kept}' holds 16 samples per pixel of this render and "
+                         f"will be overwritten; '--resume {self.kept}' continues it instead\n")
         self.assertEqual(self.assert_ok(eclat(*job, "--seed", "1")).stderr, "")
 
     def test_time_counts_on(self):
@@ -254,10 +254,10 @@ class Checkpoint(Case):
                               (["--replicates", "8"], "--replicates is 4 there and 8 here"), (["--adaptive"], "--adaptive is off there and on here"),
                               (["--light-choice", "tree"], "--light-choice is power there and tree here"),
                               (["--integrator", "raster"], "--integrator is path there and raster here"), (["--rr", "0.5"], "--rr is"),
-                              (["--camera", "0", "--filter", "blackman-harris"], "--filter is box there"), ([RING], "not the same are the scene's camera, geometry")]:
+                              (["--camera", "0", "--filter", "blackman-harris"], "--filter is box there"), ([RING], "the scenes differ in camera, geometry")]:
             run = eclat("render", "--resume", self.kept, *options, "--spp", "32", "-q", "-o", self.path("b.exr"))
             error = self.assert_one_error(run, 1)
-            self.assertIn(f"cannot go on from '{self.kept}': ", error)
+            self.assertIn(f"cannot continue from '{self.kept}': ", error)
             self.assertIn(says, error)
             self.assertFalse(os.path.exists(self.path("b.exr")))
 
@@ -275,7 +275,7 @@ class Checkpoint(Case):
             again = self.render("--resume", self.kept, "--accel", then, "--spp", "12")
             self.assertEqual(whole["image_sha256"], again["image_sha256"])
         error = self.assert_one_error(eclat("render", "--resume", self.kept, "--instancing", "off", "-q", "-o", self.path("b.exr")), 1)
-        self.assertIn("not the same are the scene's geometry", error)
+        self.assertIn("the scenes differ in geometry", error)
 
     @full
     def test_what_a_scene_does_not_call_for_makes_no_difference(self):
@@ -299,7 +299,7 @@ class Checkpoint(Case):
         with open(scene, "w", encoding="utf-8") as file:
             json.dump(text, file)
         run = eclat("render", "--resume", self.kept, "--spp", "32", "-q")
-        self.assertIn("not the same are the scene's camera; ", self.assert_one_error(run, 1))
+        self.assertIn("the scenes differ in camera; ", self.assert_one_error(run, 1))
         os.remove(scene)
         run = eclat("render", "--resume", self.kept, "--spp", "32", "-q", cwd="/")
         self.assertRegex(self.assert_one_error(run, 1), rf"cornell-box.gltf.*; the job was begun in '{os.getcwd()}'$")

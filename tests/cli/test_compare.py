@@ -177,7 +177,7 @@ class Noise(Compare):
 
     def test_unknown_replicates_are_said(self):
         run = eclat("compare", self.noisy("a.exr", seed=1, replicates=0), self.noisy("b.exr", seed=2))
-        self.assertRegex(run.stdout, r"standard errors of A from replicates unknown, taken for many; standard errors of B from 8 replicates")
+        self.assertRegex(run.stdout, r"standard errors of A from an unknown number of replicates, taken as many; standard errors of B from 8 replicates")
 
 
 class Unusable(Compare):
@@ -212,7 +212,7 @@ class Unusable(Compare):
         self.refused(a, self.exr("b.exr", planes), says=["b.exr", "2 of its values are NaN or infinite"])
         planes = flat(**{f"stderr.{c}": [0.1] * (W * H) for c in "RGB"})
         planes["stderr.G"][7] = math.inf
-        self.refused(self.exr("c.exr", planes), a, says=["1 of its values is NaN or infinite, the first in pixel (7, 0)", "mend the pixels"])
+        self.refused(self.exr("c.exr", planes), a, says=["1 of its values is NaN or infinite, the first in pixel (7, 0)", "repair the pixels"])
 
     def test_the_map_may_not_replace_a_picture_or_go_nowhere(self):
         a, b = self.exr("a.exr", flat()), self.exr("b.exr", flat())

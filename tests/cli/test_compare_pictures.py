@@ -89,7 +89,7 @@ class Formats(Pictures):
             self.assertEqual(self.compare(name, exr, "--tonemap", "none", code=lost)["a"]["format"], said)
         bright = self.exr("bright.exr", [[0.9] * 3] * (W * H))
         run = eclat("compare", "grey.jpg", bright, cwd=self.folder)
-        self.assertRegex(run.stdout, r"(?m)^lossy +A is a JPEG, whose losses are differences too: save a PNG$")
+        self.assertRegex(run.stdout, r"(?m)^lossy +A is a JPEG, whose losses are differences too; save a PNG$")
         self.assertNotIn("lossy  ", eclat("compare", "kept.webp", bright, cwd=self.folder).stdout)
 
     def test_figures_of_what_is_shown(self):
@@ -205,7 +205,7 @@ class Several(Pictures):
         run = eclat("compare", "mine", "theirs", "--tonemap", "none", "--json", cwd=self.folder)
         self.assertEqual([(r["a"]["path"], r["b"]["path"], r["differ"]) for r in json.loads(run.stdout)],
                          [("mine/one.png", "theirs/one.exr", False), ("mine/two.png", "theirs/two.exr", True)])
-        self.assertIn("1 picture of 'mine' has none of that name in 'theirs'", run.stderr)
+        self.assertIn("1 picture of 'mine' has no counterpart in 'theirs'", run.stderr)
         self.assertEqual(run.returncode, 1)
         run = eclat("compare", "mine/one.png", "mine/alone.png", "theirs/one.exr", "--tonemap", "none", cwd=self.folder)
         self.assertEqual([run.returncode, len(re.findall("(?m)^verdict ", run.stdout)), run.stdout.splitlines()[-1]], [0, 2, "all       0 of 2 differ"])
@@ -242,7 +242,7 @@ class Unusable(Pictures):
         os.link(png, self.path("out.html"))
         self.refused(png, exr, "--html", "out.html", says="one of the pictures compared; give --html another name")
         os.makedirs(self.path("empty"))
-        self.refused("empty", "empty", says="nothing to compare: no picture in 'empty' is called like one in 'empty'")
+        self.refused("empty", "empty", says="nothing to compare: no picture in 'empty' has the name of one in 'empty'")
         self.refused(png, "empty", says="cannot read 'empty': it is a folder")
         self.assertIn("--diff is the map of one pair; --html shows those of 2", self.assert_one_error(eclat("compare", png, png, exr, "--diff", "d.png", cwd=self.folder), 2))
 

@@ -14,7 +14,7 @@ from polling import poll_until
 from support import CORNELL, ECLAT, NARROW, SOURCE, Case, eclat
 
 TRAVERSAL = ["ec_intersect_bvh2", "ec_connect_bvh2", "ec_intersect_bvh8", "ec_connect_bvh8"]
-FIRST_LINE = "compiling kernels for what this scene calls for"
+FIRST_LINE = "compiling kernels for the effects of this scene"
 
 
 def children(cache):

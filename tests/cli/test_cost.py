@@ -198,7 +198,7 @@ class Study(Case):
         with open(self.path("out.json"), encoding="utf-8") as file:
             report = json.load(file)
         self.assertEqual((report["width"], report["height"]), (64, 64))
-        self.assertIn("note: pictures of 64x64 pixels in place of 256x256, so that the budget reaches more rungs; --size takes another", run.stderr)
+        self.assertIn("note: pictures of 64x64 pixels instead of 256x256, so that the budget covers more rungs; --size sets another size", run.stderr)
 
     def test_reference_from_a_file(self):
         self.assert_ok(eclat("render", CORNELL, *SMALL, "--spp", "256", "-o", self.path("ref.exr"), cwd=self.folder))

@@ -77,7 +77,7 @@ class Devices(Case):
             self.skipTest("no ECLAT_FAULT_SHIM")
         shutil.copy(os.environ["ECLAT_FAULT_SHIM"], self.path("libnvidia-opencl.so.1"))
         brought_in = {"LD_LIBRARY_PATH": self.folder, "ECLAT_DEVICE": ""}
-        mend = "NVIDIA's driver is here, but the OpenCL loader is not told of it; to use its devices: echo libnvidia-opencl.so.1 >/etc/OpenCL/vendors/nvidia.icd"
+        mend = "NVIDIA's driver is installed, but the OpenCL loader does not know of it; to use its devices: echo libnvidia-opencl.so.1 >/etc/OpenCL/vendors/nvidia.icd"
         self.assertEqual(self.assert_ok(eclat("devices", env=brought_in)).stderr, f"eclat: warning: {mend}\n")
         picture = "render", CORNELL, "--size", "24x24", "--spp", "8", "-q", "-o", self.path("a.exr")
         self.assertEqual(self.assert_ok(eclat(*picture, env=brought_in)).stderr, f"eclat: warning: {mend}\n")

@@ -47,8 +47,8 @@ class Farm(Case):
             run = self.run_script("array.sbatch", CORNELL, "47", **{"SLURM_ARRAY_" + key: value for key, value in variables.items()})
             self.assertEqual((run.returncode, run.stdout), (2, ""))
             self.assertIn(says, run.stderr)
-        for arguments, says in [((CORNELL,), "usage:"), ((CORNELL, "--size"), "no samples a pixel"),
-                                ((CORNELL, "0"), "no samples a pixel")]:
+        for arguments, says in [((CORNELL,), "usage:"), ((CORNELL, "--size"), "not a number of samples a pixel"),
+                                ((CORNELL, "0"), "not a number of samples a pixel")]:
             self.assertIn(says, self.run_script("array.sbatch", *arguments, SLURM_ARRAY_TASK_ID="0", SLURM_ARRAY_TASK_COUNT="1").stderr)
         self.assertIn("name the program", self.task(0, ECLAT="no-such-eclat").stderr)
         self.assertEqual(os.listdir(self.folder), [])
@@ -88,7 +88,7 @@ class Farm(Case):
         run = self.run_script("array.sbatch", CORNELL, "47", ECLAT=sleeper, PATH=self.folder + ":" + os.environ["PATH"], SLURM_ARRAY_JOB_ID="77",
                               SLURM_ARRAY_TASK_ID="0", SLURM_ARRAY_TASK_COUNT="1")
         self.assertEqual(run.returncode, 2)
-        self.assertIn("give --time more", run.stderr)
+        self.assertIn("give more --time", run.stderr)
         self.assertNotIn("asked", run.stderr)
 
     def program(self, name, script):
@@ -112,7 +112,7 @@ class Farm(Case):
     def test_a_farm_of_nothing(self):
         """Refused before anything is there that the right command would stumble over."""
         wrong = [("", "47", {}, "no hosts"), (" ", "47", {}, "no hosts")]
-        wrong += [("here", spp, {}, f"'{spp}' are no samples") for spp in ["0", "00", "abc", "", "4.5"]]
+        wrong += [("here", spp, {}, f"'{spp}' is not a number of samples") for spp in ["0", "00", "abc", "", "4.5"]]
         wrong += [("here", "47", {name: value}, name) for name, value in [("STEP", "0"), ("STEP", "8x"), ("SLICES", "x")]]
         for hosts, spp, variables, says in wrong:
             run = self.run_script("farm", hosts, CORNELL, spp, "all.exr", *SIZE, FARM_SSH="false", **variables)
@@ -134,7 +134,7 @@ class Farm(Case):
         self.program("ssh", 'shift\n[ ! -e gone ] || exit 255\necho >>rendered\n[ "$(wc -l <rendered)" != 2 ] || : >gone\nexec sh -c "$*"')
         self.assertEqual(self.run_script(*farm, **stop).returncode, 1)
         other = self.run_script(*farm[:-1], "1", **stop)
-        self.assertIn("farm: all.exr.farm is of another job", other.stderr)
+        self.assertIn("farm: all.exr.farm belongs to another job", other.stderr)
         os.remove(self.path("gone"))
         self.assert_ok(self.run_script(*farm, **stop))
         with open(self.path("rendered"), encoding="utf-8") as file:

@@ -225,7 +225,7 @@ class Going(FramesCase):
         for says, *options in (("--spp is 4 there and 8 here", "--spp", "8"), ("--seed is not given there and 1 here", "--seed", "1"),
                                ("moment is 0.041666666666666664 s there", "--fps", "12"), ("--env is not given there and 1,1,1 here", "--env", "1,1,1")):
             with self.subTest(says):
-                self.refuse(scene, "'f.0001.exr' is there already: " + says, *common, *options, code=1)
+                self.refuse(scene, "'f.0001.exr' already exists: " + says, *common, *options, code=1)
                 self.refuse(scene, "(so with 3 frames); --overwrite", *common, *options, code=1)
                 self.assertFalse(os.path.exists(self.path("f.0000.exr")))
         _, last = self.frames("--spp", "8", "--overwrite", scene=scene)
@@ -239,7 +239,7 @@ class Going(FramesCase):
             text = file.read()
         with open(scene, "w", encoding="utf-8") as file:
             file.write(text.replace("0.6", "0.7"))
-        self.refuse(scene, "the scene's files are not the same", "--frames", "0:3", "-o", "f.%04d.exr", code=1)
+        self.refuse(scene, "the scene's files differ", "--frames", "0:3", "-o", "f.%04d.exr", code=1)
 
     def test_what_does_not_matter_is_not_compared(self):
         scene = self.sliding()
@@ -256,7 +256,7 @@ class Going(FramesCase):
             for bytes_there in (whole[:100], b"", b"nothing"):
                 with open(self.path(name), "wb") as file:
                     file.write(bytes_there)
-                self.refuse(scene, f"'{name}' is there already: it is no frame", "--frames", "0:3", "-o", "f.%04d.exr",
+                self.refuse(scene, f"'{name}' already exists: it is not a frame", "--frames", "0:3", "-o", "f.%04d.exr",
                             "-o", "f.%d.png", code=1)
             with open(self.path(name), "wb") as file:
                 file.write(whole)
@@ -323,7 +323,7 @@ class Going(FramesCase):
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=GUARD)
         self.assertEqual(process.returncode, 1)
-        self.assertRegex(said, r"interrupted: (\d+) of 41 frames are there; the same command goes on")
+        self.assertRegex(said, r"interrupted: (\d+) of 41 frames are done; the same command renders the others")
         there = [name for name in os.listdir(self.folder) if name.startswith("i.")]
         for name in there:
             self.assertEqual(read_exr(self.path(name))[0]["eclat.stoppedBy"], "spp")
@@ -341,7 +341,7 @@ class Going(FramesCase):
         self.assertIn("NaN", rows[1]["error"])
         self.assertEqual((last["rendered"], last["failed"]), (2, 1))
         self.assertIn("eclat: error: frame 1: ", run.stderr)
-        self.assertIn("1 of 3 frames failed; the same command renders only those once", run.stderr.splitlines()[-1])
+        self.assertIn("1 of 3 frames failed; once that is fixed, the same command renders only those", run.stderr.splitlines()[-1])
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith("exr")), ["x.0.exr", "x.2.exr"])
 
 

@@ -32,7 +32,7 @@ def scene(name):
 class Usage(Case):
     def test_what_is_wrong_is_one_line(self):
         for arguments, words in [((), "SCENE is missing"), (("--target", "sm_1", "a.gltf"), "--target sm_1: must be of sm_75, "),
-                                 (("--nonsense", "a.gltf"), "--nonsense before SCENE is no option")]:
+                                 (("--nonsense", "a.gltf"), "--nonsense before SCENE is not an option")]:
             done = run(*arguments)
             self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (2, "", 1))
             self.assertIn(words, done.stderr)

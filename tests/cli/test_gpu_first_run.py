@@ -46,7 +46,7 @@ class FirstRun(Case):
             finally:
                 os.killpg(process.pid, signal.SIGKILL)
         text = self.read()
-        self.assertIn("This did not come to its end; last under way: self-test.", text)
+        self.assertIn("This did not finish; last in progress: self-test.", text)
         self.assertIn("## Devices", text)
 
     @full

@@ -140,7 +140,7 @@ class ImageLight(Case):
         self.assert_colour(self.colour(scene, 1, "--env-strength", "4"), (4, 0, 0), 1e-6)
         run = self.assert_ok(eclat("render", "--size", "4x4", "--spp", "4", "--env", "0,2,0", "-o", self.path("a.exr"),
                                    self.path("scene.gltf")))
-        self.assertIn("--light takes the place of the image-based light that the scene has", run.stderr)
+        self.assertIn("--light replaces the scene's image-based light", run.stderr)
 
     def test_called_for_only_where_it_gives_light(self):
         colourful = [png(8, lambda x, y, c=colour: c) for colour in COLOURS]
@@ -152,7 +152,7 @@ class ImageLight(Case):
         for scene in (lit_scene(colourful, intensity=0), lit_scene([png(8, lambda x, y: (0, 0, 0))] * 6)):
             run = self.assert_ok(eclat("info", write_gltf(self.path("scene.gltf"), scene)))
             self.assertIn("no environment", run.stdout)
-            self.assertIn("a render takes the built-in studio", run.stdout)
+            self.assertIn("a render uses the built-in studio", run.stdout)
             self.assertNotIn("a map of 32 x 16", run.stdout)
         unused = lit_scene(colourful)
         del unused["scenes"][0]["extensions"]
@@ -179,7 +179,7 @@ class ImageLight(Case):
             (lit_scene([good] * 6, specularImages=[0, 1, 2, 3, 4, 5]), where + "specularImages[0] must be an array"),
             (lit_scene([good] * 6, specularImages=[[0, 1, 2, 3, 4, 6]]), where + "specularImages[0][5] is 6 but the file has 6 images"),
             (lit_scene([good] * 6, specularImages=[[0, 1, 2, 3, 4, 5], [0, 1]]), where + "specularImages[1] must have 6 indices"),
-            (lit_scene([good] * 5 + [small]), "the -z face of image-based light 0 has 4 x 4 pixels, and the faces before it 8 x 8"),
+            (lit_scene([good] * 5 + [small]), "the -z face of image-based light 0 has 4 x 4 pixels, but the first face has 8 x 8"),
             (lit_scene([good] * 3 + [wide] + [good] * 2), "the -y face of image-based light 0 has 8 x 4 pixels; faces must be square"),
             (lit_scene([b"no picture"] * 6), "the +x face of image-based light 0: images[0] cannot be decoded"),
             (lit_scene([good[:60]] * 6), "images[0] cannot be decoded"),
@@ -217,7 +217,7 @@ class ImageLight(Case):
     def test_another_size_than_stated_is_a_warning(self):
         scene = write_gltf(self.path("scene.gltf"), lit_scene([png(8, lambda x, y: (9, 9, 9))] * 6, size=256))
         run = self.assert_ok(eclat("render", "-q", *QUICK, "--size", "4x4", "--spp", "4", "-o", self.path("a.exr"), scene))
-        self.assertIn("says that its faces have 256 pixels a side; they have 8", run.stderr)
+        self.assertIn("says that its faces have 256 pixels a side, but they have 8", run.stderr)
 
 
 if __name__ == "__main__":

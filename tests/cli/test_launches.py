@@ -65,7 +65,7 @@ class Launches(Case):
 
     def test_a_limit_that_is_none_is_one_clear_line(self):
         line = self.assert_one_error(eclat("render", CORNELL, "-q", "-o", self.path("a.exr"), env={"ECLAT_LAUNCH_SECONDS": "soon"}), 1)
-        self.assertIn("ECLAT_LAUNCH_SECONDS=soon: must be the most seconds that a launch may take, or 0 for no limit", line)
+        self.assertIn("ECLAT_LAUNCH_SECONDS=soon: must be the maximum seconds for a launch, or 0 for no limit", line)
 
     @full
     def test_pieces_of_single_rays(self):

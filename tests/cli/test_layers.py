@@ -156,7 +156,7 @@ class Kept(Layers):
         self.assertIn("error", self.assert_ok(eclat("mix", "all.exr", "ceiling=0", "-o", "mixed.exr", cwd=self.folder)).stdout)
         for other in (["--channels", "direct"], ["--channels", "direct,indirect", "--light-groups", "ceiling=ceiling-panel,bulb-over-table"]):
             self.assert_ok(eclat("render", *job, *other, "--samples", "40:96", "-o", "c.exr", cwd=self.folder))
-            self.assertIn("not of the same job", self.assert_one_error(eclat("merge", "a.exr", "c.exr", "-o", "d.exr", cwd=self.folder), 1))
+            self.assertIn("not from the same job", self.assert_one_error(eclat("merge", "a.exr", "c.exr", "-o", "d.exr", cwd=self.folder), 1))
 
 
 def far_quad():

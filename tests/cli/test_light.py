@@ -23,7 +23,7 @@ class Light(Case):
 
     def test_a_scene_without_light_is_in_the_studio(self):
         report, told = self.render("a.exr", spp=64)
-        self.assertRegex(told, "note: the scene has no light: the built-in studio lights it")
+        self.assertRegex(told, "note: the scene has no light; the built-in studio lights it")
         self.assertEqual(report["environment"], "studio")
         named, told = self.render("b.exr", "--light", "studio", spp=64)
         self.assertNotIn("note: the scene has no light", told)
@@ -33,7 +33,7 @@ class Light(Case):
         self.assertEqual(planes["R"], planes["G"])
         self.assertTrue(0.8 < middle < 1.2, middle)
         run = self.assert_ok(eclat("info", self.scene))
-        self.assertIn("none at all: a render takes the built-in studio", run.stdout)
+        self.assertIn("none at all: a render uses the built-in studio", run.stdout)
 
     def test_the_sun_is_where_it_is_said_to_be(self):
         for azimuth, elevation in [(30, 45), (-100, 10)]:
@@ -60,7 +60,7 @@ class Light(Case):
 
     def test_a_bad_sky_is_refused(self):
         line = self.assert_one_error(eclat("render", self.scene, *SMALL, "--light", "sky:10,120", "-o", self.path("a.exr")), 1)
-        self.assertIn("sky:AZIMUTH,ELEVATION is two numbers of degrees, the second from 0 to 90", line)
+        self.assertIn("sky:AZIMUTH,ELEVATION needs two numbers in degrees, the second from 0 to 90", line)
 
 
 if __name__ == "__main__":

@@ -120,7 +120,7 @@ class LightTracing(OtherWay):
                 row = next(row for row in json.loads(run.stdout)["effect_list"] if row["name"] == "volume-scattering")
                 self.assertEqual((row["called_for"], row["kernels"]), (True, []))
         run = self.assert_ok(eclat("render", scene("wax"), "--integrator", "light", "--size", "8x8", "--spp", "1", "-o", self.path("w.exr")))
-        self.assertIn("bodies absorb here what they would scatter", run.stderr)
+        self.assertIn("bodies absorb the light that they would scatter", run.stderr)
 
     def test_refused(self):
         self.assert_refused([(["--adaptive"], "--adaptive"), (["--light-paths", "0"], "--light-paths 0")])

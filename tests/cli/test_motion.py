@@ -186,7 +186,7 @@ class Motion(Case):
             ring[3] += wanted * (1 - wanted) / spp
         for radius, (count, got, wanted, variance) in rings.items():
             self.assertLess(abs(got - wanted), 4.5 * math.sqrt(variance) + 0.004 * count, f"ring {radius}")
-        self.assertIn("straight ways", json.dumps(stats["effect_list"]))
+        self.assertIn("straight steps", json.dumps(stats["effect_list"]))
 
     @full
     def test_lamps_spots_bodies_and_cameras_are_means_of_stills(self):

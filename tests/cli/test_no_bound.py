@@ -38,9 +38,9 @@ class NoBound(Case):
 
     def test_an_error_is_not_met_and_the_render_says_so(self):
         run, _ = self.render("--error", "60%", "--spp", "256", "--adaptive=off", env=WIDE)
-        self.assertRegex(run.stderr, r'would do for --error 0\.6, but there is no bound: rare bright paths \(through "mirror" to "lamp"\)')
-        self.assertEqual(len(re.findall("would do for", run.stderr)), 1)
-        self.assertRegex(run.stdout, r"(?m)^forecast .* not foreseeable")
+        self.assertRegex(run.stderr, r'would be enough for --error 0\.6, but there is no bound: rare bright paths \(through "mirror" to "lamp"\)')
+        self.assertEqual(len(re.findall("would be enough for", run.stderr)), 1)
+        self.assertRegex(run.stdout, r"(?m)^forecast .* cannot be predicted")
         self.assertRegex(run.stdout, r"(?m)^stopped  all samples are taken$")
 
     def test_slices_and_resumed_renders_say_the_same(self):

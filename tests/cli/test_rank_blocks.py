@@ -101,7 +101,7 @@ class RankBlocks(Case):
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=2500 FAULT_LOST=1"
         run = self.render_with(fault, MANY, {"ECLAT_RANK_FANOUT": "1"})  # it goes on with what the last rank does
-        self.assertRegex(run.stderr, "warning: told by rank 1: .* is out, and the others take over its work: .*CL_OUT_OF_RESOURCES")
+        self.assertRegex(run.stderr, "warning: from rank 1: .* has failed, and the others take over its work: .*CL_OUT_OF_RESOURCES")
 
     def test_a_rank_that_is_killed(self):
         """Where the launcher lets the others live they see at once that it has ended, even from behind it in a chain, and take its piece over."""

@@ -162,7 +162,7 @@ class Ranks(Case):
     @full
     def test_what_fails_early_is_said_once(self):
         large = ["render", CORNELL, "--size", "4096x4096", "--spp", "4", "--memory", "300M", "-o", self.path("a.exr")]
-        for arguments, code, says in [(large, 1, "an MPI job is for pictures that are rendered whole; start one process without mpirun, or"),
+        for arguments, code, says in [(large, 1, "an MPI job needs the picture whole; start one process without mpirun, or"),
                                       (["render", self.path("none.gltf")], 1, "none.gltf"), (["render", CORNELL, "--spp", "x"], 2, "--spp"),
                                       (["render", CORNELL, "-o", self.path("no", "a.exr")], 1, "No such file")]:
             run = mpirun(2, *arguments)
@@ -186,7 +186,7 @@ class Ranks(Case):
         for number, more, says in [("0", [], 1), ("1", [], 0), ("0", ["--samples", "0:8"], 0)]:
             env = {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": number}
             run = eclat("render", *JOB, "--spp", "16", *more, "-o", self.path("a.exr"), env=env)
-            self.assertEqual(self.assert_ok(run).stderr.count("srun started 2 processes that know nothing of one another"), says, run.stderr)
+            self.assertEqual(self.assert_ok(run).stderr.count("srun started 2 processes that do not know of one another"), says, run.stderr)
 
     def test_other_commands(self):
         run = self.assert_ok(mpirun(2, "info", CORNELL))
@@ -240,7 +240,7 @@ class Ranks(Case):
             _, error = self.outcome(process, ranks, victim)
             self.assertNotEqual(process.returncode, 0, error)
             goes_on = f"{ECLAT} render --resume {kept}\n"  # to be typed as it is; said before, and where there is a rank 0 to say it, again
-            self.assertEqual((error.count("from the last checkpoint with: " + goes_on), error.count("behind mpirun, with: " + goes_on)),
+            self.assertEqual((error.count("from the last checkpoint with: " + goes_on), error.count("under mpirun, with: " + goes_on)),
                              (1, 1 if victim else 0), error)
             run = self.assert_ok(eclat("render", "--resume", kept, "--spp", "1", "--json", "-q", "-o", self.path("b.exr")))
             done = json.loads(run.stdout)["samples_per_pixel"]
@@ -263,8 +263,8 @@ class Ranks(Case):
             ranks = self.ranks_of(process)
             os.kill(ranks[victim], number)
             out, error = self.outcome(process, ranks, victim)
-            told = "told by rank 2: " if victim == 5 else ""
-            self.assertRegex(error, f"warning: {told}rank {victim} on .* is out, and the others take over its work: rank {victim} is lost")
+            told = "from rank 2: " if victim == 5 else ""
+            self.assertRegex(error, f"warning: {told}rank {victim} on .* has failed, and the others take over its work: rank {victim} is lost")
             self.assertEqual(json.JSONDecoder().raw_decode(out)[0]["image_sha256"], whole["image_sha256"])
             self.assertEqual(planes, read_exr(self.path("b.exr"))[1])
             if number == signal.SIGKILL:
@@ -293,7 +293,7 @@ class Ranks(Case):
             last = dict(line.split() for line in file)["clGetDeviceInfo"]
         for fault, warns in [(f"{shim} FAULT_CALL=clGetDeviceInfo FAULT_AT={last}", 1), ("", 0)]:
             run = self.render_with(f"POCL_DEVICES=basic {fault}", [*JOB, "--spp", "40"], {"POCL_DEVICES": "pthread"})
-            self.assertEqual(len(re.findall("warning: rank 1 has basic-.* and rank 0 pthread-.*: where one of these does not round", run.stderr)), warns,
+            self.assertEqual(len(re.findall("warning: rank 1 has basic-.* and rank 0 pthread-.*: if one of these does not round", run.stderr)), warns,
                              run.stderr)
 
     @full
@@ -304,7 +304,7 @@ class Ranks(Case):
         job = [CORNELL, "--size", "64x48", "--spp", "512"]
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clCreateCommandQueue POCL_DEVICES='basic basic basic basic basic basic'"
         run = self.render_with(fault, job, {"POCL_DEVICES": "basic basic basic basic basic basic"}, ["--device", "all"])
-        self.assertRegex(run.stderr, "warning: told by rank 1: basic-.* is out, and the others take over its work: clCreateCommandQueue")
+        self.assertRegex(run.stderr, "warning: from rank 1: basic-.* has failed, and the others take over its work: clCreateCommandQueue")
         self.assertEqual(json.loads(run.stdout)["ranks"], 3)
 
     def render_with(self, on_rank_1, job, env=None, more=(), launcher=()):
@@ -331,7 +331,7 @@ class Ranks(Case):
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=60 FAULT_LOST=1"
         job = [CORNELL, "--size", "64x48", "--spp", "512"]
-        self.assertRegex(self.render_with(fault, job).stderr, "warning: rank 1 on .* is out.*CL_OUT_OF_RESOURCES")
+        self.assertRegex(self.render_with(fault, job).stderr, "warning: rank 1 on .* has failed.*CL_OUT_OF_RESOURCES")
 
     @full
     def test_cores(self):

@@ -110,7 +110,7 @@ class Files(Render):
     def test_channels_that_cannot_be(self):
         for asked in ["stderr.Z", "", "R,", "stderr.", "ALL"]:
             line = self.assert_one_error(eclat("render", self.scene, "--channels", asked, cwd=self.folder), 2)
-            self.assertIn(f"--channels: '{asked.split(',')[-1]}' is no channel; give all, default, ", line)
+            self.assertIn(f"--channels: '{asked.split(',')[-1]}' is not a channel; give all, default, ", line)
         for options, says in [(["-o", "a.png"], "-o names none"), (["--samples", "0:64", "--spp", "64"], "a slice holds all of them")]:
             self.assertIn(says, self.assert_one_error(eclat("render", self.scene, "--channels", "all", *options, cwd=self.folder), 2))
         self.assertEqual(os.listdir(self.folder), ["quad.gltf"])
@@ -145,7 +145,7 @@ class Files(Render):
         self.assertEqual([heavy, attributes["eclat.heavyPixels"]], [report["heavy_pixels"]] * 2)
         self.assertGreater(heavy, 50)  # most of the caustic
         run = self.assert_ok(eclat("render", RING, "--size", "24x16", "--spp", "32", cwd=self.folder))
-        self.assertRegex(run.stdout, rf"(?m)^pixels +{heavy} \(.* %\) want more samples for an error of their own")
+        self.assertRegex(run.stdout, rf"(?m)^pixels +{heavy} \(.* %\) need more samples for an error of their own")
 
     def test_the_errors_channels_are_those_of_the_stated_error(self):
         report = self.render("--size", "96x64", "--spp", "16", "-o", "a.exr", scene=CORNELL)  # pixels enough for half floats to be off evenly
@@ -213,7 +213,7 @@ class Reports(Render):
     def test_a_forecast_is_told_before_and_compared_after(self):
         run = self.assert_ok(eclat("render", self.scene, *SMALL[:2], "--spp", "64", "-o", self.path("a.png"), cwd=self.folder, env=WIDE))
         self.assertRegex(run.stderr, r"after 32 samples a pixel: about 64 samples a pixel, .+ \(95 %: .+ to .+\), error then about")
-        self.assertRegex(run.stdout, r"(?m)^forecast about 64 samples a pixel.*; said after 32 samples$")
+        self.assertRegex(run.stdout, r"(?m)^forecast about 64 samples a pixel.*; made after 32 samples$")
         forecast = self.render(*SMALL[:2], "--error", "1", "--spp", "4096", env=WIDE)["forecast"]
         self.assertTrue(forecast["seconds_low"] <= forecast["seconds"] <= forecast["seconds_high"])
         self.assertTrue(forecast["samples_per_pixel_low"] <= forecast["samples_per_pixel"] <= forecast["samples_per_pixel_high"] <= 4096)

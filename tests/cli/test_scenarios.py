@@ -101,7 +101,7 @@ class Scenarios(Case):
         run, rows = self.run_all()
         self.assertEqual(run.returncode, 1)
         lines = run.stderr.splitlines()
-        for line, says in zip(lines, ('no-model: it has no "model"', "dark: its \"lighting\", 'models/none.hdr', cannot be read; put it there, or light all by another map with "
+        for line, says in zip(lines, ('no-model: it has no "model"', "dark: its \"lighting\", 'models/none.hdr', cannot be read; put it there, or give one map for all with "
                                       "--env FILE", "curve: --tonemap", "gone: models/gone.glb: cannot open", 'letters: "orbit" has no number for radius',
                                       'short: "matrix" has 2 numbers', "6 of 7 pictures failed")):
             self.assertTrue(line.startswith("eclat: error: " + says), line)
@@ -145,11 +145,11 @@ class Scenarios(Case):
         self.refuse("cannot open 'none.json'", "--scenarios", "none.json", "--out", "out", code=1)
         for name in ("", "../a", ".a", "index", None):
             self.write([{"name": name, "model": "quad.gltf"}])
-            self.refuse("scenario 1 has no name that a file can have", *listed, code=1)
+            self.refuse("scenario 1 has no usable \"name\"", *listed, code=1)
         self.write([{"name": "a"}, {"name": "a"}])
         self.refuse("two scenarios are called 'a'", *listed, code=1)
         self.write([])
-        self.refuse('there are no "scenarios" in it', *listed, code=1)
+        self.refuse('it has no "scenarios"', *listed, code=1)
         with open(self.path("models", "list.json"), "w", encoding="utf-8") as file:
             file.write('{"scenarios":\n [}')
         self.refuse("models/list.json: line 2 is not valid JSON", *listed, code=1)

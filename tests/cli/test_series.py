@@ -78,7 +78,7 @@ class Series(Case):
         self.assertEqual(run.returncode, 1)
         lines = run.stderr.splitlines()
         self.assertEqual(len(lines), 3, run.stderr)
-        for line, says in zip(lines, ("bad.gltf: not valid JSON", "none.glb: cannot open", "2 of 4 pictures failed; the same command renders only those")):
+        for line, says in zip(lines, ("bad.gltf: not valid JSON", "none.glb: cannot open", "2 of 4 pictures failed; once that is fixed, the same command renders only those")):
             self.assertTrue(line.startswith("eclat: error: " + says), line)
         self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.png", "b.png"])
 
@@ -189,7 +189,7 @@ class Series(Case):
         write_gltf(self.path("back.gltf"), scene)
         run = self.assert_ok(self.render("a.gltf", "back.gltf", "b.gltf", "-q", "-o", "out/{name}.png"))
         self.assertIn("eclat: warning: back.gltf: the picture will show no surface", run.stderr)
-        self.assertIn("1 of 3 pictures show no surface, as said above: back.gltf", run.stderr.splitlines()[-1])
+        self.assertIn("1 of 3 pictures show no surface, as warned above: back.gltf", run.stderr.splitlines()[-1])
         del scene["cameras"], scene["nodes"][1], scene["scenes"][0]["nodes"][1]
         write_gltf(self.path("back.gltf"), scene)
         self.assertEqual(self.assert_ok(self.render("a.gltf", "back.gltf", "-q", "-o", "out/{name}.exr")).stderr, "")

@@ -122,7 +122,7 @@ class Slices(Case):
         self.assertIn("samples 8:12, 24:33 are missing; ", error)
         self.assertFalse(os.path.exists(self.path("all.exr")))
         run = self.assert_ok(self.merge(c, a, "--partial"))
-        self.assertEqual(run.stderr, "eclat: warning: samples 8:12, 24:33 are missing: the picture is of the others\n")
+        self.assertEqual(run.stderr, "eclat: warning: samples 8:12, 24:33 are missing; the picture is made of the others\n")
         self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {20.0})
 
     @full
@@ -149,7 +149,7 @@ class Slices(Case):
         self.assert_ok(self.merge(a, c, "--partial"))
         shutil.copy(self.path("all.exr"), self.path("ac.exr"))
         for slices in [[b, c], [c, b], [self.path("ac.exr"), b]]:
-            self.assertIn("one ends within a batch, after 19 samples a pixel, and the other goes on behind that; ", self.assert_one_error(self.merge(*slices, "--partial"), 1))
+            self.assertIn("one ends within a batch, after 19 samples a pixel, and the other continues after that; ", self.assert_one_error(self.merge(*slices, "--partial"), 1))
         self.assert_ok(self.merge(a, b, "--partial"))
         self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {11.0})
 
@@ -160,10 +160,10 @@ class Slices(Case):
         for options, says in others:
             b = self.render("b.exr", *job, "16:32", *options)
             error = self.assert_one_error(self.merge(a, b), 1)
-            self.assertIn(f"'{b}' is not of the same job as '{a}': ", error)
+            self.assertIn(f"'{b}' is not from the same job as '{a}': ", error)
             self.assertIn(says, error)
         b = self.render("b.exr", *job, "16:32", scene=RING)
-        self.assertRegex(self.assert_one_error(self.merge(a, b), 1), "not the same are the scene's camera, geometry, ")
+        self.assertRegex(self.assert_one_error(self.merge(a, b), 1), "the scenes differ in camera, geometry, ")
         c = self.render("c.exr", *job, "16:32", *alike)
         self.assert_ok(self.merge(a, c))
 
@@ -199,11 +199,11 @@ class Slices(Case):
         with open(self.path("changed.gltf"), "w", encoding="utf-8") as file:
             json.dump(scene, file)
         b = self.render("b.exr", "--spp", "32", "--samples", "16:32", scene=self.path("changed.gltf"))
-        self.assertIn("not the same are the scene's materials; ", self.assert_one_error(self.merge(a, b), 1))
+        self.assertIn("the scenes differ in materials; ", self.assert_one_error(self.merge(a, b), 1))
 
     def test_what_is_no_slice(self):
         plain = self.render("plain.exr", "--spp", "4")
-        self.assertIn(f"cannot read '{plain}': it is no checkpoint or slice", self.assert_one_error(self.merge(plain), 1))
+        self.assertIn(f"cannot read '{plain}': it is not a checkpoint or slice", self.assert_one_error(self.merge(plain), 1))
         self.assertIn("cannot open", self.assert_one_error(self.merge(self.path("none.exr")), 1))
         self.assertIn("merge needs slices", self.assert_one_error(eclat("merge", "-o", self.path("x.exr")), 2))
         self.assertIn("merge needs -o", self.assert_one_error(eclat("merge", plain), 2))

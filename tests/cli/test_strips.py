@@ -117,8 +117,8 @@ class Strips(Case):
                               (["--checkpoint", self.path("c.exr")], "--checkpoint"), (["--spp", "32", "--samples", "0:16"], "--samples")]:
             run = eclat("render", CORNELL, "--size", "4096x4096", "-q", "--memory", "400M", *options, "-o", self.path("a.exr"))
             line = self.assert_one_error(run, 1)
-            self.assertIn(f"in strips, one after the other, but {name} is for pictures", line)
-            self.assertRegex(line, r"4096x4096 pixels take [\d.]+ MB and there are [\d.]+")
+            self.assertIn(f"in strips, but {name} needs the picture whole", line)
+            self.assertRegex(line, r"4096x4096 pixels need [\d.]+ MB, but [\d.]+ MB are free")
             self.assertEqual(os.listdir(self.folder), [])
 
     @full

@@ -71,7 +71,7 @@ class Viewpoint(Case):
 
     def test_nonsense_is_refused(self):
         for options, says in {("--eye", "1,2"): "not three numbers", ("--eye", "1,2,nan"): "not three numbers",
-                              ("--eye", "1,2,3,4"): "not three numbers", ("--up", "0,0,0"): "no direction",
+                              ("--eye", "1,2,3,4"): "not three numbers", ("--up", "0,0,0"): "not a direction",
                               ("--fov", "180"): "--fov", ("--fov", "0"): "--fov", ("--parallel", "0"): "--parallel"}.items():
             self.assertIn(says, self.assert_one_error(eclat("render", self.scene, *options), 2))
         run = eclat("render", self.scene, *SMALL, "--eye=1,2,3", "--look-at=1,2,3", cwd=self.folder)

@@ -231,7 +231,7 @@ class VolumeScatter(Case):
     @full
     def test_told_where_it_is_left_out(self):
         path = self.scene_of(body(ALBEDO, [9, 4, 2], ior=1.4)).add(block(1, 0, -1)).write(self.path("a.gltf"))
-        for options, word in (["--integrator", "whitted"], "only --integrator path scatters light inside"), (["--light-paths", "1"], "--light-paths: none are sent"):
+        for options, word in (["--integrator", "whitted"], "only --integrator path scatters light inside"), (["--light-paths", "1"], "--light-paths: none are traced"):
             run = self.assert_ok(eclat("render", path, "--size", "8x8", "--spp", "8", "-o", self.path("a.png"), *options))
             self.assertIn(word, run.stderr)
             self.assertNotIn("light-paths  ", run.stderr)
@@ -242,7 +242,7 @@ class VolumeScatter(Case):
         jade["extensions"]["KHR_materials_volume_scatter"]["multiscatterColorTexture"] = {"index": 0}
         path = self.scene_of(jade).add(block(1, 0, -1)).write(self.path("a.gltf"))
         run = self.assert_ok(eclat("info", path))
-        self.assertRegex(run.stderr, r"materials\[\d+\] has a multiscatterColorTexture, which is left out: bodies scatter alike all over")
+        self.assertRegex(run.stderr, r"materials\[\d+\] has a multiscatterColorTexture, which is left out: a body scatters the same everywhere")
 
 
 if __name__ == "__main__":

@@ -110,7 +110,7 @@ static void the_last_batch_may_be_cut(void)
     check_uneven(&film, (double[4]){4, 4, 3, 2}, two_three_or_four);
     const ec_pixel before = films_pixel(&film, 3);
     CHECK(films_add(&film, 11, batch_of(11, value), &err) == EC_FAILED && strstr(err.text, "ended within batch 10"));
-    CHECK(films_add(&film, 10, batch_of(10, value), &err) == EC_FAILED && strstr(err.text, "batches 10 to 10 are there twice"));
+    CHECK(films_add(&film, 10, batch_of(10, value), &err) == EC_FAILED && strstr(err.text, "batches 10 to 10 occur twice"));
     const ec_pixel after = films_pixel(&film, 3);
     CHECK(before.mean[0] == after.mean[0] && before.m2[3] == after.m2[3] && film.batch_count == 11 && film.cut == 1);
     ec_film_destroy(&film);

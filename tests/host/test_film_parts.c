@@ -213,8 +213,8 @@ static void nothing_twice(void)
 {
     ec_film film = slice(0, 40), other = slice(39, 60);
     ec_error err;
-    CHECK(add(&film, 17, 0, &err) == EC_FAILED && strstr(err.text, "batches 17 to 17 are there twice"));
-    CHECK(ec_film_take_parts(&film, &other, &err) == EC_FAILED && strstr(err.text, "batches 39 to 39 are there twice"));
+    CHECK(add(&film, 17, 0, &err) == EC_FAILED && strstr(err.text, "batches 17 to 17 occur twice"));
+    CHECK(ec_film_take_parts(&film, &other, &err) == EC_FAILED && strstr(err.text, "batches 39 to 39 occur twice"));
     ec_film again = slice(0, 40);
     CHECK(same(&film, &again));
     ec_film_destroy(&film);

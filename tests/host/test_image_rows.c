@@ -96,12 +96,12 @@ static void exr_attributes_of_other_lengths(void)
         ec_exr_free(&exr);
         CHECK(!ec_exr_number(ROWS ".exr", "eclat.how", &number));
         remove(ROWS ".exr");
-        CHECK(write_exr(&begin, &end, 1, 0, &err) == EC_FAILED && strstr(err.text, "does not fit its header"));
+        CHECK(write_exr(&begin, &end, 1, 0, &err) == EC_FAILED && strstr(err.text, "do not fit into its header"));
         struct stat info;
         CHECK(stat(ROWS ".exr", &info) != 0);
     }
     const ec_attribute end = {"eclat.how", EC_ATTR_STRING, too_long, 0};
-    CHECK(write_exr(&begin, &end, 1, 100, &err) == EC_FAILED && strstr(err.text, "does not fit its header"));
+    CHECK(write_exr(&begin, &end, 1, 100, &err) == EC_FAILED && strstr(err.text, "do not fit into its header"));
 }
 
 static void png_rows(void)

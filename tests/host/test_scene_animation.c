@@ -148,12 +148,12 @@ static void test_pointers(void)
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
         char *json = replace(ANIMATED(LAMP_NODE, POINTER("@at@"), "LINEAR", FLOATS("3", "SCALAR"), LAMP), "@at@", elsewhere[i]);
         s = load_at(json, &k, 0);
-        if (*elsewhere[i]) CHECK_MSG(strstr(messages, "which eclat does not") != NULL, "%s: %s", elsewhere[i], messages);
+        if (*elsewhere[i]) CHECK_MSG(strstr(messages, "which is not supported") != NULL, "%s: %s", elsewhere[i], messages);
         ec_scene_free(s);
         free(json);
     }
     s = load_at(ANIMATED("", NODE_0("foo"), "LINEAR", FLOATS("3", "SCALAR"), ""), &k, 0);
-    CHECK_MSG(strstr(messages, "animations[0].channels[0] moves /nodes/0/foo, which eclat does not; it is left out") != NULL, "%s", messages);
+    CHECK_MSG(strstr(messages, "animations[0].channels[0] animates /nodes/0/foo, which is not supported; it is left out") != NULL, "%s", messages);
     ec_scene_free(s);
 }
 
@@ -183,7 +183,7 @@ static void test_choice(void)
     }
     wanted = (ec_scene_choice){.animation = "run", .animated = true};
     expect_failure(two, blobs, "no animation \"run\"; there are: 0 \"scale\", 1 \"move\"");
-    expect_failure(TRIANGLE("", "", "", ""), triangle_blobs, "there is no animation in it");
+    expect_failure(TRIANGLE("", "", "", ""), triangle_blobs, "the file has no animation");
     ec_error err;
     double corner[3] = {9};
     wanted = (ec_scene_choice){0};
@@ -207,9 +207,9 @@ static void test_defects(void)
         {"'input':1", "'input':5", "animations[0].samplers[0].input is 5"},
         {"'output':2", "'output':1", "nodes[0].translation must be an array"},
         {"'type':'VEC3'}]", "'type':'VEC4'}]", "nodes[0].translation must have 3 numbers, not 4"},
-        {"'count':3,'type':'VEC3'}]", "'count':4,'type':'VEC3'}]", "has 4 elements, which does not go with the 3 keys"},
-        {"'LINEAR'", "'CUBICSPLINE'", "has 3 elements, which does not go with the 3 keys"},
-        {"'count':3,'type':'SCALAR'", "'count':4,'type':'SCALAR'", "the times of its keys must grow: key 3"},
+        {"'count':3,'type':'VEC3'}]", "'count':4,'type':'VEC3'}]", "has 4 elements, which does not match the 3 keys"},
+        {"'LINEAR'", "'CUBICSPLINE'", "has 3 elements, which does not match the 3 keys"},
+        {"'count':3,'type':'SCALAR'", "'count':4,'type':'SCALAR'", "the times of its keys must increase: key 3"},
         {"'count':3,'type':'VEC3'}]", "'count':300,'type':'VEC3'}]", "needs 300 elements"},
         {"'path':'translation'", "'path':'rotation'", "a rotation takes 4 numbers, not 3"},
         {"'path':'translation'", "'path':'weights'", "has 2 morph targets for 3 weights"},
@@ -227,7 +227,7 @@ static void test_defects(void)
     k.values[1] = NAN;
     expect_failure(json, blobs, "NaN or infinity at 1 s");
     k.times[1] = NAN;
-    expect_failure(json, blobs, "must grow");
+    expect_failure(json, blobs, "must increase");
     /* In an animation that is not asked for nothing but the shape matters. */
     wanted = (ec_scene_choice){0};
     ec_error err;

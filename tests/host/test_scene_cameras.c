@@ -124,7 +124,7 @@ static void test_odd_values_of_lights(void)
         {"{'type':'point'}", "{'type':'point','intensity':-1}", "light 1 has values out of KHR_lights_punctual's range"},
         {"{'type':'point'}", "{'type':'point','range':-1}", "light 1 has values out of"},
         {"{'type':'point'}", "{'type':'point','intensity':1e35}", "light 1 has values out of"},
-        {"{'type':'point'}", "{'type':'point','range':0}", "light 1 has range 0, which KHR_lights_punctual does not allow; it is taken as endless"}};
+        {"{'type':'point'}", "{'type':'point','range':0}", "light 1 has range 0, which KHR_lights_punctual does not allow; it is taken as infinite"}};
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
         char *text = replace(CAMERAS, odd[i][0], odd[i][1]);
         ec_error err;

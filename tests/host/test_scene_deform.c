@@ -197,10 +197,10 @@ static void test_defects(void)
     };
     static const defect skins[] = {
         {"'skin':0", "'skin':1", "nodes[0].skin is 1 but the file has 1 skins"},
-        {"'joints':[1,2]", "'joints':[1]", "vertex 1 hangs on joint 1, but its skin has 1"},
+        {"'joints':[1,2]", "'joints':[1]", "vertex 1 uses joint 1, but its skin has 1 joints"},
         {"'joints':[1,2]", "'joints':[1,3]", "skins[0].joints[1] is 3"},
         {"'joints':[1,2],", "", "skins[0].joints is missing"},
-        {"'scenes':[{'nodes':[0,1]}]", "'scenes':[{'nodes':[0]}]", "which is not in the scene of the mesh"},
+        {"'scenes':[{'nodes':[0,1]}]", "'scenes':[{'nodes':[0]}]", "but that node is not in the mesh's scene"},
         {"'componentType':5126,'count':2,'type':'MAT4'", "'componentType':5126,'count':1,'type':'MAT4'", "has 1 matrices for 2 joints"},
         {"'type':'MAT4'", "'type':'VEC4'", "must hold 4x4 matrices"},
         {"'JOINTS_0':2", "'JOINTS_0':3", "JOINTS: accessors[3] has 4 normalized components"},

@@ -213,9 +213,9 @@ static void test_dropped(void)
     }
     ec_scene_free(s);
     for (int i = 0; i < 15; i += 3) data.position[i] = INFINITY;
-    expect_failure(text, blobs, "nothing to render: of 4 triangles 0 have no area and 4 positions that are NaN");
+    expect_failure(text, blobs, "nothing to render: of 4 triangles, 0 have no area and 4 have positions that are NaN");
     memset(data.position, 0, sizeof data.position);
-    expect_failure(text, blobs, "nothing to render: of 4 triangles 4 have no area");
+    expect_failure(text, blobs, "nothing to render: of 4 triangles, 4 have no area");
     data.index[11] = 5;
     expect_failure(text, blobs, "index 5 (entry 11 of accessors[1]) is out of range");
     free(text);

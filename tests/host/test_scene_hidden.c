@@ -86,7 +86,7 @@ static void test_nothing_shows(void)
     wanted = (ec_scene_choice){.animated = true, .shutter = true, .opens = 0, .closes = 1};
     expect_empty(still, "no surface shows while the shutter is open: none has an area\n");
     wanted = (ec_scene_choice){0};
-    expect_failure(still, blobs, "nothing to render: of 2 triangles 2 have no area");
+    expect_failure(still, blobs, "nothing to render: of 2 triangles, 2 have no area");
     free(alone), free(flat), free(named), free(still);
 }
 

@@ -71,7 +71,7 @@ static void test_defects(void)
         const char *good, *bad, *message;
     } cases[] = {
         {"'TRANSLATION':1", "'TRANSLATION':4", "attributes.TRANSLATION is 4"},
-        {"'TRANSLATION':1", "'TRANSLATION':0", "accessors[2] has 2 elements, another attribute 3"},
+        {"'TRANSLATION':1", "'TRANSLATION':0", "accessors[2] has 2 elements, but another attribute has 3"},
         {"'ROTATION':2", "'ROTATION':1", "must hold vectors of 4 floats"},
         {"'normalized':true,", "", "must hold vectors of 4 floats"},
         {"{'bufferView':1,'componentType':5126,'count':2", "{'componentType':5126,'count':9000000", "accessors[1] has no bufferView"},

@@ -183,7 +183,7 @@ static void test_images(void)
     CHECK(m->textures[EC_SLOT_EMISSION].texture == 0 && s->texture_count == 1);
     CHECK_MSG(strstr(messages, "images[2] \"broken\" cannot be decoded") && strstr(messages, "textures[3] has no image") &&
               strstr(messages, "missing.png: cannot open"), "%s", messages);
-    CHECK_MSG(count_of(messages, "; taken as white\n") == 2 && count_of(messages, "; the map is left out\n") == 1, "%s", messages);
+    CHECK_MSG(count_of(messages, "; it is taken as white\n") == 2 && count_of(messages, "; the map is left out\n") == 1, "%s", messages);
     ec_scene_free(s);
     expect_failure(TEXTURED(",'emissiveTexture':{'index':6}", ""), textured_blobs,
                    "materials[0].emissiveTexture.index is 6 but the file has 6 textures");

@@ -22,7 +22,7 @@ static void test_left_over(void)
     static const struct {
         const char *mode, *count, *says;
         uint32_t triangles;
-    } cases[] = {{"4", "3", "", 1}, {"4", "4", "1 primitives have corners left over, too few for a triangle; those are left out", 1}, {"5", "4", "", 2}};
+    } cases[] = {{"4", "3", "", 1}, {"4", "4", "1 primitives have leftover vertices, too few for a triangle; these are left out", 1}, {"5", "4", "", 2}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char mode[32], count[32];
         snprintf(mode, sizeof mode, ",'mode':%s", cases[i].mode);
@@ -44,7 +44,7 @@ static void test_normals(void)
                                "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC3'}]}";
     float normals[9] = {NAN, 0, 1, 0, 0, INFINITY, 0, 0, 0}; /* zero is allowed: it means none */
     const blob blobs[] = {{"@pos@", triangle_positions, sizeof triangle_positions}, {"@normal@", normals, sizeof normals}, {0}};
-    ec_scene_free(expect_warning(json, blobs, "2 normals are NaN or infinite, the first in meshes[0] \"odd\"; the triangles' own take their place"));
+    ec_scene_free(expect_warning(json, blobs, "2 normals are NaN or infinite, the first in meshes[0] \"odd\"; the triangles' own normals are used instead"));
     for (int i = 0; i < 9; i++) normals[i] = i % 3 == 2;
     ec_scene_free(expect_warning(json, blobs, ""));
 }
@@ -53,7 +53,7 @@ static void test_far_positions(void)
 {
     static const float far[9] = {0, 0, 0, 1e38f, 0, 0, 0, 1, 0};
     const blob blobs[] = {{"@pos@", far, sizeof far}, {0}};
-    expect_failure(TRIANGLE("", "", "", ""), blobs, "of 1 triangles 0 have no area and 1 positions that are NaN, infinite or beyond 1e18");
+    expect_failure(TRIANGLE("", "", "", ""), blobs, "of 1 triangles, 0 have no area and 1 have positions that are NaN, infinite or beyond 1e18");
 }
 
 static void test_matrices(void)
@@ -73,9 +73,9 @@ static void test_aspects(void)
         const char *ratio, *says;
         float aspect;
     } cases[] = {{"2", "", 2},
-                 {"0", "cameras[0]: aspectRatio 0 is no shape of a picture; it is ignored", 0},
-                 {"1e30", "cameras[0]: aspectRatio 1e+30 is no shape of a picture; it is ignored", 0},
-                 {"1e-30", "cameras[0]: aspectRatio 1e-30 is no shape of a picture; it is ignored", 0}};
+                 {"0", "cameras[0]: aspectRatio 0 is out of range; it is ignored", 0},
+                 {"1e30", "cameras[0]: aspectRatio 1e+30 is out of range; it is ignored", 0},
+                 {"1e-30", "cameras[0]: aspectRatio 1e-30 is out of range; it is ignored", 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char *json = replace(TRIANGLE(",'camera':0", "", "", ",'cameras':[{'type':'perspective','perspective':{'yfov':1,'aspectRatio':@ratio@}}]"), "@ratio@",
                              cases[i].ratio);

@@ -144,16 +144,16 @@ static void lists_of_devices(void)
     CHECK(!strcmp(several("3,0", &why, &err), "30") && !strcmp(several("geforce,pocl", &why, &err), "30"));
     CHECK(!strcmp(several("intel", &why, &err), "1"));
     CHECK(!strcmp(several("0,pthread", &why, &err), "") && strstr(err.text, "'0,pthread' has device 0 (pthread-EPYC) twice"));
-    CHECK(!strcmp(several("0,", &why, &err), "") && strstr(err.text, "empty place"));
+    CHECK(!strcmp(several("0,", &why, &err), "") && strstr(err.text, "empty entry"));
     CHECK(!strcmp(several("0,2", &why, &err), "") && strstr(err.text, "not available"));
     CHECK(!strcmp(several("0,all", &why, &err), ""));
-    CHECK_MSG(strstr(err.text, "'0,all' has 'all' in it; give all alone, or numbers and names"), "%s", err.text);
+    CHECK_MSG(strstr(err.text, "'0,all' contains all; give all alone, or numbers and names"), "%s", err.text);
     CHECK(!strcmp(several("0,7", &why, &err), ""));
     CHECK_MSG(strstr(err.text, "--device 7: no such device; there are 0: pthread-EPYC"), "%s", err.text);
     CHECK(!strcmp(several("3, 1", &why, &err), "31") && !strcmp(several(" pocl ,\tnvidia ", &why, &err), "03"));
     static const char *const gaps[] = {",", "0, ", " ,0", "0,,1"};
     for (size_t i = 0; i < sizeof gaps / sizeof gaps[0]; i++)
-        CHECK_MSG(!strcmp(several(gaps[i], &why, &err), "") && strstr(err.text, "empty place"), "'%s': %s", gaps[i],
+        CHECK_MSG(!strcmp(several(gaps[i], &why, &err), "") && strstr(err.text, "empty entry"), "'%s': %s", gaps[i],
                   err.text);
     CHECK(!strcmp(several("0,1,3,0", &why, &err), "") && strstr(err.text, "too long; name 3 at most"));
     CHECK(chosen("all", 4, &why, &err) == -1 && strstr(err.text, "--device all: this takes one device"));

@@ -146,7 +146,7 @@ class CheckpointFaults(FaultCase):
         self.refused(kept, data + MARK + hashlib.sha256(data).digest())
         error = self.check_error(eclat("render", "--resume", kept, "-q", "-o", self.path("b.png")))
         form = json.loads(read_exr(self.make()[0])[0]["eclat.state"])["format"]
-        self.assertIn(f"it was written by another version of eclat (format 1, this one reads {form}); use that version, or render anew", error)
+        self.assertIn(f"it was written by another version of eclat (format 1, this one reads {form}); use that version, or render it again", error)
 
     def test_seeds_are_of_this_version(self):
         """Older ones would be refused before anything in them is read."""

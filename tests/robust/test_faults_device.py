@@ -144,7 +144,7 @@ class Memory(FaultCase):
                     self.assertLessEqual(small["wave"], plain["wave"] / 2)
                     self.check_files(folder)
         run, _ = self.run_with("told", *self.big, quiet=False, call="clCreateBuffer", memory=int(limit))
-        self.assertRegex(run.stderr, rf"(?m)^eclat: note: the device had memory for a wave of \d+ paths, not of {plain['wave']}; --wave sets it$")
+        self.assertRegex(run.stderr, rf"(?m)^eclat: note: the device has memory for a wave of \d+ paths, not of {plain['wave']}; --wave sets the size$")
 
     def test_what_does_not_fit_at_all_names_bytes_and_remedy(self):
         run, folder = self.run_with("none", *self.big, call="clCreateBuffer", code=-4, memory=200000)
@@ -202,7 +202,7 @@ class Kernels(FaultCase):
         run, _ = self.run_with("nowhere", env={"XDG_CACHE_HOME": "/proc/no", "POCL_CACHE_DIR": "/proc/no/such"})
         if run.returncode == 0:
             self.skipTest("this driver needs none")
-        self.assertIn("offers no device; PoCL needs a folder that it may write to, which POCL_CACHE_DIR=FOLDER names", self.check_error(run))
+        self.assertIn("offers no device; PoCL needs a writable folder, which POCL_CACHE_DIR=FOLDER names", self.check_error(run))
 
 
 if __name__ == "__main__":

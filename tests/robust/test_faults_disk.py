@@ -84,7 +84,7 @@ class Disks(FaultCase):
     def test_a_disk_too_small(self):
         run, outside = self.in_mount('mount -t tmpfs -o size=64k none "$in" && cp old/a.exr "$in" 2>/dev/null || echo yesterday >"$in/a.exr"')
         self.assertEqual(run.returncode, 1)
-        self.assertRegex(run.stderr, r"(?m)^eclat: warning: '.*/a.exr' may take up to .*, and its disk has .* left$")
+        self.assertRegex(run.stderr, r"(?m)^eclat: warning: '.*/a.exr' may need up to .*, but its disk has .* left$")
         self.assertRegex(run.stderr, r"(?m)^eclat: error: cannot write '.*/a.exr': No space left on device; free some space or choose another disk$")
         self.assertEqual(len(run.stderr.splitlines()), 2, run.stderr)
         with open(outside + "/a.exr", encoding="utf-8") as file:

@@ -36,7 +36,7 @@ class Emission(HardCase):
 
     def test_environment_of_3e38_is_clamped_and_said(self):
         picture = self.render(Scene(WHITE).add(QUAD), "--env", "3e38,3e38,3e38")
-        self.assertIn("3 values are above 1e+30; taken as that", picture.messages)
+        self.assertIn("3 values are above 1e+30; they are clamped to it", picture.messages)
         self.assertEqual(picture.channels["R"][0], FLOAT_1E30)  # past the quad
 
     def test_overflow_at_a_surface_is_counted(self):
@@ -110,7 +110,7 @@ class Environments(HardCase):
         def rgb(values):
             return [1] * 24 + values + [1] * 69
         picture = self.floor(rgb([math.nan, math.inf, -1]))
-        self.assertIn("3 values are NaN, infinite or negative; taken as 0", picture.messages)
+        self.assertIn("3 values are NaN, infinite or negative; they are taken as 0", picture.messages)
         self.assert_same(picture, self.floor(rgb([0, 0, 0])))
 
     def test_a_black_map(self):
@@ -119,7 +119,7 @@ class Environments(HardCase):
     def test_one_texel_of_1e38(self):
         """Taken as 1e30; the others are 1e-38, and no chance becomes 0 or infinite."""
         picture = self.floor([1e38] * 3 + [1e-38] * 93)
-        self.assertIn("3 values are above 1e+30; taken as that", picture.messages)
+        self.assertIn("3 values are above 1e+30; they are clamped to it", picture.messages)
         self.assertGreater(picture.mean, 0)
 
 
@@ -153,7 +153,7 @@ class Geometry(HardCase):
     def test_nothing_left_is_an_error(self):
         path = Scene(LAMP).add(QUAD, scale=[0, 0, 0]).write(self.path("scene.gltf"))
         line = self.assert_one_error(eclat("render", path, "-o", self.path("a.exr")), 1)
-        self.assertIn("nothing to render: of 2 triangles 2 have no area and 0 positions that are NaN, infinite or beyond 1e18", line)
+        self.assertIn("nothing to render: of 2 triangles, 2 have no area and 0 have positions that are NaN, infinite or beyond 1e18", line)
 
     def test_flattened_along_its_normal(self):
         self.assert_same(self.render(Scene(LAMP).add(QUAD, scale=[1, 1, 0])), self.render(Scene(LAMP).add(QUAD)))

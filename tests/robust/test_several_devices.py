@@ -23,7 +23,7 @@ TWO = {"POCL_DEVICES": "basic basic"}
 THREE = {"POCL_DEVICES": "basic basic basic"}
 RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates"]
 SIZE = ["--size", "72x50"]  # rows of tiles that are not whole
-OUT = re.compile(r"^eclat: warning: (.*) is out, and the others take over its work: (.*)$")
+OUT = re.compile(r"^eclat: warning: (.*) has failed, and the others take over its work: (.*)$")
 
 
 def setUpModule():
@@ -174,19 +174,19 @@ class Several(Case):
         self.assertNotIn("warning", run.stderr)  # alike: they round alike
 
     def test_refusals(self):
-        for device, words in [("0,0", "twice; name each once"), ("0,,1", "has an empty place"), ("0,no-such", "--device no-such: no such device"),
+        for device, words in [("0,0", "twice; name each once"), ("0,,1", "has an empty entry"), ("0,no-such", "--device no-such: no such device"),
                               ("0,7", "--device 7: no such device")]:
             self.assertIn(words, self.assert_one_error(eclat("render", CORNELL, "--device", device, env=TWO, cwd=self.folder), 1))
         plan = eclat("render", CORNELL, "--plan", "3", "--device", "0,1", env=TWO, cwd=self.folder)
         self.assertIn("--plan takes one device, which stands for those of all machines; name one with --device",
                       self.assert_one_error(plan, 1))
         large = eclat("render", CORNELL, "--size", "4096x4096", "--spp", "4", "--memory", "300M", "--device", "all", env=TWO, cwd=self.folder)
-        self.assertIn("more than one --device is for pictures that are rendered whole; name one, or give more", self.assert_one_error(large, 1))
+        self.assertIn("more than one --device needs the picture whole; name one, or give more", self.assert_one_error(large, 1))
         for command in [["cost", CORNELL], ["selftest"], ["info", CORNELL, "--accel", "bvh2"], ["view", CORNELL]]:
             for device in ["0,1", "all"]:
                 run = eclat(*command, "--device", device, env=TWO, cwd=self.folder)
                 if "built without" not in run.stderr:
-                    self.assertIn("this takes one device, only eclat render takes several; name one of them", self.assert_one_error(run, 1))
+                    self.assertIn("this takes one device; only eclat render takes several; name one of them", self.assert_one_error(run, 1))
 
 
 class Failing(FaultCase):
@@ -226,7 +226,7 @@ class Failing(FaultCase):
         run, _ = self.run_with("queue", *self.job, spp=128, env=THREE, device=1, call="clCreateCommandQueue")
         report = json.loads(self.assert_ok(run).stdout)
         self.assertEqual((report["image_sha256"], len(report["devices"])), (self.whole["image_sha256"], 2))
-        self.assertRegex(run.stderr, r"^eclat: warning: basic-.* is out, and the others take over its work: clCreateCommandQueue .*\n$")
+        self.assertRegex(run.stderr, r"^eclat: warning: basic-.* has failed, and the others take over its work: clCreateCommandQueue .*\n$")
 
     def test_one_size_a_kernel(self):
         """A kernel that two threads run at two sizes makes PoCL 3.1 abort now and then. Batches are of 8 and of 16 samples here."""
@@ -276,8 +276,8 @@ class Unlike(FaultCase):
         last = self.count_calls("--device", "0", env=env)["clGetDeviceInfo"]
         for device, warns in [("all", True), ("1", False)]:
             run, _ = self.run_with("rounds" + device, "--device", device, env=env, call="clGetDeviceInfo", at=last)
-            said = re.search("(?m)^eclat: warning: (basic|pthread)-.* does not say that it rounds division and square root correctly: where it does not, "
-                             "the last bits are not those of one device$", self.assert_ok(run).stderr)
+            said = re.search("(?m)^eclat: warning: (basic|pthread)-.* does not say that it rounds division and square root correctly; if it does not, "
+                             "the last bits differ from those of one device$", self.assert_ok(run).stderr)
             self.assertEqual(bool(said), warns, run.stderr)
 
     @full

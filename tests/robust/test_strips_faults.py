@@ -87,7 +87,7 @@ class Strips(FaultCase):
             self.assertEqual(set(planes["low95.G"][SIDE * done:]), {0.0})
             self.assertEqual((attributes["eclat.stoppedBy"], report["stopped_by"]), ("user", "user"))
             self.assertEqual((attributes["eclat.error"], report["error"], report["relmse"]), (float("inf"), None, None))
-            self.assertRegex(run.stderr, rf"warning: the strips from row {done} on are not complete")
+            self.assertRegex(run.stderr, rf"warning: the strips from row {done} on are incomplete")
         at_once(stop, [(n,) for n in [2, 3, counts["pwrite"] // 4, counts["pwrite"] // 3]])
         self.assertTrue(any(0 < done < SIDE for done in kept), kept)
 
@@ -100,7 +100,7 @@ class Strips(FaultCase):
         counts = self.count_in_strips()
         run, folder = self.in_strips("device", call="clEnqueueMapBuffer", at=counts["clEnqueueMapBuffer"] * 2 // 3, code=-5)
         self.assertEqual(run.returncode, 1)
-        self.assertRegex(run.stderr, r"\Aeclat: warning: the strips from row \d+ on are not complete.*\n"
+        self.assertRegex(run.stderr, r"\Aeclat: warning: the strips from row \d+ on are incomplete.*\n"
                          rf"eclat: error: the render failed after \d+ of {SIDE} rows: .*; the picture so far is written\n\Z")
         self.assertEqual(self.check_files(folder), {"a.exr": "new", "a.png": "new"})
         attributes, planes = read_exr(os.path.join(folder, "a.exr"))

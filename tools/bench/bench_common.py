@@ -24,7 +24,7 @@ def eclat_path(given=None):
     for place in places:
         if place and os.access(place, os.X_OK):
             return os.path.abspath(place)
-    fail("no eclat program; build one (tools/bench/run does) and name it with --eclat")
+    fail("no eclat program; build one, as tools/bench/run does, and name it with --eclat")
 
 
 def shared(*parts):

@@ -143,7 +143,7 @@ class Cycles:
         self.python = os.environ.get("CYCLES_PYTHON", sys.executable)
         probe = subprocess.run([self.python, "-c", "import bpy, numpy, OpenEXR, PIL"], capture_output=True, text=True)
         if probe.returncode:
-            common.fail("no Python with bpy, numpy, OpenEXR and pillow; name one by CYCLES_PYTHON: "
+            common.fail("no Python with bpy, numpy, OpenEXR and pillow; name one with CYCLES_PYTHON: "
                         + (probe.stderr.strip().splitlines() or ["?"])[-1])
 
     def ask(self, **job):
@@ -186,7 +186,7 @@ def main():
     parser.add_argument("--pictures", metavar="DIR", help="write eclat's, Cycles' and their difference side by side there")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options = parser.parse_args()
-    options.env = options.env or common.shared("assets", "env", "pmndrs-assets", "studio.hdr") or common.fail("no ../shared here: name a map by --env")
+    options.env = options.env or common.shared("assets", "env", "pmndrs-assets", "studio.hdr") or common.fail("no ../shared here; name a map with --env")
     eclat, cycles, found = common.eclat_path(options.eclat), Cycles(), {}
     if not options.json:
         print(f"{'scene':<34} {'mean R':>7} {'G':>7} {'B':>7} {'apart':>8} {'noise':>8} {'95 %':>8}   (means: eclat / Cycles)")

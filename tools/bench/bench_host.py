@@ -47,7 +47,7 @@ def measure(eclat, scene, wave, size, spp, environment):
     """Returns the seconds of the main thread and of all threads, and the number of waves."""
     report, first, last = render(eclat, scene, wave, size, spp, environment)
     if not first or last[1] - first[1] < LEAST_SECONDS:
-        common.fail("the render was over before there was anything to measure; give more --spp")
+        common.fail("the render ended before there was anything to measure; give more --spp")
     whole = last[1] - first[1]
     return last[0] - first[0], whole, report["samples"] / report["wave"] * whole / last[1]
 

@@ -107,7 +107,7 @@ static options parse(int argc, char **argv)
         else if (!strcmp(a, "--device") && ++i) o.device = value;
         else if (!strcmp(a, "--kernels") && o.set_count < MOST_SETS && ++i) o.sets[o.set_count++].folder = value;
         else {
-            fprintf(stderr, "bench_traversal: what is %s?\n%s", a, usage);
+            fprintf(stderr, "bench_traversal: '%s' is not an option\n%s", a, usage);
             exit(2);
         }
     }

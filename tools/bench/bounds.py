@@ -74,12 +74,12 @@ def parse():
                         help=f"samples a pixel, or an error in per cent with {CAP} samples at most (default: %(default)s)")
     parser.add_argument("--size", type=pair, metavar="WxH", help="pixels (default: each scene's own)")
     parser.add_argument("--references", default="references", metavar="FOLDER",
-                        help="long renders are kept there, and made where missing: an hour on two cores (default: %(default)s)")
+                        help="long renders are kept there, and made if missing: an hour on two cores (default: %(default)s)")
     parser.add_argument("--reference-share", type=float, default=1, metavar="F", help="references of F times as many samples (default: 1)")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="renders at once; seconds do not count here (default: 1)")
     parser.add_argument("--extra", default="", metavar="OPTIONS", help="options of every render that is judged")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
-    parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE, and go on from what a run of the same options left there")
+    parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE, and continue from what a run with the same options left there")
     parser.add_argument("--table", metavar="FILE", help="write the manual's table to FILE: docs/data/bounds.json, for tools/docs_tables.py")
     options = parser.parse_args()
     options.scene = options.scene + (options.scenes.split(",") if options.scenes else []) or list(SCENES)
@@ -160,7 +160,7 @@ class Record:
         with open(self.path, encoding="utf-8") as file:
             data = json.load(file)
         if data.get("settings") != self.settings:
-            common.fail(f"{self.path} is of a run with other options, {data.get('settings')}; name another file or remove it")
+            common.fail(f"{self.path} is from a run with other options, {data.get('settings')}; name another file or remove it")
         self.before = {(r["scene"], c["budget"]): c for r in data["results"] for c in r["cells"]}
 
     def rows(self):

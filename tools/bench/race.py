@@ -39,15 +39,15 @@ def parse():
     parser.add_argument("--env", metavar="MAP", help="environment map (default: that of a scene above, else none)")
     parser.add_argument("--size", type=pair, default=(160, 160), metavar="WxH", help="pixels (default: 160x160)")
     parser.add_argument("--spp", type=int, default=128, metavar="N", help="samples a pixel on both sides (default: 128)")
-    parser.add_argument("--error", metavar="PCT", help="besides, eclat renders until this error, with its default options; `same`: "
+    parser.add_argument("--error", metavar="PCT", help="eclat also renders until this error, with its default options; `same`: "
                         "until about that of the better one of Mitsuba's samplers")
     parser.add_argument("--depth", type=int, default=8, metavar="N", help="segments of a path (default: 8)")
     parser.add_argument("--diffuse", action="store_true", help="nothing but diffuse materials on both sides; else they are only alike")
-    parser.add_argument("--seeds", type=int, default=8, metavar="N", help="renders that count of each entrant (default: 8)")
+    parser.add_argument("--seeds", type=int, default=8, metavar="N", help="renders of each entrant that count (default: 8)")
     parser.add_argument("--samplers", default="independent,multijitter", metavar="LIST", help="Mitsuba's (default: %(default)s)")
     parser.add_argument("--extra", default="", metavar="OPTIONS", help="options of every render of eclat's")
     parser.add_argument("--no-adaptive", action="store_true", help="eclat without its entrant --adaptive")
-    parser.add_argument("--reference", type=int, metavar="SPP", help="besides, the error against a render of eclat's with so many samples")
+    parser.add_argument("--reference", type=int, metavar="SPP", help="also print the error against a render by eclat with SPP samples")
     parser.add_argument("--clock", choices=("cpu", "wall"), default="cpu", help="which seconds count; wall needs a quiet machine (default: cpu)")
     parser.add_argument("--eclat", help="program to measure (else $ECLAT, build-bench/eclat, build/eclat)")
     parser.add_argument("--json", metavar="FILE", help="write everything measured to FILE")

@@ -133,5 +133,5 @@ class Run:
 
     def verdict(self):
         if self.under_way:
-            return f"This did not come to its end; last under way: {self.under_way}."
+            return f"This did not finish; last in progress: {self.under_way}."
         return "Everything passed." if not self.failed else "Failed: " + ", ".join(self.failed) + "."

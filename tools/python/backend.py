@@ -64,7 +64,7 @@ def add_licences(wheel: Path) -> None:
     bundled.mkdir(parents=True)
     shutil.copy(ROOT / "LICENSE", folder)
     if not shutil.which("dpkg-query"):
-        print("tools/python: this is no Debian, so the wheel lacks the licences of the libraries in it; add them before you pass it on", file=sys.stderr)
+        print("tools/python: this is not Debian, so the wheel lacks the licences of the libraries in it; add them before you distribute it", file=sys.stderr)
         return
     libraries = [re.sub(r"-[0-9a-f]{8}(?=\.so)", "", path.name) for path in (wheel / "eclat.libs").iterdir()]
     for package in sorted({*map(package_of, libraries), *COMPILED_IN}):
@@ -85,7 +85,7 @@ def build_wheel(wheel_directory: str, config_settings: dict[str, Any] | None = N
 
 
 def build_sdist(sdist_directory: str, config_settings: dict[str, Any] | None = None) -> str:
-    raise UnsupportedOperation("the source of eclat is its repository: make a wheel there by `pip wheel tools/python`")
+    raise UnsupportedOperation("the source of eclat is its repository; make a wheel there with `pip wheel tools/python`")
 
 
 class UnsupportedOperation(Exception):

@@ -25,10 +25,10 @@ class Unavailable(Exception):
 
 def check(*programs):
     if os.geteuid() != 0:
-        raise Unavailable("it takes root to make a chroot")
+        raise Unavailable("making a chroot needs root")
     for program in ("debootstrap", "unshare", *programs):
         if not shutil.which(program):
-            raise Unavailable(f"{program} is not installed: tools/install-dependencies chroots")
+            raise Unavailable(f"{program} is not installed; run tools/install-dependencies chroots")
     if subprocess.run(["unshare", "-m", "true"], capture_output=True).returncode:
         raise Unavailable("mounts are forbidden here")
 

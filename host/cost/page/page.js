@@ -314,7 +314,7 @@ function slideThroughTime() {
     }
     const last = times[times.length - 1], decades = [0.001, 0.01, 0.1, 1, 10, 60, 600, 3600], beyond = [1, 10, 60].filter(t => t > last);
     $("times-reach").textContent = `The longest picture that the budget allowed took ${seconds(last)}`
-        + (beyond.length ? `: of ${beyond.map(t => t === 60 ? "1 min" : seconds(t)).join(" and ")} there is none; a larger --budget reaches further.` : ".");
+        + (beyond.length ? `: there is none of ${beyond.map(t => t === 60 ? "1 min" : seconds(t)).join(" and ")}; a larger --budget reaches further.` : ".");
     $("time").max = times.length - 1;
     $("time").addEventListener("input", () => showTime(Number($("time").value)));
     for (const t of decades.filter(t => t >= times[0] && t <= last)) {
@@ -330,7 +330,7 @@ function tellStory() {
     const scene = data.scene.split("/").pop();
     document.title = `What accuracy costs: ${scene}`;
     $("title").textContent = `What accuracy costs: ${scene}`;
-    $("summary").textContent = `${data.width} × ${data.height} pixels on ${data.device.name}, ${seconds(data.total_seconds)} of ${seconds(data.budget_seconds)} budget${data.interrupted ? ", interrupted: what was known by then" : ""}.`;
+    $("summary").textContent = `${data.width} × ${data.height} pixels on ${data.device.name}, ${seconds(data.total_seconds)} of ${seconds(data.budget_seconds)} budget${data.interrupted ? ", interrupted: only what was known by then" : ""}.`;
     $("verdict").textContent = data.result;
     const ref = data.reference;
     $("reference").textContent = !ref ? "None: interrupted before." :

@@ -23,7 +23,7 @@ const char *transcode(const uint8_t *bytes, size_t length, ec_image *image, uint
     static const bool is_ready = (basist::basisu_transcoder_init(), true);
     basist::ktx2_transcoder file;
     if (!is_ready || !file.init(bytes, uint32_t(length))) return "its KTX2 header is broken, or it is neither ETC1S nor UASTC";
-    if (file.get_faces() != 1 || file.get_layers() > 1) return "it is a cube or an array of pictures, and a texture is one";
+    if (file.get_faces() != 1 || file.get_layers() > 1) return "it holds a cube or an array of pictures, not a single picture";
     if (const char *reason = ec_image_check_size(file.get_width(), file.get_height(), length, PIXELS_PER_BYTE)) return reason;
     const auto &level = file.get_level_index()[0]; /* the transcoder would clear as much memory as the level claims, up to 2 GiB */
     const bool claims_more = level.m_uncompressed_byte_length.get_uint64() / ZSTD_BYTES_PER_BYTE > level.m_byte_length.get_uint64();

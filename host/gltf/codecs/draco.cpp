@@ -86,7 +86,7 @@ const char *decode(ec_gltf *g, ec_gltf_primitive *p, const uint8_t *bytes, uint6
     if (p->indices < 0 || !give_indices(g->accessors[p->indices], *mesh)) return "do not hold as many indices as the primitive says";
     for (uint32_t i = 0; i < p->draco_count; i++)
         if (!give_attribute(g->accessors[p->draco[i].accessor], *mesh, p->draco[i].id))
-            return "do not hold the attributes that the primitive says";
+            return "do not hold the attributes that the primitive names";
     p->mode = EC_GLTF_TRIANGLES; /* strips are decoded to triangles too */
     return nullptr;
 }
@@ -96,7 +96,7 @@ const char *decode(ec_gltf *g, ec_gltf_primitive *p, const uint8_t *bytes, uint6
 extern "C" ec_result ec_draco_decode(ec_gltf *g, ec_gltf_primitive *p, const uint8_t *bytes, uint64_t length,
                                      const char *where, ec_error *err)
 {
-    const char *wrong = "take more memory than there is";
+    const char *wrong = "need more memory than there is";
     try {
         wrong = decode(g, p, bytes, length);
     } catch (...) { /* thrown only for lack of memory */

@@ -34,7 +34,7 @@ static void decode_color(uint8_t *element, int bytes)
 const char *ec_meshopt_hint(const ec_gltf_meshopt *p, const uint8_t *bytes)
 {
     return p->mode == EC_MESHOPT_ATTRIBUTES && bytes[0] == 0xa1 && MESHOPTIMIZER_VERSION < 230
-               ? ", or of the second version, which libmeshoptimizer reads from 0.23 on; build eclat with that, or export the file with EXT_meshopt_compression"
+               ? ", or in version 2 of the format, which needs libmeshoptimizer 0.23 or later; build eclat with that, or export the file with EXT_meshopt_compression"
                : "";
 }
 

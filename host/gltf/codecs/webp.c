@@ -13,7 +13,7 @@ bool ec_image_decode_webp(const uint8_t *bytes, size_t length, ec_image *image, 
 {
     WebPBitstreamFeatures is;
     if (WebPGetFeatures(bytes, length, &is) != VP8_STATUS_OK) return ec_decode_fail(err, "its WebP header is broken");
-    if (is.has_animation) return ec_decode_fail(err, "it is an animated WebP, which is not supported; save one picture of it");
+    if (is.has_animation) return ec_decode_fail(err, "it is an animated WebP, which is not supported; save a single picture of it");
     const char *reason = ec_image_check_size((uint64_t)is.width, (uint64_t)is.height, length, PIXELS_PER_BYTE);
     if (reason) return ec_decode_fail(err, reason);
     size_t row = 4 * (size_t)is.width, size = row * (size_t)is.height;

@@ -19,7 +19,7 @@ static const char *settle(JxlEncoder *encoder, const ec_raster *of, JxlEncoderFr
     *frame = JxlEncoderFrameSettingsCreate(encoder, NULL);
     const bool is_taken = *frame && JxlEncoderSetBasicInfo(encoder, &info) == JXL_ENC_SUCCESS && JxlEncoderSetColorEncoding(encoder, &srgb) == JXL_ENC_SUCCESS &&
                           JxlEncoderSetFrameLossless(*frame, JXL_TRUE) == JXL_ENC_SUCCESS;
-    return is_taken ? NULL : "libjxl does not take a picture like it";
+    return is_taken ? NULL : "libjxl does not support such a picture";
 }
 
 /* Collects what libjxl has encoded, doubling the buffer until all of it fits. */
@@ -48,7 +48,7 @@ static const char *encode(const ec_raster *of, const uint8_t *pixels, uint8_t **
     JxlEncoderFrameSettings *frame;
     if (!encoder) return "out of memory";
     const char *why = settle(encoder, of, &frame);
-    if (!why && JxlEncoderAddImageFrame(frame, &format, pixels, length) != JXL_ENC_SUCCESS) why = "libjxl does not take its pixels";
+    if (!why && JxlEncoderAddImageFrame(frame, &format, pixels, length) != JXL_ENC_SUCCESS) why = "libjxl rejects its pixels";
     JxlEncoderCloseInput(encoder);
     if (!why) why = drain(encoder, bytes, size);
     JxlEncoderDestroy(encoder);

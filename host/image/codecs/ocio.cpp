@@ -66,7 +66,7 @@ static ec_result make(const ec_ocio_choice *c, ec_ocio *ocio, ec_error *err)
         return ec_fail(err, "--ocio-view: the display '%.100s' of '%.200s' has no view '%.100s'; it has %s", display, c->config, view, views_of(*config, display).c_str());
     const char *space = c->space ? c->space : linear_of(*config);
     if (!space)
-        return ec_fail(err, "--ocio: '%.200s' has no colour space of a known name for linear Rec. 709, which pictures are in; name it with --ocio-space", c->config);
+        return ec_fail(err, "--ocio: '%.200s' has no colour space with a usual name for linear Rec. 709, which pictures are in; name that space with --ocio-space", c->config);
     if (!config->getColorSpace(space))
         return ec_fail(err, "--ocio-space: '%.200s' has no colour space '%.100s'; it has %s", c->config, space,
                        listed(config->getNumColorSpaces(), &OCIO::Config::getColorSpaceNameByIndex, *config).c_str());

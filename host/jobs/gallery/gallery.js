@@ -61,10 +61,10 @@ function fillTable() {
 /* Views */
 const views = {
     wipe: ["wipe", "Drag over a picture, or use the slider below it: A on the left, B on the right."],
-    blink: ["blink", "A and B in turn. The space bar stops and goes on."],
+    blink: ["blink", "A and B in turn. The space bar stops and continues."],
     difference: ["difference", "|A − B| of the sRGB values, times the factor."],
     error: ["error map", "The difference relative to B, from 0.1 % (black) over red to 100 % (pale yellow); grey is not compared."],
-    flip: ["FLIP", "How different they look: black is alike, pale yellow as different as can be; grey is not compared."],
+    flip: ["FLIP", "How different they look: black means alike, pale yellow as different as possible; grey is not compared."],
     a: ["A", "The pictures compared."],
     b: ["B", "The references."],
 };
@@ -77,7 +77,7 @@ function blink(on) {
 function show(view) {
     document.body.dataset.view = view;
     $(`view-${view}`).checked = true;
-    $("view-help").textContent = views[view][1] + (view === "blink" && isStill.matches ? " It stands still, as this system asks for little motion: the space bar changes the picture." : "");
+    $("view-help").textContent = views[view][1] + (view === "blink" && isStill.matches ? " It stands still, since this system asks for reduced motion; the space bar changes the picture." : "");
     blink(view === "blink" && !isStill.matches);
 }
 function listViews() {

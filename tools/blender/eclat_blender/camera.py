@@ -69,7 +69,7 @@ def gltf_camera(lens, frame):
     if lens.kind == "ORTHO":
         return {"type": "orthographic", "orthographic": {"xmag": half_width, "ymag": half_height, "znear": 0.01, "zfar": 1000.0}}
     if lens.kind != "PERSP":
-        raise Trouble("the camera is panoramic; eclat renders perspective and orthographic ones: choose another lens type")
+        raise Trouble("the camera is panoramic; eclat renders perspective and orthographic ones; choose another lens type")
     return {"type": "perspective", "perspective": {"yfov": 2 * math.atan(half_height), "znear": 0.01}}
 
 

@@ -89,7 +89,7 @@ def meshes(folder, for_render):
 
 def exporter_is_there():
     if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
-        raise Trouble("Blender's add-on glTF 2.0 is not enabled; eclat needs its exporter: enable it in the preferences")
+        raise Trouble("Blender's add-on glTF 2.0 is not enabled; eclat needs its exporter; enable it in the preferences")
     return True
 
 

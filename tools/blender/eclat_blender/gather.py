@@ -25,7 +25,7 @@ def frame(scene):
 
 def camera_of(scene, depsgraph):
     if scene.camera is None:
-        raise Trouble(f"scene {scene.name} has no camera: add one, and make it the active camera")
+        raise Trouble(f"scene {scene.name} has no camera; add one, and make it the active camera")
     if scene.camera.type != "CAMERA":
         raise Trouble(f"the camera of scene {scene.name} is {scene.camera.name}, a {scene.camera.type.lower()}; choose a camera")
     return scene.camera.evaluated_get(depsgraph)

@@ -7,7 +7,7 @@ class Preferences(bpy.types.AddonPreferences):
 
     program: bpy.props.StringProperty(
         name="Program", subtype="FILE_PATH",
-        description="The program eclat. Left empty: the environment variable ECLAT, an installed Python package eclat, or PATH")
+        description="The program eclat. If empty, it comes from the environment variable ECLAT, an installed Python package eclat, or PATH")
 
     def draw(self, context):
         self.layout.prop(self, "program")

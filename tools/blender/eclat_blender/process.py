@@ -97,7 +97,7 @@ class Process:
         if self.was_stopped:
             return None
         failures = [line[len("error: "):] for line in self.lines() if line.startswith("error: ")]
-        raise Trouble(failures[-1] if failures else f"eclat has ended with code {self.process.returncode} and without a word")
+        raise Trouble(failures[-1] if failures else f"eclat ended with code {self.process.returncode} and no message")
 
     def warnings(self):
         return [line[len("warning: "):] for line in self.lines() if line.startswith("warning: ")]

@@ -26,9 +26,9 @@ def find(preferred="", environment=os.environ):
             continue
         found = shutil.which(os.path.expanduser(path), path=environment.get("PATH"))
         if not found:
-            raise Trouble(f"'{path}' is no program that can be run; it comes from {source}")
+            raise Trouble(f"'{path}' is not a program that can be run; it comes from {source}")
         return found
     found = in_package() or shutil.which("eclat", path=environment.get("PATH"))
     if not found:
-        raise Trouble(f"the program eclat is not there; looked for in {LOOKED}: install it, or name it in the add-on's preferences")
+        raise Trouble(f"the program eclat was not found in {LOOKED}; install it, or name it in the add-on's preferences")
     return found

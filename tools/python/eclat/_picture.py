@@ -105,7 +105,7 @@ class Picture:
         Raises KeyError if the picture has no such layer."""
         names = [f"{name}.{letter}" for letters in ("RGB", "XYZ") for letter in letters if f"{name}.{letter}" in self.channels]
         if not names:
-            raise KeyError(f"no layer {name}; there are the channels {', '.join(self.channels)}")
+            raise KeyError(f"no layer {name}; the channels are {', '.join(self.channels)}")
         return self._stack(names[:3])
 
     def _stack(self, names: list[str]) -> Array:
