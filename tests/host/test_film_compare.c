@@ -18,12 +18,18 @@ typedef struct picture {
 
 static test_random rng = {1};
 
-static double normal_noise(double truth) { return truth * (1 + 0.3 * test_normal(&rng)); }
-static double fireflies(double truth) { return truth * (1 + 0.02 * test_normal(&rng) + (test_uniform(&rng) < 0.02 ? 30 : 0)); }
+/* The mean of `each` samples: their normal parts come to one number. */
+static double normal_noise(double truth, int each) { return truth * (1 + 0.3 / sqrt(each) * test_normal(&rng)); }
+static double fireflies(double truth, int each)
+{
+    int bright = 0;
+    for (int i = 0; i < each; i++) bright += test_uniform(&rng) < 0.02;
+    return truth * (1 + 0.02 / sqrt(each) * test_normal(&rng) + 30.0 * bright / each);
+}
 
 /* A render of a picture whose brightness rises from left to right; the last columns are black. Of `samples` samples, up to 16 are replicates of
  * their own; of more, 16 replicates have equally many. */
-static void render(picture *out, int samples, double (*noise)(double), double brightness)
+static void render(picture *out, int samples, double (*noise)(double, int), double brightness)
 {
     ec_film film;
     ec_error err;
@@ -32,8 +38,7 @@ static void render(picture *out, int samples, double (*noise)(double), double br
     for (int b = 0; b < replicates; b++) {
         static float batch[VALUES];
         for (int p = 0; p < W * H; p++) {
-            double truth = p % W < W - 4 ? 0.1 + 0.02 * (p % W) : 0, x = 0;
-            for (int i = 0; i < each && truth > 0; i++) x += brightness * noise(truth) / each;
+            const double truth = p % W < W - 4 ? 0.1 + 0.02 * (p % W) : 0, x = truth > 0 ? brightness * noise(truth, each) : 0;
             for (int c = 0; c < 3; c++) batch[3 * p + c] = (float)(x * (1 + 0.2 * c));
         }
         CHECK_OK(films_add(&film, (uint32_t)b, batch, &err), err);
@@ -93,7 +98,7 @@ static void p_values_combine(void)
  * test errs towards no alarm. */
 static void equal_truths_raise_few_alarms(void)
 {
-    static const struct { const char *name; double (*noise)(double); int a, b; } cases[] = {
+    static const struct { const char *name; double (*noise)(double, int); int a, b; } cases[] = {
         {"normal noise, 16 and 16 samples", normal_noise, 16, 16}, {"normal noise, 4 and 64 samples", normal_noise, 4, 64},
         {"normal noise, 2 and 2 samples", normal_noise, 2, 2},     {"fireflies, 16 and 16 samples", fireflies, 16, 16},
         {"fireflies, 8 and 192 samples", fireflies, 8, 192},
