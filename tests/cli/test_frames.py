@@ -317,7 +317,7 @@ class Going(FramesCase):
             self.assertEqual(read_exr(self.path(f"k.{number:02d}.exr"))[0]["eclat.imageSha256"], row["image_sha256"])
 
     def test_interrupted(self):
-        scene, command = self.sliding(), ["--frames", "0:40", "--spp", "256", "--size", "64x64", "-o", "i.%02d.exr"]
+        scene, command = self.sliding(), ["--frames", "0:40", "--spp", "256", "--size", "32x32", "-o", "i.%02d.exr"]
         process = subprocess.Popen([ECLAT, "render", scene, "-q", *command], cwd=self.folder, env=ENVIRONMENT, stderr=subprocess.PIPE, encoding="utf-8")
         poll_until(lambda: os.path.exists(self.path("i.01.exr")), process)
         process.send_signal(signal.SIGINT)

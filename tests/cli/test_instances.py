@@ -91,8 +91,8 @@ class Instances(Case):
 
 
 class InOnePlane(Case):
-    def test_the_first_of_faces_in_one_plane_is_met(self):
-        """Two meshes, each kept once and at two places, all in one plane: every ray meets the same one, in every accelerator."""
+    def assert_the_first_is_met(self, accels):
+        """Of two meshes, each kept once and at two places, all in one plane, every ray meets the same one, in every accelerator."""
         scene, _ = quad_scene(material={"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.1, 0.1, 1], "metallicFactor": 0}, "doubleSided": True})
         scene["materials"].append({"pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.1, 0.9, 1], "metallicFactor": 0}, "doubleSided": True})
         scene["meshes"].append({"primitives": [{**scene["meshes"][0]["primitives"][0], "material": 1}]})
@@ -102,7 +102,7 @@ class InOnePlane(Case):
                           for k, a in enumerate(half)] + [camera]
         scene["scenes"][0]["nodes"] = list(range(5))
         path, shas = write_gltf(self.path("a.gltf"), scene), set()
-        for accel in ([], ["--lanes", "1"], ["--accel", "none", "--lanes", "1"]):
+        for accel in accels:
             run = self.assert_ok(eclat("render", path, "--instancing", "on", *accel, "--env", "1,1,1", "--size", "24x16", "--spp", "16", "--json", "--quiet",
                                        "--channels", "albedo", "-o", self.path("a.exr")))
             found = json.loads(run.stdout)
@@ -112,6 +112,13 @@ class InOnePlane(Case):
             seen = [channels["albedo.R"][24 * y + x] for y in range(5, 11) for x in range(9, 15)]
             self.assertLess(max(seen) - min(seen), 1e-3, seen)
         self.assertEqual(len(shas), 1)
+
+    def test_the_first_of_faces_in_one_plane_is_met(self):
+        self.assert_the_first_is_met([[], ["--accel", "none"]])
+
+    @full
+    def test_the_first_of_faces_is_met_by_single_rays(self):
+        self.assert_the_first_is_met([["--lanes", "1"], ["--accel", "none", "--lanes", "1"]])
 
 
 if __name__ == "__main__":

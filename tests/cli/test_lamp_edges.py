@@ -106,8 +106,12 @@ class LampEdges(OtherWay):
 
     def test_bits(self):
         job = [self.lit(), "--size", f"{SIZE}x{SIZE}"]
-        self.assert_same_bits(job, [["--lanes", "1"], ["--wave", "64"], ["--accel", "kdtree"], ["--effects", "all"]])
+        self.assert_same_bits(job, [["--wave", "64"], ["--accel", "kdtree"], ["--effects", "all"]])
         self.assert_slices_and_resume(job)
+
+    @full
+    def test_bits_of_a_lane(self):
+        self.assert_same_bits([self.lit(), "--size", f"{SIZE}x{SIZE}"], [["--lanes", "1"]])
 
 
 if __name__ == "__main__":

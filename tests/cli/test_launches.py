@@ -37,7 +37,7 @@ class Launches(Case):
 
     def assert_late_bounces(self, lanes):
         """A card's launches have the parts of the queue as a second dimension, and go over as many entries of each as any still has."""
-        options = "--size", "64x64", "--spp", "64", "--lanes", lanes, "--rr", "1", "--max-depth", "20"
+        options = "--size", "32x32", "--spp", "32", "--lanes", lanes, "--rr", "1", "--max-depth", "20"
         whole, _ = self.render("whole.exr", *options)
         late, _ = self.render("late.exr", *options, ECLAT_DEVICE_TYPE="gpu")
         self.assertEqual((late["image_sha256"], late["rays"]), (whole["image_sha256"], whole["rays"]))

@@ -75,12 +75,13 @@ class Mix(Case):
 
     def test_refused(self):
         self.render("a.exr", "--size", "8x8", "--spp", "8", "-q", scene=CORNELL)
-        self.render("b.exr", "--size", "8x8", "--spp", "8", "-q", "--light-groups", "all", scene=CORNELL)
-        for words, says, code in [((), "mix needs a picture", 2), (("b.exr",), "mix needs -o", 2), (("a.exr", "lamp=2", "-o", "m.exr"), "has no light groups", 1),
-                                  (("b.exr", "direct=2", "-o", "m.exr"), "has no direct and indirect light", 1), (("b.exr", "sun=2", "-o", "m.exr"), "where NAME is one of lamp", 2),
-                                  (("b.exr", "lamp", "-o", "m.exr"), "names no layer", 2), (("b.exr", "lamp=-1", "-o", "m.exr"), "a gain is a number", 2),
-                                  (("b.exr", "lamp=1,2", "-o", "m.exr"), "a gain is a number", 2), (("b.exr", "lamp=0x1", "-o", "m.exr"), "a gain is a number", 2), (("b.exr", "lamp=1", "lamp=2", "-o", "m.exr"), "one gain for each", 2),
-                                  (("b.exr", "lamp=1", "-o", "b.exr"), "b.exr", 1), (("none.exr", "-o", "m.exr"), "none.exr", 1)]:
+        self.render("b.exr", *GROUPS)
+        for words, says, code in [((), "mix needs a picture", 2), (("b.exr",), "mix needs -o", 2), (("a.exr", "rest=2", "-o", "m.exr"), "has no light groups", 1),
+                                  (("b.exr", "direct=2", "-o", "m.exr"), "has no direct and indirect light", 1), (("b.exr", "sun=2", "-o", "m.exr"), "where NAME is one of bulb-over-table", 2),
+                                  (("b.exr", "rest", "-o", "m.exr"), "names no layer", 2), (("b.exr", "rest=-1", "-o", "m.exr"), "a gain is a number", 2),
+                                  (("b.exr", "rest=1,2", "-o", "m.exr"), "a gain is a number", 2), (("b.exr", "rest=0x1", "-o", "m.exr"), "a gain is a number", 2),
+                                  (("b.exr", "rest=1", "rest=2", "-o", "m.exr"), "one gain for each", 2),
+                                  (("b.exr", "rest=1", "-o", "b.exr"), "b.exr", 1), (("none.exr", "-o", "m.exr"), "none.exr", 1)]:
             with self.subTest(words=words):
                 self.assertIn(says, self.assert_one_error(eclat("mix", *words, cwd=self.folder), code))
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.exr", "b.exr"])
