@@ -129,7 +129,7 @@ class Others(FaultCase):
 
 
 class Memory(FaultCase):
-    big = ["--size", "96x96", "--replicates", "1", "--spp", "80"]  # its last batch has 16 samples
+    big = ["--size", "64x64", "--replicates", "1", "--spp", "80"]  # its last batch has 16 samples
 
     def test_a_smaller_wave_where_memory_is_short(self):
         run, folder = self.run_with("plain", *self.big, "--json")

@@ -1,20 +1,26 @@
-# tier: quick
+# tiers: quick, full
 """Every allocation of eclat's own fails once: a clear line and no damaged file, or the picture after all."""
 import os
 import unittest
 
 from faults import FaultCase, at_once, spread
+from tiers import full
 
 
 class Memory(FaultCase):
-    most = 60
+    def test_some_allocation_fails(self):
+        self.assert_any_fails(30)
 
+    @full
     def test_any_allocation_fails(self):
+        self.assert_any_fails(60)
+
+    def assert_any_fails(self, most):
         count = self.count_calls()["malloc"]
         self.assertGreater(count, 50)
         with open(self.path("counted", "a.png"), "rb") as file:
             self.picture = file.read()
-        ends = at_once(self.fail_once, [(n,) for n in spread(count, self.most)])
+        ends = at_once(self.fail_once, [(n,) for n in spread(count, most)])
         self.assertGreater(ends.count("error"), 0.7 * len(ends))  # what it can do without is little: kernels that were kept
 
     def fail_once(self, n):

@@ -92,19 +92,23 @@ class Signals(FaultCase):
         with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
             return any(line.startswith("ShdPnd:") and int(line.split()[1], 16) for line in file)
 
+    @staticmethod
+    def children(process):
+        found = []
+        for path in glob.glob(f"/proc/{process.pid}/task/*/children"):
+            try:
+                with open(path, encoding="ascii") as file:
+                    found += file.read().split()
+            except OSError:
+                pass
+        return found
+
     def test_ctrl_c_while_the_driver_runs_a_program_of_its_own(self):
         """A terminal sends SIGINT to the linker that PoCL has started too, whose death PoCL answers by abort()."""
         cache = self.path("cache")
         os.mkdir(cache)
         process, folder = self.start("links", "--accel", "bvh8", "--lanes", "1", env={"XDG_CACHE_HOME": cache, "POCL_CACHE_DIR": cache})
-        children = []
-        while process.poll() is None and not children:
-            for path in glob.glob(f"/proc/{process.pid}/task/*/children"):
-                try:
-                    with open(path, encoding="ascii") as file:
-                        children += file.read().split()
-                except OSError:
-                    pass
+        children = poll_until(lambda: self.children(process), process, pause=0.002)
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGINT)
         _, error = process.communicate(timeout=GUARD)

@@ -3,7 +3,9 @@
 import json
 import os
 import re
+import shutil
 import signal
+import tempfile
 import unittest
 
 from faults import FaultCase, at_once
@@ -16,22 +18,35 @@ TALL = ["--channels", "all", "--size", f"{SIDE}x{SIDE}"]
 
 
 class Strips(FaultCase):
+    """The first test makes what all of them need: the whole picture, how much memory a few strips take, and counts of calls."""
+    memory, calls = None, None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.whole = tempfile.mkdtemp(prefix="eclat-robust-")
+        cls.addClassCleanup(shutil.rmtree, cls.whole, ignore_errors=True)
+
     def setUp(self):
         super().setUp()
-        run, self.whole = self.run_with("whole", *TALL, spp=2)
+        if Strips.memory:
+            return
+        run, folder = self.run_with("whole", *TALL, spp=2)
         self.assertEqual(run.returncode, 0, run.stderr)
+        shutil.copytree(folder, self.whole, dirs_exist_ok=True)
         run, _ = self.run_with("least", *TALL, "--memory", "1M", spp=2)
-        self.memory = ["--memory", f"{int(re.search(r'give ([0-9]+)M', run.stderr).group(1)) + 4}M"]  # what the process itself takes strays by 2 MB
+        Strips.memory = ["--memory", f"{int(re.search(r'give ([0-9]+)M', run.stderr).group(1)) + 4}M"]  # what the process itself takes strays by 2 MB
 
     def in_strips(self, name, *options, **faults):
         return self.run_with(name, *TALL, *self.memory, *options, spp=2, **faults)
 
     def count_in_strips(self):
+        if Strips.calls:
+            return Strips.calls
         run, folder = self.in_strips("counted", "--json")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertGreater(json.loads(run.stdout)["strips"], 2)
-        with open(folder + ".counts", encoding="utf-8") as file:
-            return {call: int(count) for call, count in (line.split() for line in file)}
+        Strips.calls = self.counts(folder)
+        return Strips.calls
 
     def test_killed_at_any_write(self):
         counts = self.count_in_strips()
