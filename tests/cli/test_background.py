@@ -170,7 +170,7 @@ class Background(Case):
             run = eclat("render", self.scene, *OPTIONS, "--spp", "8", "--background", "transparent", "-q", "-o", self.path(f"a.{name}"), "-o", self.path("a.png"))
             built[name] = run.returncode == 0
             if not built[name]:
-                self.assertIn(f"takes lib{name}, which this eclat was built without; write a .png, or build eclat with lib{name}-dev", self.assert_one_error(run, 2))
+                self.assertIn(f"needs lib{name}, which this eclat was built without; write a .png, or build eclat with lib{name}-dev", self.assert_one_error(run, 2))
                 continue
             program, command = decoders[name]
             if not shutil.which(program):

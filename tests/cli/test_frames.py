@@ -421,7 +421,7 @@ class CommandLine(FramesCase):
         scene = self.sliding()
         for says, *options in (("one name for all", "-o", "out.exr"), ("2 places", "-o", "a%d.%04d.exr"), ("there may be d", "-o", "a.%s.exr"),
                                ("there may be d", "-o", "a.%4d.exr"), ("there may be d", "-o", "a.%-4d.exr"), ("there may be d", "-o", "a.%f.png"),
-                               ("there may be d", "-o", "a.%0099d.png"), ("must be named", "-o", "a.%d.tif"), ("given twice", "-o", "a%d.png", "-o", "a%01d.png")):
+                               ("there may be d", "-o", "a.%0099d.png"), ("has no known extension", "-o", "a.%d.tif"), ("given twice", "-o", "a%d.png", "-o", "a%01d.png")):
             with self.subTest(options):
                 self.refuse(scene, says, "--frames", "0:2", *options)
         self.assertEqual(os.listdir(self.folder), ["slide.gltf"])

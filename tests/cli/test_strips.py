@@ -127,7 +127,7 @@ class Strips(Case):
         job = ["--size", "256x256", "--spp", "256", "--replicates", "8", "--integrator", "raster"]
         path = self.path("s.exr")
         self.assert_ok(eclat("render", CORNELL, "-q", *job, "--samples", "0:16", "-o", path))  # compiles
-        least = [float(re.search(r"take ([\d.]+) MB", self.assert_one_error(eclat("render", CORNELL, "-q", *job, "--samples", samples, "--memory", "1M", "-o", path), 1)).group(1))
+        least = [float(re.search(r"need ([\d.]+) MB", self.assert_one_error(eclat("render", CORNELL, "-q", *job, "--samples", samples, "--memory", "1M", "-o", path), 1)).group(1))
                  for samples in ["0:224", "16:240"]]
         self.assertGreater(least[1] - least[0], 70 * 24 * 65536 / 1e6)
         run = self.assert_ok(eclat("render", CORNELL, "-q", "--json", *job, "--samples", "16:240", "--memory", f"{300 + int(least[1])}M", "-o", path))

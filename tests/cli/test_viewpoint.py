@@ -75,7 +75,7 @@ class Viewpoint(Case):
                               ("--fov", "180"): "--fov", ("--fov", "0"): "--fov", ("--parallel", "0"): "--parallel"}.items():
             self.assertIn(says, self.assert_one_error(eclat("render", self.scene, *options), 2))
         run = eclat("render", self.scene, *SMALL, "--eye=1,2,3", "--look-at=1,2,3", cwd=self.folder)
-        self.assertIn("apart", self.assert_one_error(run, 1))
+        self.assertIn("two different points", self.assert_one_error(run, 1))
 
     def test_a_screen_window_shows_another_part(self):
         """From 2 m at 90 degrees the image plane's unit, half a height, is 2 m. Every integrator: tiles, rays and the file's own camera."""
