@@ -226,7 +226,7 @@ class Going(FramesCase):
                                ("moment is 0.041666666666666664 s there", "--fps", "12"), ("--env is not given there and 1,1,1 here", "--env", "1,1,1")):
             with self.subTest(says):
                 self.refuse(scene, "'f.0001.exr' already exists: " + says, *common, *options, code=1)
-                self.refuse(scene, "(so with 3 frames); --overwrite", *common, *options, code=1)
+                self.refuse(scene, "(3 frames in all); --overwrite", *common, *options, code=1)
                 self.assertFalse(os.path.exists(self.path("f.0000.exr")))
         _, last = self.frames("--spp", "8", "--overwrite", scene=scene)
         self.assertEqual(last["rendered"], 4)
