@@ -3,8 +3,8 @@
  * and triangles chosen to be awkward. Culling must never change an answer (kernels/lib/ray.h). */
 #include "kernel/traversal_run.h"
 
-#define RAYS 6000u /* a set; not a multiple of the lanes: */
-#define COUNT (RAYS - 3u)
+static uint32_t rays = 3000; /* a set; not a multiple of the lanes: */
+#define COUNT (rays - 3u)
 
 static uint32_t everywhere_node(ec_bvh2_node *nodes, uint32_t *count, uint32_t first, uint32_t end)
 {
@@ -39,13 +39,13 @@ static ec_accel make_brute(const set *s)
 
 static void check_closest(const set *s, const ec_accel *accels, const ec_accel *brute, const tracer *bvh2, float *queue, float *expected)
 {
-    make_rays(s, queue, RAYS, EC_PATH_FIELDS, EC_PATH_PRIM, true);
-    if (!intersect(s, bvh2, brute, RAYS, COUNT, queue, expected)) return;
-    float *hits = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *hits);
+    make_rays(s, queue, rays, EC_PATH_FIELDS, EC_PATH_PRIM, true);
+    if (!intersect(s, bvh2, brute, rays, COUNT, queue, expected)) return;
+    float *hits = calloc(EC_HIT_PROBE_FIELDS * rays, sizeof *hits);
     uint32_t hit = 0;
     for (uint32_t i = 0; i < tracer_count; i++)
-        if (accels[tracers[i].accel].buffers[0].data && intersect(s, &tracers[i], &accels[tracers[i].accel], RAYS, COUNT, queue, hits))
-            hit = same_hits(s, queue, RAYS, COUNT, hits, expected, tracers[i].label, "brute force");
+        if (accels[tracers[i].accel].buffers[0].data && intersect(s, &tracers[i], &accels[tracers[i].accel], rays, COUNT, queue, hits))
+            hit = same_hits(s, queue, rays, COUNT, hits, expected, tracers[i].label, "brute force");
     /* Rays that meet nothing prove little. */
     if (s->triangles) CHECK_MSG(hit > COUNT / 20, "%s: only %u rays hit", s->name, hit);
     free(hits);
@@ -55,13 +55,13 @@ static void check_closest(const set *s, const ec_accel *accels, const ec_accel *
 static void make_bundles(const set *s, float *queue)
 {
     static const double spreads[] = {0.0, 1e-7, 1e-4, 1e-2, 0.3};
-    make_rays(s, queue, RAYS, EC_PATH_FIELDS, EC_PATH_PRIM, true);
-    for (uint32_t i = 0; i < RAYS; i++) {
+    make_rays(s, queue, rays, EC_PATH_FIELDS, EC_PATH_PRIM, true);
+    for (uint32_t i = 0; i < rays; i++) {
         const uint32_t first = i - i % 8, bundle = i / 8;
         const double spread = spreads[bundle % 5], lens = bundle / 5 % 2 ? spread * (double)s->scene_max : 0.0;
         for (uint32_t c = 0; c < 3 && i != first; c++) {
-            queue[(EC_PATH_OX + c) * RAYS + i] = queue[(EC_PATH_OX + c) * RAYS + first] + random_float(-lens, lens);
-            queue[(EC_PATH_DX + c) * RAYS + i] = queue[(EC_PATH_DX + c) * RAYS + first] * (1.0f + random_float(-spread, spread));
+            queue[(EC_PATH_OX + c) * rays + i] = queue[(EC_PATH_OX + c) * rays + first] + random_float(-lens, lens);
+            queue[(EC_PATH_DX + c) * rays + i] = queue[(EC_PATH_DX + c) * rays + first] * (1.0f + random_float(-spread, spread));
         }
     }
 }
@@ -70,38 +70,38 @@ static void make_bundles(const set *s, float *queue)
 static void check_bundles(const set *s, const ec_accel *accels, const ec_accel *brute, const tracer *bvh2, float *queue, float *expected)
 {
     make_bundles(s, queue);
-    if (!intersect(s, bvh2, brute, RAYS, COUNT, queue, expected)) return;
-    float *hits = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *hits);
+    if (!intersect(s, bvh2, brute, rays, COUNT, queue, expected)) return;
+    float *hits = calloc(EC_HIT_PROBE_FIELDS * rays, sizeof *hits);
     for (uint32_t i = 0; i < tracer_count; i++)
-        if (strstr(tracers[i].label, "INTERLEAVE") && intersect(s, &tracers[i], &accels[tracers[i].accel], RAYS, COUNT, queue, hits))
-            same_hits(s, queue, RAYS, COUNT, hits, expected, "bundles", "brute force");
+        if (strstr(tracers[i].label, "INTERLEAVE") && intersect(s, &tracers[i], &accels[tracers[i].accel], rays, COUNT, queue, hits))
+            same_hits(s, queue, rays, COUNT, hits, expected, "bundles", "brute force");
     free(hits);
 }
 
 static void check_shadows(const set *s, const ec_accel *accels, const ec_accel *brute, const tracer *bvh2, float *queue, float *expected)
 {
-    make_rays(s, queue, RAYS, EC_SHADOW_FIELDS, EC_SHADOW_PRIM, false);
+    make_rays(s, queue, rays, EC_SHADOW_FIELDS, EC_SHADOW_PRIM, false);
     uint32_t *words = (uint32_t *)queue;
-    for (uint32_t i = 0; i < RAYS; i++) {
-        words[EC_SHADOW_SLOT * RAYS + i] = RAYS - 1 - i;
-        words[EC_SHADOW_TARGET * RAYS + i] = s->triangles && i % 3 == 0 ? random_below(s->triangles) : EC_NO_ID;
-        for (uint32_t c = 0; c < 3; c++) queue[(EC_SHADOW_LR + c) * RAYS + i] = (float)(1 + c);
+    for (uint32_t i = 0; i < rays; i++) {
+        words[EC_SHADOW_SLOT * rays + i] = rays - 1 - i;
+        words[EC_SHADOW_TARGET * rays + i] = s->triangles && i % 3 == 0 ? random_below(s->triangles) : EC_NO_ID;
+        for (uint32_t c = 0; c < 3; c++) queue[(EC_SHADOW_LR + c) * rays + i] = (float)(1 + c);
     }
-    if (!connect(s, bvh2, brute, RAYS, COUNT, queue, expected)) return;
+    if (!connect(s, bvh2, brute, rays, COUNT, queue, expected)) return;
     uint32_t open = 0, traced = 0;
-    float *radiance = calloc(3 * RAYS, sizeof *radiance);
+    float *radiance = calloc(3 * rays, sizeof *radiance);
     for (uint32_t k = 0; k < tracer_count; k++) {
         if (!accels[tracers[k].accel].buffers[0].data) continue;
-        if (!connect(s, &tracers[k], &accels[tracers[k].accel], RAYS, COUNT, queue, radiance)) continue;
+        if (!connect(s, &tracers[k], &accels[tracers[k].accel], rays, COUNT, queue, radiance)) continue;
         uint32_t wrong = 0;
         traced++;
-        for (uint32_t i = 0; i < RAYS; i++) {
-            uint32_t slot = RAYS - 1 - i;
+        for (uint32_t i = 0; i < rays; i++) {
+            uint32_t slot = rays - 1 - i;
             float light = expected[slot];
             if (i >= COUNT && light != 0.0f) wrong++;
             open += light != 0.0f;
-            if (radiance[slot] == light && radiance[RAYS + slot] == 2 * light && radiance[2 * RAYS + slot] == 3 * light) continue;
-            if (!wrong++) print_ray(s, queue, RAYS, i, EC_NO_ID);
+            if (radiance[slot] == light && radiance[rays + slot] == 2 * light && radiance[2 * rays + slot] == 3 * light) continue;
+            if (!wrong++) print_ray(s, queue, rays, i, EC_NO_ID);
         }
         CHECK_MSG(wrong == 0, "%s, %s: %u of %u shadow rays differ", s->name, tracers[k].label, wrong, COUNT);
     }
@@ -120,8 +120,8 @@ static void check_order(const set *s, const tracer *bvh2, const float *queue, co
         triangles[i] = triangles[s->triangles - 1 - i];
         triangles[s->triangles - 1 - i] = swap;
     }
-    float *hits = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *hits);
-    if (intersect(s, bvh2, &reversed, RAYS, COUNT, queue, hits)) same_hits(s, queue, RAYS, COUNT, hits, expected, "reverse order", "brute force");
+    float *hits = calloc(EC_HIT_PROBE_FIELDS * rays, sizeof *hits);
+    if (intersect(s, bvh2, &reversed, rays, COUNT, queue, hits)) same_hits(s, queue, rays, COUNT, hits, expected, "reverse order", "brute force");
     free(hits);
     ec_accel_free(&reversed);
 }
@@ -131,7 +131,7 @@ static void check_densities(const set *s, const float *queue, const float *expec
 {
     const tracer *t = tracers;
     while (t->accel != ec_accel_find("grid")) t++;
-    float *hits = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *hits);
+    float *hits = calloc(EC_HIT_PROBE_FIELDS * rays, sizeof *hits);
     for (int i = 0; i < 2; i++) {
         ec_error err = {0};
         ec_accel grid;
@@ -139,8 +139,8 @@ static void check_densities(const set *s, const float *queue, const float *expec
         ec_accel_input input = set_input(s, &indices);
         input.grid_density = i ? 10000.0f : 0.01f;
         CHECK_OK(ec_accel_build(t->accel, &input, &grid, &err), err);
-        if (grid.buffers[0].data && intersect(s, t, &grid, RAYS, COUNT, queue, hits))
-            same_hits(s, queue, RAYS, COUNT, hits, expected, i ? "fine grid" : "coarse grid", "brute force");
+        if (grid.buffers[0].data && intersect(s, t, &grid, rays, COUNT, queue, hits))
+            same_hits(s, queue, rays, COUNT, hits, expected, i ? "fine grid" : "coarse grid", "brute force");
         ec_accel_free(&grid);
         ec_accel_input_free(&input);
         free(indices);
@@ -170,7 +170,7 @@ static void check_set_of(set s, bool in_parts)
     const tracer *bvh2 = tracers;
     while (strncmp(bvh2->label, "bvh2", 4)) bvh2++;
     set_finish(&s);
-    float *queue = calloc(EC_SHADOW_FIELDS * RAYS + EC_PATH_FIELDS * RAYS, sizeof *queue), *expected = calloc(EC_HIT_PROBE_FIELDS * RAYS, sizeof *expected);
+    float *queue = calloc(EC_SHADOW_FIELDS * rays + EC_PATH_FIELDS * rays, sizeof *queue), *expected = calloc(EC_HIT_PROBE_FIELDS * rays, sizeof *expected);
     if (build_accels(&s, accels)) {
         check_parts(&s, accels, in_parts);
         check_bundles(&s, accels, &brute, bvh2, queue, expected);
@@ -178,7 +178,7 @@ static void check_set_of(set s, bool in_parts)
         check_closest(&s, accels, &brute, bvh2, queue, expected);
         check_order(&s, bvh2, queue, expected);
         check_densities(&s, queue, expected);
-        const uint32_t *prim = (const uint32_t *)expected, *skip = (const uint32_t *)queue + EC_PATH_PRIM * RAYS;
+        const uint32_t *prim = (const uint32_t *)expected, *skip = (const uint32_t *)queue + EC_PATH_PRIM * rays;
         bool all_copies = strcmp(s.name, "duplicated") == 0;
         for (uint32_t i = 0; all_copies && i < COUNT; i++) /* of four copies the lowest id, or if that is skipped another */
             if (prim[i] != EC_NO_ID && prim[i] >= s.triangles / 4 && prim[i] % (s.triangles / 4) != skip[i]) {
@@ -199,6 +199,7 @@ int main(void)
 {
     int open = open_tracers(true);
     if (open) return open;
+    if (test_tier("long")) rays = 6000;
     check_set(set_random("nothing", 0, 1.0f, 0.1f));
     check_set(set_random("one", 1, 1.0f, 1.0f));
     check_set(set_random("random", 1500, 1.0f, 0.1f));

@@ -8,7 +8,7 @@ enum { SAMPLE_COUNT = EC_SAMPLE_HEMISPHERE + 1 };
 /* A closed Lambert box that emits 1 everywhere: each segment k adds albedo^(k-1), so d segments give
  * (1 - a^d) / (1 - a), and unlimited ones 1 / (1 - a). In every pixel, for every strategy, in corners too. */
 /* By every second way to sample, or by all. */
-static void check_box(const char *path, double albedo, int step)
+static void check_box(const char *path, double albedo, int step, uint32_t spp)
 {
     static const uint32_t depths[] = {1, 2, 3, 9, 0};
     if (!case_present(path)) {
@@ -18,7 +18,7 @@ static void check_box(const char *path, double albedo, int step)
     ec_scene *scene = case_load(path, NULL);
     for (int s = 0; s < SAMPLE_COUNT; s += step)
         for (int d = 0; d < 5; d++) {
-            ec_render_options o = case_options(16, 16, 768);
+            ec_render_options o = case_options(16, 16, spp);
             o.sample = (ec_sample)s;
             o.max_depth = depths[d];
             o.seed = 2;
@@ -50,7 +50,7 @@ static void check_roulette(void)
     static const double survival[] = {0.5, 0.8};
     const double albedo = 0.5;
     ec_scene *scene = case_load(OWN_SCENE("furnace/box-albedo-0.5.gltf"), NULL);
-    ec_render_options o = case_options(16, 16, 768);
+    ec_render_options o = case_options(16, 16, 256);
     o.sample = EC_SAMPLE_BSDF;
     o.sampler = EC_SAMPLER_INDEPENDENT; /* or rays would vary less than that */
     o.survival = 1;
@@ -143,12 +143,13 @@ static void check_spheres(void)
 int main(void)
 {
     if (test_tier("quick")) {
-        check_box(OWN_SCENE("furnace/box-albedo-0.8.gltf"), 0.8, 2);
+        check_box(OWN_SCENE("furnace/box-albedo-0.8.gltf"), 0.8, 2, 256);
         check_roulette();
     }
     if (test_tier("full")) {
         check_plates();
-        check_box(SHARED("assets/classic/gltf/furnace-nori/furnace-albedo-0.5.gltf"), 0.5, 1);
+        check_box(OWN_SCENE("furnace/box-albedo-0.8.gltf"), 0.8, 2, 768);
+        check_box(SHARED("assets/classic/gltf/furnace-nori/furnace-albedo-0.5.gltf"), 0.5, 1, 768);
         check_mixed_box();
         check_spheres();
     }

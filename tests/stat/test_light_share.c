@@ -32,10 +32,10 @@ static void shares_agree(void)
 {
     static const double shares[] = {0.125, 0.5, 0.875};
     ec_scene *scene = load_floor(true);
-    case_image other = render(scene, EC_SAMPLE_BSDF, 0, 8192, 21);
+    case_image other = render(scene, EC_SAMPLE_BSDF, 0, 4096, 21);
     for (uint64_t i = 0; i < 3; i++) {
         char what[64];
-        case_image image = render(scene, EC_SAMPLE_MIS, shares[i], 4096, i + 1), light = render(scene, EC_SAMPLE_LIGHT, shares[i], 4096, i + 11);
+        case_image image = render(scene, EC_SAMPLE_MIS, shares[i], 2048, i + 1), light = render(scene, EC_SAMPLE_LIGHT, shares[i], 2048, i + 11);
         snprintf(what, sizeof what, "a share of %g, and BSDF sampling", shares[i]);
         case_check_same(&image, &other, 2, what);
         snprintf(what, sizeof what, "light sampling with a share of %g, and BSDF sampling", shares[i]);

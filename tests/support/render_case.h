@@ -91,10 +91,11 @@ static inline ec_render_options case_quick(ec_render_options options)
     return options;
 }
 
-/* Options for kernels with all effects, which every scene can share; narrow ones, since for 4 lanes all effects take 29 s to compile. The command
- * line's tests have these options as QUICK (tests/cli/support.py). */
+/* Options for kernels with all effects, which every scene can share; narrow ones, since for 4 lanes all effects take 29 s to compile. Building has
+ * compiled some of them. The command line's tests have these options as QUICK (tests/cli/support.py). */
 static inline ec_render_options case_with_all_effects(ec_render_options options)
 {
+    setenv("ECLAT_KERNELS", ECLAT_TEST_OUT "/../../eclat-kernels", 1);
     options.all_effects = true;
     options.accel = NULL;
     options.lanes = 0;
