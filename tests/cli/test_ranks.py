@@ -293,7 +293,7 @@ class Ranks(Case):
             last = dict(line.split() for line in file)["clGetDeviceInfo"]
         for fault, warns in [(f"{shim} FAULT_CALL=clGetDeviceInfo FAULT_AT={last}", 1), ("", 0)]:
             run = self.render_with(f"POCL_DEVICES=basic {fault}", [*JOB, "--spp", "40"], {"POCL_DEVICES": "pthread"})
-            self.assertEqual(len(re.findall("warning: rank 1 has basic-.* and rank 0 pthread-.*: if one of these does not round", run.stderr)), warns,
+            self.assertEqual(len(re.findall("warning: rank 1 has basic-.* and rank 0 has pthread-.*; if one of these does not round", run.stderr)), warns,
                              run.stderr)
 
     @full
