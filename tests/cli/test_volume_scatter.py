@@ -217,7 +217,7 @@ class VolumeScatter(Case):
         for paths in "0", "1":
             run = self.assert_ok(eclat("render", *job, "--light-paths", paths, "-o", self.path("a.exr")))
             reports.append(json.loads(run.stdout))
-        self.assertIn("--light-paths: none are sent", run.stderr)
+        self.assertIn("--light-paths: none are traced", run.stderr)
         self.assertIsNone(reports[1]["light_paths"])
         self.assertEqual(reports[1]["image_sha256"], reports[0]["image_sha256"])
 
