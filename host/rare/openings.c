@@ -16,8 +16,9 @@ enum { PASSED = 1 << 11 };                       /* rays past edges that are fol
 enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a sun that are looked at where they land; places around which rays feel what is lit;
                                                  * patches in all */
 enum { RINGS = 20, AROUND = 8 }; /* the largest first, each half of the one before: down to 6e-7 of the radius */
-enum { SMALL_RINGS = 3, SMALL_LIT = 3 }; /* an area is small if fewer rays are lit in one of so many rings; of the largest of these
-                                          * SMALL_LIT rays make more than SMALL, of the others a room in a wide landscape is dark */
+/* A patch is small if fewer than SMALL_LIT rays are lit in one of SMALL_RINGS rings. In the largest of these, SMALL_LIT lit rays mean an area of more than
+ * SMALL; the others lie within a room that stands in a wide landscape. */
+enum { SMALL_RINGS = 3, SMALL_LIT = 3 };
 #define LARGEST 0.3   /* of the scene's radius: the first one */
 #define SMALL 3e-4    /* of the disk around the scene: what is lit more is met soon */
 #define NEAREST 12    /* vertices by which their density is told … */
