@@ -71,7 +71,7 @@ class LightPaths(OtherWay):
         job = [LADDER, "--size", "96x96", "--spp", "8"]
         run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
         chosen = json.loads(run.stdout)
-        self.assertRegex(run.stderr, r"note: caustics: light paths are traced too, one for 8 from the camera, .* about \d+ % of the variance .*--light-paths 0")
+        self.assertRegex(run.stderr, r"note: caustics: light paths are traced too, one for every 8 from the camera, .* about \d+ % of the variance .*--light-paths 0")
         self.assertEqual((chosen["light_paths"], chosen.get("guiding")), (0.125, None))
         self.assertEqual(chosen["image_sha256"], self.render(*job, "--light-paths", "0.125")["image_sha256"])
 

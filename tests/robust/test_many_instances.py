@@ -73,7 +73,7 @@ class ManyInstances(Case):
         self.write()
         run = eclat("render", self.path("many.gltf"), "--accel", "bvh8", "--quiet", "--size", "8x8", "--spp", "1", cwd=self.folder)
         line = self.assert_one_error(run, 1)
-        self.assertIn("10000 instances", line)
+        self.assertIn("10000 expanded instances", line)
         self.assertIn("--accel", line)
 
 
