@@ -43,7 +43,7 @@ ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index
 ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most,
                                  uint32_t *chosen, const char **why, ec_error *err);
 
-/* Whether programs go through the binary cache. AUTO leaves it out for drivers that need the source:
+/* Says whether programs go through the binary cache. AUTO leaves the cache out for drivers that need the source:
  * cl/workarounds.c. */
 typedef enum ec_cache_use { EC_CACHE_AUTO = 0, EC_CACHE_ON, EC_CACHE_OFF } ec_cache_use;
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-/* Where no platform was found: returns whether there is a driver that cannot be loaded; err says which one and why. */
+/* Returns whether there is a driver that cannot be loaded; err says which one and why. To be called if no platform was found. */
 bool ec_drivers_explain(ec_error *err);
 
 /* Returns whether there is a driver that no file names to the loader, so that its devices are missing; `text` says which one and how to mend it. */

@@ -9,7 +9,7 @@
 #define HEADERS_MOST 512
 #define ONCE "/* once */" /* of tools/embed_kernels.py: a header that its guard leaves out where it is already there */
 
-/* What a #line directive names, quotes included; begins: it gives line 1. */
+/* The file that a #line directive names, quotes included; begins: the directive gives line 1. */
 typedef struct place {
     const char *name;
     size_t length;

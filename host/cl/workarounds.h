@@ -1,4 +1,4 @@
-/* What eclat does differently for some drivers: the only place that depends on which driver it is. */
+/* Workarounds for drivers: the only place where eclat depends on which driver it runs on. */
 #ifndef EC_CL_WORKAROUNDS_H
 #define EC_CL_WORKAROUNDS_H
 

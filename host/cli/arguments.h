@@ -6,7 +6,7 @@
 
 enum { EC_OPTIONS_MOST = 100 };
 
-/* What to do: run the command, or --help or --version instead. */
+/* The action that a command line asks for: to run the command, or --help or --version instead. */
 typedef enum ec_asked { EC_ASKED_RUN, EC_ASKED_HELP, EC_ASKED_VERSION } ec_asked;
 
 /* Takes an option and its value, NULL if it has none. */

@@ -8,7 +8,7 @@
 
 #include "cli/seconds.h"
 
-/* Of the process, like signals. */
+/* Global, since signals belong to the process. */
 enum { ENDS, CATCHES, TELLS };
 static atomic_int manner = ENDS;
 static atomic_bool requested;

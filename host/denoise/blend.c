@@ -160,7 +160,7 @@ static double choose_one(const ec_blend *b)
     return within((linear + draw * to) / (apart + draw));
 }
 
-/* What a tile's cells say of its weight, the others being fixed: least at linear / square. */
+/* The sum over a tile's cells as a parabola in the tile's weight, the other weights being fixed: its vertex is at linear / square. */
 typedef struct vertex {
     double square, linear, together, variance, apart_variance, plains;
 } vertex;

@@ -1,4 +1,4 @@
-/* Where batches come from: a device, a team of them, or whatever else has these functions. A source knows no film, no limits and no other
+/* A source of batches: a device, a team of them, or whatever else has these functions. A source knows no film, no limits and no other
  * source; a batch's numbers depend on its index alone, so that any source may take any batch, or any piece of one. */
 #ifndef EC_DEVICE_BATCH_SOURCE_H
 #define EC_DEVICE_BATCH_SOURCE_H
@@ -21,7 +21,7 @@ static inline uint64_t ec_order_positions(uint64_t pixels, uint32_t replicates)
     return pixels > most ? pixels : most;
 }
 
-/* What an order does about light paths, where there are any. */
+/* The part of light paths in an order, if there are any. */
 typedef enum ec_order_light {
     EC_LIGHT_ADDED, /* what they bring is part of the batch */
     EC_LIGHT_APART, /* it is not … */

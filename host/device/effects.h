@@ -1,4 +1,4 @@
-/* What a render makes of each effect: whether it is called for, why, which kernels it is built into, which buffers it takes. */
+/* The effects of a render: for each, whether it is called for and why, which kernels it is built into and which buffers it takes. */
 #ifndef EC_DEVICE_EFFECTS_H
 #define EC_DEVICE_EFFECTS_H
 

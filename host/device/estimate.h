@@ -1,4 +1,4 @@
-/* What a scene takes on a device, before there is one. */
+/* Estimates the memory that a scene takes on a device, before there is one. */
 #ifndef EC_DEVICE_ESTIMATE_H
 #define EC_DEVICE_ESTIMATE_H
 

@@ -13,8 +13,9 @@
 
 typedef enum ec_sampler_type { EC_SAMPLER_SOBOL, EC_SAMPLER_INDEPENDENT } ec_sampler_type;
 
-/* Where rays leave a facet that has vertex normals: kernels/lib/terminator.h. */
-typedef enum ec_scattering { EC_SCATTERING_SINGLE, EC_SCATTERING_MULTIPLE } ec_scattering; /* by rough facets: kernels/lib/multiscatter.h */
+/* How often light is scattered by rough facets: kernels/lib/multiscatter.h. */
+typedef enum ec_scattering { EC_SCATTERING_SINGLE, EC_SCATTERING_MULTIPLE } ec_scattering;
+/* How rays leave a facet that has vertex normals: kernels/lib/terminator.h. */
 typedef enum ec_terminator { EC_TERMINATOR_GEOMETRIC, EC_TERMINATOR_SMOOTH } ec_terminator;
 
 /* How a surface chooses the light that it samples: by power wherever it is, or by a tree that knows where lights are (kernels/lib/light_tree.h). */

@@ -13,7 +13,7 @@ typedef struct ec_difference {
     double relmse;                /* mean of (a - b)^2 / (b + 0.01)^2 over pixels and channels */
     double mape;                  /* mean of |a - b| / (b + 0.01), a fraction */
     double psnr;                  /* dB, against b's peak, or else its largest value; INFINITY for equal pictures, NaN where b is black */
-    /* What the noise of both would make of relative_rms and relmse if they were renders of one picture; NaN where no
+    /* The values of relative_rms and relmse that the noise of both would make if they were renders of one picture; NaN if no
      * standard errors are known. */
     double noise_relative_rms, noise_relmse;
 } ec_difference;

@@ -17,7 +17,7 @@
 #include "film/rare.h"
 #include "film/tail.h"
 
-/* What a denoiser has made of a film (host/denoise): 3, 3 and 1 floats a pixel, rows from the top. All NULL: none was asked for. */
+/* A denoiser's result for a film (host/denoise): 3, 3 and 1 floats a pixel, rows from the top. All NULL: none was asked for. */
 typedef struct ec_film_clean {
     float *denoised, *best; /* radiance: denoised throughout, and where that is nearer to the truth */
     float *error;           /* of the denoised luminance: estimated root mean square over the pixels around */
@@ -166,14 +166,14 @@ typedef struct ec_film_error {
     double larger;           /* error of samples larger than any yet that may exist and did not come, over `error` */
     double larger_falls;     /* with n times as many samples it is that over n to this power */
     double spread;           /* standard error of ln(error^2); over 0.3 a few rare events decide */
-    /* What noise alone makes of mean((x - r)^2 / (r + 0.01)^2) over pixels and channels, r the converged image: SE^2 in
+    /* The part of noise in mean((x - r)^2 / (r + 0.01)^2) over pixels and channels, r the converged image: SE^2 in
      * place of (x - r)^2, x in place of r. Infinity with fewer than 2 replicates. Heavy tails make it too small: a pixel that
      * is bright by chance divides by too much. */
     double relmse;
 } ec_film_error;
 ec_film_error ec_film_estimate_error(const ec_film *film);
 
-/* What an image's error is made of: sums over its pixels in row order, so that films that follow one another downwards, added one after the other,
+/* The sums that an image's error is computed from: over its pixels in row order, so that films that follow one another downwards, added one after the other,
  * give the bits of the whole. Begin with zeros. */
 typedef struct ec_error_sums {
     double luminance, s2, s4; /* s2: s^2 / n, the variance of a pixel's mean */

@@ -40,7 +40,7 @@ typedef struct pair {
     double *doubt_a, *doubt_b;   /* … and 1 over their degrees of freedom */
 } pair;
 
-/* What t-tests need: the difference and its slack, its variance, and sum (variance^2 / degrees of freedom). */
+/* The sums that t-tests need: the difference and its slack, its variance, and sum (variance^2 / degrees of freedom). */
 typedef struct t_sums {
     double difference, slack, variance, spread;
 } t_sums;

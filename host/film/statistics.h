@@ -2,7 +2,7 @@
 #ifndef EC_FILM_STATISTICS_H
 #define EC_FILM_STATISTICS_H
 
-/* What the image's 95 % bound aims at, so that it also holds in 95 of 100 renders where heavy tails make its own estimate come
+/* The confidence that the image's 95 % bound aims at, so that it also holds in 95 of 100 renders where heavy tails make its own estimate come
  * out low: tests/stat/test_error_bound.c. Aimed at 0.95 it held in 185 to 193 of 200,
  * at 0.98 still in 189 of one case. */
 #define EC_BOUND_CONFIDENCE 0.99

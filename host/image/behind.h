@@ -1,4 +1,4 @@
-/* What is behind the surfaces of a picture: a blurred environment map at infinity, as a camera sees it. */
+/* A backdrop, seen where a picture has no surface: a blurred environment map at infinity, as a camera sees it. */
 #ifndef EC_IMAGE_BEHIND_H
 #define EC_IMAGE_BEHIND_H
 

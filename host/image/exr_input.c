@@ -51,7 +51,7 @@ const exr_attr_chlist_entry_t *ec_exr_channel(const ec_exr_input *input, int par
     return NULL;
 }
 
-/* What decoding all chunks of a part shares. */
+/* State that decoding all chunks of a part shares. */
 typedef struct decoding {
     exr_context_t context;
     int part;

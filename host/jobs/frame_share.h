@@ -1,4 +1,4 @@
-/* What the pictures of one job share: devices, an environment, acceleration structures. */
+/* State that the pictures of one job share: devices, an environment, acceleration structures. */
 #ifndef EC_JOBS_FRAME_SHARE_H
 #define EC_JOBS_FRAME_SHARE_H
 

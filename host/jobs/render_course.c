@@ -1,4 +1,4 @@
-/* Where a render starts, and what it keeps on the way: checkpoints and slices. */
+/* The course of a render: the batch that it starts from, and the checkpoints and slices that it keeps on the way. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>

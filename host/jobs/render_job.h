@@ -84,7 +84,7 @@ ec_course ec_render_job_course(ec_render_job *job);
 /* Renders into job->film; the listener may end it early and successfully. On failure the film may have batches too. */
 ec_result ec_render_job_run(ec_render_job *job, ec_error *err);
 
-/* With options.denoise: denoises the film, unless the last look at its error has. A failure leaves the film unchanged. */
+/* Denoises the film if options.denoise is set, unless the last look at its error has. A failure leaves the film unchanged. */
 ec_result ec_render_job_denoise(ec_render_job *job, ec_error *err);
 
 /* render_deliver.c: writes the film to the outputs and reports it. start: when the job or frame began. */

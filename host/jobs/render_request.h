@@ -24,7 +24,7 @@ typedef struct ec_camera_change {
 /* auto: on if an error is asked for. */
 typedef enum ec_adaptive { EC_ADAPTIVE_AUTO, EC_ADAPTIVE_ON, EC_ADAPTIVE_OFF } ec_adaptive;
 
-/* What is below the scene: nothing, a matte floor, or one that shows only shadows on it (shadow.h). */
+/* The ground below the scene: none, a matte floor, or one that shows only the shadows on it (shadow.h). */
 typedef enum ec_ground { EC_GROUND_NONE, EC_GROUND_MATTE, EC_GROUND_SHADOW } ec_ground;
 
 typedef struct ec_render_request {

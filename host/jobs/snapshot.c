@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* Those of the final picture's first attributes that are known so far. */
+/* Attributes of a snapshot: the first ones of the final picture, as far as they are known. */
 enum { ATTRIBUTES = 7 };
 
 static uint32_t list(const ec_render_job *job, const ec_film_error *error, const ec_past *past, ec_attribute attributes[ATTRIBUTES])

@@ -9,7 +9,7 @@
 #include "report/render_report.h"
 #include "store/store.h"
 
-/* What makes the picture a part of a job, which `eclat merge` can add to others. */
+/* The data that make a picture a part of a job, which `eclat merge` can add to others. */
 typedef struct ec_slice {
     const ec_job *job;
     const ec_past *past;

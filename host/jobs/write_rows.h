@@ -21,7 +21,7 @@ ec_result ec_row_writer_put(ec_row_writer *writer, const ec_film *film, ec_error
 /* Returns the number of rows so far. */
 uint32_t ec_row_writer_rows(const ec_row_writer *writer);
 
-/* What was written. If rows are missing, no error of the image is known. */
+/* The result of writing. If rows are missing, no error of the image is known. */
 typedef struct ec_rows_told {
     uint32_t rows, replicates;
     uint64_t heavy;           /* number of pixels, counted as they are written */

@@ -14,7 +14,7 @@
 
 #define EC_LIVE_SLICE 0.02 /* seconds of a wave: the longest delay of a new wish */
 
-/* What the caller asks for. */
+/* The requests of the caller. */
 typedef struct ec_live_asked {
     eclat_wish wish, saved;       /* saved: that of the last save */
     uint32_t serial;              /* counts wishes */

@@ -6,7 +6,7 @@
 
 enum { EC_JOINED_NUMBERS = 6 };
 
-/* What one path has gathered, of luminance. */
+/* Luminance that one path has gathered. */
 typedef struct ec_joined_path {
     float radiance, indirect;
     float saved[EC_JOINED_NUMBERS]; /* their squares are what numbers[k] light paths a camera path would take away of the square of indirect light */

@@ -8,7 +8,7 @@
 #include "base/random.h"
 
 #define PI 3.14159265358979323846
-#define BESIDE 1e-4   /* of the scene's radius: rays pass this far from an edge */
+#define BACK 1e-4     /* of the scene's radius: rays start this far before an edge */
 #define ABOVE 1e-5    /* likewise, above what is lit */
 #define GRAZING 0.05  /* cosine under which light only grazes what it falls on */
 enum { PAGE = 256 }; /* triangles that are read at once */
@@ -16,9 +16,9 @@ enum { PASSED = 1 << 11 };                       /* rays past edges that are fol
 enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a sun that are looked at where they land; places around which rays feel what is lit;
                                                  * patches in all */
 enum { RINGS = 20, AROUND = 8 }; /* the largest first, each half of the one before: down to 6e-7 of the radius */
-/* A patch is small if fewer than SMALL_LIT rays are lit in one of SMALL_RINGS rings. In the largest of these, SMALL_LIT lit rays mean an area of more than
- * SMALL; the others lie within a room that stands in a wide landscape. */
-enum { SMALL_RINGS = 3, SMALL_LIT = 3 };
+/* A patch is small if fewer than SMALL_LIT rays are lit in one of SMALL_RINGS rings: every SMALL_STEP-th one, from number SMALL_STEP on. In the first of
+ * these, SMALL_LIT lit rays mean an area of more than SMALL; the others lie within a room that stands in a wide landscape. */
+enum { SMALL_RINGS = 3, SMALL_STEP = 3, SMALL_LIT = 3 };
 #define LARGEST 0.3   /* of the scene's radius: the first one */
 #define SMALL 3e-4    /* of the disk around the scene: what is lit more is met soon */
 #define NEAREST 12    /* vertices by which their density is told … */
@@ -119,7 +119,7 @@ static ec_result land(const finder *f, const ec_chain *ray, const ec_rare_sun *s
 static ec_result pass_edges(finder *f, const ec_rare_sun *sun, uint32_t *landed, ec_error *err)
 {
     const uint32_t most = sun->is_lamp ? EC_RARE_LAMP_EDGES : EC_RARE_EDGES, count = f->all->edge_count < most ? f->all->edge_count : most;
-    const double back = BESIDE * f->all->radius;
+    const double back = BACK * f->all->radius;
     float towards[3];
     uint32_t passed = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -190,7 +190,7 @@ static ec_result drop_large(finder *f, const ec_rare_sun *sun, patch *found, uin
 {
     uint32_t kept = 0;
     for (uint32_t k = 0; k < *count * SMALL_RINGS; k++)
-        feel_ring(f, &found[k / SMALL_RINGS], 3 + 3 * (int)(k % SMALL_RINGS), random, f->rays + (size_t)k * AROUND);
+        feel_ring(f, &found[k / SMALL_RINGS], SMALL_STEP * (int)(1 + k % SMALL_RINGS), random, f->rays + (size_t)k * AROUND);
     if (*count) EC_TRY(ec_chains_meet(f->p, f->rays, *count * SMALL_RINGS * AROUND, err));
     for (uint32_t k = 0; k < *count; k++) {
         int least = AROUND;
@@ -251,7 +251,7 @@ static void find_near(double radius, const ec_chains *paths, const patch *at, ne
         near_vertex *near = found->vertices[seen];
         uint32_t *count = &found->count[seen];
         if (*count == NEAREST && square >= near[NEAREST - 1].square) continue;
-        if (!(dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BESIDE * radius)) continue;
+        if (!(dot(c->direction, at->normal) > 0 && fabs(height) <= FLAT * sqrt(square) + BACK * radius)) continue;
         uint32_t k = *count < NEAREST ? (*count)++ : NEAREST - 1;
         for (; k > 0 && near[k - 1].square > square; k--) near[k] = near[k - 1];
         near[k] = (near_vertex){square, c};

@@ -8,7 +8,7 @@
 #include "render/render.h"
 #include "render/sources.h"
 
-/* What a render knows between two waves, beside its film: from both, another render goes on as if there had been no break. */
+/* The state of a render between two waves, beside its film: from both, another render goes on as if there had been no break. */
 typedef struct ec_past {
     uint32_t next;                    /* the index of the next batch, or pass of an adaptive render */
     uint64_t samples, rays;           /* done */
@@ -36,7 +36,7 @@ typedef struct ec_course {
     bool (*keep)(void *user, const ec_film *film, const ec_past *past);
     bool past_is_kept;                /* `keep` has the past already: it is not called before there is more */
     double every;
-    /* Where the picture does not fit into memory it is rendered in strips (strips.h): called for each that is complete, from the top, with its
+    /* Takes a complete strip, from the top, of a picture that does not fit into memory and is rendered in strips (strips.h): called with its
      * first row and what is known so far; samples include those of strips before it. Its failure ends the render. The film is then made anew; in
      * the end it is empty, unless there was one strip only, which is not told. NULL: pictures are rendered whole, because of what `whole_for`
      * says, an option as on the command line. */

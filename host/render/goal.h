@@ -1,4 +1,4 @@
-/* What a render is to reach, how far it is, and when it will be there: limits, pace and forecast, for renders and previews alike. */
+/* The goal of a render, how far it is, and when it will be there: limits, pace and forecast, for renders and previews alike. */
 #ifndef EC_RENDER_GOAL_H
 #define EC_RENDER_GOAL_H
 

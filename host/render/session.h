@@ -13,7 +13,7 @@ ec_result ec_session_open(ec_cl *cl, const ec_scene *scene, const ec_render_opti
                           ec_session **session, ec_render_stats *stats, ec_error *err);
 void ec_session_close(ec_session *session); /* NULL is fine */
 
-/* What may change without setting up scene, structures and kernels again. */
+/* The settings that may change without setting up scene, structures and kernels again. */
 typedef struct ec_session_view {
     ec_camera camera;
     uint32_t width, height;          /* pixels */

@@ -1,4 +1,4 @@
-/* What both parts of a team share: team.c has the threads and the orders, team_pieces.c knows which units are open and which member gets which piece.
+/* State that both parts of a team share: team.c has the threads and the orders, team_pieces.c knows which units are open and which member gets which piece.
  * Inside these two only; everything is guarded by the team's lock. */
 #ifndef EC_RENDER_TEAM_INTERNAL_H
 #define EC_RENDER_TEAM_INTERNAL_H

@@ -1,4 +1,4 @@
-/* What light paths would be aimed at, for a scene's report. */
+/* Reports the bodies that light paths would be aimed at, for a scene's report. */
 #include <stdbool.h>
 
 #include "base/freed.h"

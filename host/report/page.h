@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-/* What replaces @NAME@ in a page; one of the three is set. */
+/* The replacement of @NAME@ in a page; one of the three is set. */
 typedef struct ec_page_part {
     const char *name;
     const char *text;   /* inserted unchanged */

@@ -13,7 +13,7 @@ typedef struct ec_setting_value {
     char made[EC_EFFECT_NAMES];
 } ec_setting_value;
 
-/* Whether samples depend on a setting: not at all, by its value, or by the data made from it, where two values that give the same data are the same. */
+/* How samples depend on a setting: not at all, by its value, or by the data made from it, where two values that give the same data are the same. */
 typedef enum ec_setting_identity { EC_NOT_IDENTITY, EC_IDENTITY_BY_VALUE, EC_IDENTITY_BY_CONTENT } ec_setting_identity;
 
 typedef struct ec_setting {

@@ -96,7 +96,7 @@ typedef struct ec_camera {
     char *name;                            /* owned, may be NULL */
 } ec_camera;
 
-/* What moves while the shutter is open: keys at equal times from opening to closing, with straight lines in between. The first vertices and triangles
+/* The motion while the shutter is open: keys at equal times from opening to closing, with straight lines in between. The first vertices and triangles
  * of the scene are those that move; their entries in the scene, and everything else in it, are as in the middle of the exposure. Keys of one thing
  * are adjacent. */
 typedef struct ec_motion {
@@ -262,7 +262,7 @@ void ec_environment_turn(ec_environment *environment, double degrees);
 /* Multiplies the environment by `strength` (0 removes it), and turns it about +y, counter-clockwise seen from above. There must be an environment. */
 void ec_scene_adjust_environment(ec_scene *scene, double degrees, double strength, const ec_log *log);
 
-/* Where a camera is and what it looks at, in the file's coordinates. */
+/* A camera's position and target, in the file's coordinates. */
 typedef struct ec_viewpoint {
     double eye[3], target[3], up[3]; /* metres; up: a direction */
     double fov;                      /* vertical field of view in degrees; 0: parallel rays */

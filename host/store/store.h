@@ -7,7 +7,7 @@
 #include "render/course.h"
 #include "store/identity.h"
 
-/* What a file says beside the film. */
+/* The data of a stored file, other than the film. */
 typedef struct ec_job {
     ec_identity identity;
     int argc;             /* the command that began it: "render" and its arguments */

@@ -16,7 +16,7 @@
 #define RESTS_AFTER 0.12  /* seconds without a move after which the camera is at rest */
 #define PATIENCE 0.35     /* seconds that the window waits for the scene, whose camera tells its width */
 
-/* Of the process, like GLFW. */
+/* Global, since GLFW's state belongs to the process. */
 static atomic_bool is_open;
 
 static void wake(void)

@@ -22,7 +22,7 @@ typedef struct geometry {
     global const float *parts;     /* ec_lamp_node by word, or 0 */
 } geometry;
 
-/* What the surface look-ups share: which triangle, where on it, what it is made of. Off lanes hold triangle 0. */
+/* The hit that the surface look-ups share: its triangle, the place on it, its material. Off lanes hold triangle 0. */
 typedef struct hit_point {
     v3 p0, p1, p2;       /* its vertices */
     lane_f b0, b1, b2;

@@ -1,4 +1,4 @@
-/* What moves while the shutter is open. A path has one time in [0, 1), stored with its sample's slot; triangles, normals and lamps are where they are
+/* Motion while the shutter is open. A path has one time in [0, 1), stored with its sample's slot; triangles, normals and lamps are where they are
  * then. Keys are at equal intervals, whose number is a power of two, so that the time's fraction of an interval is exact.
  *
  * A corner is fma(f, b - a, a) between its keys a and b, f at most 1 - u: three roundings of monotone functions, which never lead beyond a or b. So

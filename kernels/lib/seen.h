@@ -1,4 +1,4 @@
-/* What an eye ray sees before any light is sampled: background, emission, unlit surfaces. */
+/* The light that an eye ray sees before any light is sampled: background, emission, unlit surfaces. */
 #ifndef EC_LIB_SEEN_H
 #define EC_LIB_SEEN_H
 

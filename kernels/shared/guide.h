@@ -11,7 +11,7 @@
 #define EC_GUIDE_LEAF 3u /* in place of an axis */
 #define EC_GUIDE_ALPHA 0.25f /* lobes narrower than that are left to the BSDF */
 
-/* What a light path met at a vertex, in words from (vertex * paths + path) * EC_PHOTON_WORDS on. Flux 0: nothing that counts. */
+/* A vertex of a light path, in words from (vertex * paths + path) * EC_PHOTON_WORDS on. Flux 0: the vertex does not count. */
 #define EC_PHOTON_VERTICES 8u
 enum ec_photon_word { EC_PHOTON_X, EC_PHOTON_Y, EC_PHOTON_Z, EC_PHOTON_DX, EC_PHOTON_DY, EC_PHOTON_DZ, EC_PHOTON_FLUX, EC_PHOTON_WORDS = 8 };
 

@@ -94,7 +94,7 @@ EC_ASSERT_SIZE(ec_params, 596);
 
 #define EC_ROULETTE_FIRST 3u /* first_roulette of --rr auto */
 
-/* What a batch says of a pixel, in floats: mean radiance R, G, B of its samples; the largest luminance of a sample; and the sums of the squares and
+/* The result of a batch for a pixel, in floats: mean radiance R, G, B of its samples; the largest luminance of a sample; and the sums of the squares and
  * fourth powers of the samples' luminance, in units of the largest (1 to m, 0 where all are black). Where there is a limit, these two sums are of the
  * luminance that it cuts off and of its squares, in units of largest^2 / limit, so that they add up by the same rule (film/clamp.h). */
 #define EC_BATCH_FIELDS 6
@@ -103,7 +103,7 @@ enum ec_batch_field { EC_BATCH_R, EC_BATCH_G, EC_BATCH_B, EC_BATCH_LARGEST, EC_B
 /* An entry of a pixel list: the pixel's number (kernels/lib/film.h), and how many samples it has. */
 #define EC_LIST_WORDS 2
 
-/* What light paths bring to a pixel in a batch, in words: R, G, B as 64-bit sums in splat units, the low word first, and the largest luminance of a
+/* The light that light paths bring to a pixel in a batch, in words: R, G, B as 64-bit sums in splat units, the low word first, and the largest luminance of a
  * single contribution, a float. */
 #define EC_SPLAT_WORDS 8
 enum ec_splat_word { EC_SPLAT_R = 0, EC_SPLAT_G = 2, EC_SPLAT_B = 4, EC_SPLAT_LARGEST = 6 };

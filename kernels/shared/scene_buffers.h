@@ -23,7 +23,7 @@ EC_ASSERT_SIZE(ec_prim, 48);
 #define EC_PRIM_PANE 4u         /* may let light go straight on (lib/pane.h) */
 #define EC_PRIM_PARTS 8u        /* shift: first ec_lamp_node of a lamp in parts; else 0 */
 
-/* Where instances stand, for shading: a header, an ec_place each, and behind them their first ids once more, side by side, to be
+/* The places of instances, for shading: a header, an ec_place each, and behind them their first ids once more, side by side, to be
  * searched. */
 typedef struct ec_place_header {
     ec_uint count;
@@ -45,7 +45,7 @@ EC_ASSERT_SIZE(ec_place, 112);
 #define EC_PLACE_NORMAL 12
 #define EC_PLACE_ID 24
 
-/* What moves, in words: a header; four words for each moving triangle, the vertices of its corners; then streams with four words a key, all keys
+/* The motion of the scene, in words: a header; four words for each moving triangle, the vertices of its corners; then streams with four words a key, all keys
  * of a vertex side by side: positions, normals, tangents. A light has its positions first, then as many directions. */
 #define EC_MOTION_SEGMENTS 0u  /* one fewer than keys, a power of two */
 #define EC_MOTION_TRIANGLES 1u /* the scene's first ones */

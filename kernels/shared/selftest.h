@@ -1,4 +1,4 @@
-/* What `eclat selftest` and its kernels in kernels/selftest tell each other: arrays of n values, one after the other. */
+/* The arrays that `eclat selftest` and its kernels in kernels/selftest exchange: n values each, one after the other. */
 #ifndef EC_SHARED_SELFTEST_H
 #define EC_SHARED_SELFTEST_H
 

@@ -213,7 +213,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     if (HAS(DISPERSION)) disperse(&g, &h, scatters, &u_pass, &s, &beta);
     bsdf b = bsdf_make(&s, surface_to_local(&s, wo), params->multiple != 0u);
 
-    /* Where reflected rays start. Lights are sampled from there, so that a path that meets one finds the same density. */
+    /* Reflected rays start at `above`. Lights are sampled from there, so that a path that meets one finds the same density. */
     lane_i lifted = !TRUE_MASK;
     v3 start = HAS(TERMINATOR) && params->terminator && normals ? terminator_origin(&g, &h, &s, &lifted) : s.p;
     v3 above = surface_offset(start, s.p_error, s.ng, wo);

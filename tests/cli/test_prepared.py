@@ -31,6 +31,9 @@ class Prepared(Case):
     def files(self, folder):
         return sorted(os.path.join(where, name) for where, _, names in os.walk(folder) for name in names if name.endswith((".so", ".bc")))
 
+    def test_without_them_a_first_render_begins_with_narrow_ones(self):
+        self.assert_begun("narrow", self.render("without", ""))
+
     def test_a_first_render_begins_with_them(self):
         self.assert_begun("universal", self.render("with", PREPARED))
         copied = [os.path.relpath(path, self.path("with", "pocl")) for path in self.files(self.path("with", "pocl"))]

@@ -208,7 +208,7 @@ typedef struct eclat_picture_error {
 } eclat_picture_error;
 eclat_picture_error eclat_picture_get_error(const eclat_picture *picture);
 
-/* With the option "denoise": errors of the denoised picture, and of the best one, a blend of the denoised and the noisy one, in the units of
+/* Errors of the denoised picture, and of the best one, a blend of the denoised and the noisy one, with the option "denoise"; in the units of
  * eclat_picture_error. Their planes are the channels "denoised.R", "best.R" and so on. */
 typedef struct eclat_stated_error {
     double error, low95, high95;               /* error and its 95 % interval; high95 INFINITY: no bound. All INFINITY: unknown */
@@ -233,7 +233,7 @@ size_t eclat_picture_channel_count(const eclat_picture *picture);
 eclat_channel eclat_picture_channel_at(const eclat_picture *picture, size_t i);            /* data is NULL beyond the last */
 eclat_channel eclat_picture_channel(const eclat_picture *picture, const char *name);       /* data is NULL if there is no such channel */
 
-/* What the picture states about itself, as in the EXR: "eclat.seed", "eclat.error", ... */
+/* A statement of the picture about itself, as in the EXR: "eclat.seed", "eclat.error", ... */
 typedef struct eclat_attribute {
     const char *name;
     const char *text; /* NULL: the value is `number` */

@@ -102,7 +102,7 @@ typedef struct eclat_facts {
 /* Returns facts of the scene as it was last loaded. They and all they point to are valid until the next call. */
 const eclat_facts *eclat_live_facts(eclat_live *live);
 
-/* What a pixel shows. */
+/* The surface that a pixel shows, and its light. */
 typedef struct eclat_probe {
     uint32_t x, y;
     int is_inside;                   /* the pixel is in the picture; otherwise nothing below is known */
@@ -115,7 +115,7 @@ typedef struct eclat_probe {
     double center[3], radius;        /* a sphere around the node's triangles; radius 0: it has none */
 } eclat_probe;
 
-/* What may be failing now: the last load of the files, the last set-up of a device, the current camera. */
+/* The parts of a session that may be failing now: the last load of the files, the last set-up of a device, the current camera. */
 typedef enum eclat_trouble { ECLAT_TROUBLE_FILES, ECLAT_TROUBLE_SETUP, ECLAT_TROUBLE_CAMERA, ECLAT_TROUBLE_COUNT } eclat_trouble;
 
 typedef struct eclat_status {
