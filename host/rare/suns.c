@@ -10,8 +10,7 @@
 #include "film/film.h"
 
 #define BESIDE 1e-4   /* of the scene's radius, from the edge … */
-#define BESIDE_EDGE 0.1 /* … but not more than this share of its length, since a hole in a wide landscape has short ones … */
-#define LEAST 1e-6    /* … and not less than this share of the radius, for rounding */
+#define BESIDE_EDGE 0.1 /* … but at most this share of the edge's length: a hole in a wide landscape has short edges */
 #define NARROW 0.02   /* steradians: of a wider light one ray does not tell where it falls */
 #define ONE_SUN 0.995 /* cosine between parts of a map that are one sun */
 #define WEAK 0.01     /* of the strongest sun's irradiance, or of all lamps' power */
@@ -109,7 +108,7 @@ static void set_beside(const ec_prim *p, int edge, double radius, float point[3]
     const float *v[3] = {p->v0, p->v1, p->v2}, *a = v[edge], *b = v[(edge + 1) % 3], *c = v[(edge + 2) % 3];
     double along = 0, square = 0, length = 0, out[3];
     for (int k = 0; k < 3; k++) along += ((double)c[k] - a[k]) * ((double)b[k] - a[k]), square += ((double)b[k] - a[k]) * ((double)b[k] - a[k]);
-    const double distance = fmax(fmin(BESIDE * radius, BESIDE_EDGE * sqrt(square)), LEAST * radius);
+    const double distance = fmin(BESIDE * radius, BESIDE_EDGE * sqrt(square));
     for (int k = 0; k < 3; k++) out[k] = a[k] + along / fmax(square, 1e-300) * ((double)b[k] - a[k]) - c[k], length += out[k] * out[k];
     for (int k = 0; k < 3; k++) point[k] = (float)(0.5 * ((double)a[k] + b[k]) + distance * out[k] / fmax(sqrt(length), 1e-300));
 }
