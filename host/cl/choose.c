@@ -151,10 +151,6 @@ static ec_result choose_next(const ec_device_info *devices, uint32_t count, cons
         return ec_fail(err, "the list of devices '%s' contains all; give all alone, or numbers and names", list);
     if (*chosen == most) return ec_fail(err, "the list of devices '%s' is too long; name at most %u", list, most);
     EC_TRY(choose_named(devices, count, from, id, &indices[*chosen], err));
-    for (uint32_t i = 0; i < *chosen; i++)
-        if (indices[i] == indices[*chosen])
-            return ec_fail(err, "the list of devices '%s' has device %u (%s) twice; name each once", list, indices[i],
-                           devices[indices[i]].name);
     ++*chosen;
     return EC_OK;
 }
@@ -178,6 +174,16 @@ ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count
     return EC_OK;
 }
 
+/* Divides the memory of a device that is named several times between its queues. */
+static void share_memory(const uint32_t *indices, uint32_t count, ec_device_info *devices)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t queues = 0;
+        for (uint32_t k = 0; k < count; k++) queues += indices[k] == indices[i];
+        devices[i].memory_bytes /= queues;
+    }
+}
+
 ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most,
                                  uint32_t *chosen, const char **why, ec_error *err)
 {
@@ -186,6 +192,7 @@ ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32
     EC_TRY(ec_devices_list(&all, &count, err));
     ec_result result = ec_device_choose_several(all, count, id, indices, most, chosen, why, err);
     for (uint32_t i = 0; result == EC_OK && i < *chosen; i++) devices[i] = all[indices[i]];
+    if (result == EC_OK) share_memory(indices, *chosen, devices);
     free(all);
     return result;
 }

@@ -34,14 +34,14 @@ ec_result ec_device_choose(const ec_device_info *devices, uint32_t count, const 
                            const char **why, ec_error *err);
 
 /* Likewise for `all` (all devices that are available and have a compiler) and lists such as `0,2` or `pocl,intel`: up to `most` indices, in the order
- * given. With a `most` of 1 such a list is refused. */
+ * given. With a `most` of 1 such a list is refused. A device may be named more than once: it has a queue for each time (ec_cl_open_beside). */
 ec_result ec_device_choose_several(const ec_device_info *devices, uint32_t count, const char *id, uint32_t *indices, uint32_t most,
                                    uint32_t *chosen, const char **why, ec_error *err);
 
 /* Lists and chooses: gives the device that id means, and its place in the list. index and why may be NULL. */
 ec_result ec_device_find(const char *id, ec_device_info *device, uint32_t *index, const char **why, ec_error *err);
 ec_result ec_device_find_several(const char *id, ec_device_info *devices, uint32_t *indices, uint32_t most,
-                                 uint32_t *chosen, const char **why, ec_error *err);
+                                 uint32_t *chosen, const char **why, ec_error *err); /* memory_bytes: a queue's share */
 
 /* Says whether programs go through the binary cache. AUTO leaves the cache out for drivers that need the source:
  * cl/workarounds.c. */
@@ -101,6 +101,9 @@ typedef struct ec_cl {
     uint64_t sent_bytes;
 } ec_cl;
 ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err);
+/* Likewise, in the context of the first of `opened` that is on the same device, if there is one: cards run commands of two queues side by side only
+ * within a context. All may be closed in any order. */
+ec_result ec_cl_open_beside(const ec_device_info *info, const ec_cl *opened, uint32_t count, ec_cl *cl, ec_error *err);
 void ec_cl_close(ec_cl *cl);
 
 /* One of the sources embedded at build time (kernels/stages/NAME.cl, includes flattened, #line kept). NULL if unknown. */

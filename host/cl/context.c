@@ -7,16 +7,30 @@
 #include "cl/kept.h"
 #include "cl/pace.h"
 
-ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err)
+static ec_result share_or_create_context(ec_cl *cl, const ec_cl *opened, uint32_t count, ec_error *err)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (opened[i].info.id != cl->info.id) continue;
+        EC_TRY(ec_cl_check(clRetainContext(opened[i].context), "clRetainContext", cl->info.name, err));
+        cl->context = opened[i].context;
+        return EC_OK;
+    }
+    const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)cl->info.platform, 0};
+    cl_int code;
+    cl->context = clCreateContext(properties, 1, &cl->info.id, NULL, NULL, &code);
+    return ec_cl_check(code, "clCreateContext", cl->info.name, err);
+}
+
+ec_result ec_cl_open(const ec_device_info *info, ec_cl *cl, ec_error *err) { return ec_cl_open_beside(info, NULL, 0, cl, err); }
+
+ec_result ec_cl_open_beside(const ec_device_info *info, const ec_cl *opened, uint32_t count, ec_cl *cl, ec_error *err)
 {
     memset(cl, 0, sizeof *cl);
     cl->info = *info;
     cl->releases = 1;
     EC_TRY(ec_pace_begin(cl, err));
-    const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM, (cl_context_properties)info->platform, 0};
+    EC_TRY(share_or_create_context(cl, opened, count, err));
     cl_int code;
-    cl->context = clCreateContext(properties, 1, &info->id, NULL, NULL, &code);
-    EC_TRY(ec_cl_check(code, "clCreateContext", info->name, err));
     cl->queue = clCreateCommandQueue(cl->context, info->id, cl->paces.limit > 0 ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     ec_result result = ec_cl_check(code, "clCreateCommandQueue", info->name, err);
     if (result != EC_OK) ec_cl_close(cl);

@@ -261,7 +261,7 @@ const ec_option ec_render_rows[] = {
 
     /* Device */
     {.name = "device", .metavar = "ID", EC_STORED(TEXT, device), .group = EC_GROUP_DEVICE, .uses = EC_OPTION_INFO | EC_OPTION_COST | EC_OPTION_NO_IDENTITY,
-     .help = "OpenCL device: its number in eclat devices, or part of its name; for several, a list such as 0,2, or all",
+     .help = "OpenCL device: its number in eclat devices, or part of its name; for several, a list such as 0,2, or all; a device named twice has two command queues",
      .otherwise = "$ECLAT_DEVICE, else the first GPU, else the first CPU"},
     {.name = "compile", .metavar = "WHEN", EC_CHOSEN(options.compile, ec_compile_names), .group = EC_GROUP_DEVICE, .uses = EC_OPTION_NO_IDENTITY,
      .help = "when to compile kernels that the driver does not have yet: beside (a render begins with narrow kernels, which compile sooner), first, or narrow: "

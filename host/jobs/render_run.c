@@ -56,16 +56,19 @@ static void hint_at_resume(const ec_render_job *job, const char *command)
 static void describe_helpers(const ec_render_job *job, char *text, size_t size)
 {
     const int ranks = job->ranks ? ec_ranks_count(job->ranks) - 1 : 0;
+    uint32_t queues = 0;
     int used = 0;
-    if (job->device_count > 1)
-        used = snprintf(text, size, " and %u more device%s", job->device_count - 1, job->device_count > 2 ? "s" : "");
+    for (uint32_t i = 0; i < job->device_count; i++) queues += job->devices[i].id == job->devices[0].id;
+    const uint32_t more = job->device_count - queues;
+    if (queues > 1) used = snprintf(text, size, " with %u queues", queues);
+    if (more) used += snprintf(text + used, size - (size_t)used, " and %u more device%s", more, more > 1 ? "s" : "");
     if (ranks) snprintf(text + used, size - (size_t)used, ", with %d more process%s,", ranks, ranks > 1 ? "es" : "");
 }
 
 static void announce(const ec_render_job *job)
 {
     const ec_render_options *options = &job->request->options;
-    char when[32], limits[160] = "", range[128] = "", more[64] = "";
+    char when[32], limits[160] = "", range[128] = "", more[96] = "";
     int used = 0;
     ec_frame_when(&job->frame, when, sizeof when);
     if (options->spp) used += snprintf(limits, sizeof limits, "%u samples a pixel", options->spp);
@@ -116,7 +119,7 @@ static ec_result open_devices(ec_render_job *job, ec_cl *devices, const ec_log *
     uint32_t count = 0, wanted = job->device_count;
     for (uint32_t i = 0; i < wanted; i++) {
         ec_error why = {0};
-        if (ec_cl_open(&job->devices[i], &devices[count], &why) == EC_OK) {
+        if (ec_cl_open_beside(&job->devices[i], devices, count, &devices[count], &why) == EC_OK) {
             job->devices[count] = job->devices[i];
             job->device_indices[count++] = job->device_indices[i];
         } else if (count || i + 1 < wanted) {

@@ -107,7 +107,7 @@ static ec_result open_devices(const ec_device_info *infos, uint32_t *count, ec_c
     uint32_t opened = 0;
     for (uint32_t i = 0; i < *count; i++) {
         ec_error why = {0};
-        if (ec_cl_open(&infos[i], &devices[opened], &why) == EC_OK) opened++;
+        if (ec_cl_open_beside(&infos[i], devices, opened, &devices[opened], &why) == EC_OK) opened++;
         else if (opened || is_inner || i + 1 < *count)
             ec_warn(log, "%s has failed, and the others take over its work: %s", infos[i].name, why.text);
         else *err = why;

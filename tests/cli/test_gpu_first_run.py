@@ -58,6 +58,7 @@ class FirstRun(Case):
         self.assertRegex(text, r"(?m)^ +\* +\d+ .* GPU ")
         self.assertRegex(text, r"all \d+ rows passed")
         self.assertEqual(len(re.findall(r"(?m)^\| [a-z-]+ \| same bits \| 0 % \|.* [\d.]+ ms of \d+ \|$", text)), 5)
+        self.assertEqual(len(re.findall(r"(?m)^\| [a-z-]+ \| same bits \| \d+\.\d{3} \|$", text)), 2)
         self.assertEqual(os.listdir(self.folder), ["gpu-first-run.md"])
 
 

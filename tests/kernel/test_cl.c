@@ -146,6 +146,25 @@ static void programs_are_kept_where_asked(ec_cl *cl)
     cl->keeps_programs = false;
 }
 
+/* A second queue sees the buffers of the first one's context, also after that is closed. */
+static void queues_of_one_device_share_a_context(const ec_device_info *info)
+{
+    ec_cl queues[2] = {{.allocated_bytes = 0}};
+    ec_error err = {0};
+    cl_mem buffer = NULL;
+    uint32_t sent = 7, seen = 0;
+    CHECK_OK(ec_cl_open(info, &queues[0], &err), err);
+    CHECK_OK(ec_cl_open_beside(info, queues, 1, &queues[1], &err), err);
+    CHECK(queues[0].context == queues[1].context && queues[0].queue != queues[1].queue);
+    CHECK_OK(ec_buffer_create(&queues[0], "shared", sizeof sent, &sent, &buffer, &err), err);
+    CHECK_OK(ec_cl_finish(&queues[0], &err), err);
+    ec_cl_close(&queues[0]);
+    CHECK_OK(ec_buffer_read(&queues[1], buffer, 0, sizeof seen, &seen, &err), err);
+    CHECK(seen == sent);
+    ec_buffer_release(&queues[1], &buffer);
+    ec_cl_close(&queues[1]);
+}
+
 int main(void)
 {
     ec_cl cl = {0};
@@ -160,6 +179,7 @@ int main(void)
     buffers_hold_bytes(&cl);
     CHECK_OK(ec_cl_finish(&cl, &err), err);
     buffers_are_limited(&cl);
+    queues_of_one_device_share_a_context(&cl.info);
     ec_cl_close(&cl);
     ec_cl_close(&cl); /* twice is fine */
     cl_folder_remove(folder);

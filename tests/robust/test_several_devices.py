@@ -173,8 +173,24 @@ class Several(Case):
         self.assertRegex(read_exr(self.path("a.exr"))[0]["eclat.devices"], r"^1 basic-.*: [0-9.]+ samples, 0 basic-.*: [0-9.]+ samples$")
         self.assertNotIn("warning", run.stderr)  # alike: they round alike
 
+    def test_queues_of_one_device(self):
+        """A device that is named twice has two queues, each with half of its memory."""
+        for device, memory in [("0", None), ("0,0", 2), ("0,1,0,0", 3)]:
+            report = self.render(RING, *SIZE, "--spp", "64", "--error", "90%", "--clamp", "20", device=device)
+            whole = whole if memory else report
+            self.assertEqual({key: whole[key] for key in RESULT}, {key: report[key] for key in RESULT})
+            shares = report.get("devices", [])
+            self.assertEqual([one["index"] for one in shares], list(map(int, device.split(","))) if memory else [])
+            for one in shares:
+                self.assertEqual(one["memory_bytes"], self.memory() // (memory if one["index"] == 0 else 1))
+        run = self.assert_ok(eclat("render", CORNELL, *SIZE, "--spp", "16", "--device", "0,0", "-o", self.path("a.exr"), env=TWO))
+        self.assertRegex(run.stderr, r"(?m)^eclat: rendering 72x50 pixels on basic-.* with 2 queues until 16 samples a pixel$")
+
+    def memory(self):
+        return json.loads(eclat("devices", "--json", env=TWO).stdout)["devices"][0]["memory_bytes"]
+
     def test_refusals(self):
-        for device, words in [("0,0", "twice; name each once"), ("0,,1", "has an empty entry"), ("0,no-such", "--device no-such: no such device"),
+        for device, words in [("0,,1", "has an empty entry"), ("0,no-such", "--device no-such: no such device"),
                               ("0,7", "--device 7: no such device")]:
             self.assertIn(words, self.assert_one_error(eclat("render", CORNELL, "--device", device, env=TWO, cwd=self.folder), 1))
         plan = eclat("render", CORNELL, "--plan", "3", "--device", "0,1", env=TWO, cwd=self.folder)

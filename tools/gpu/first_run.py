@@ -1,6 +1,7 @@
 """The steps of tools/gpu_first_run, and their report. If a step fails, the others run nevertheless."""
 import json
 import os
+import statistics
 import subprocess
 import sys
 
@@ -116,10 +117,34 @@ class Run:
         scene = os.path.join(self.root, "scenes", "showcase", "showcase.gltf")
         self.verbatim("Rays through the showcase", self.call("info", scene, "--accel", *(["bvh2"] if self.options.quick else ["all"])), keep=8)
 
+    def rate(self, scene, device):
+        """Returns the samples per second of one render by the devices named, and the picture's SHA-256; or None and why."""
+        size, spp = ("64x64", "16") if self.options.quick else ("1024x1024", "64")
+        run = self.call("render", os.path.join(self.root, "scenes", scene, scene + ".gltf"), "--size", size, "--spp", spp, "--compile", "first", "-q",
+                        "--json", "--device", device, "-o", os.path.join(self.work, "queues.exr"))
+        if run.returncode:
+            return None, last_line(run)
+        report = json.loads(run.stdout)
+        return report["samples"] / report["seconds"], report["image_sha256"]
+
+    def queues(self):
+        """Compares one command queue with two, in turns."""
+        say("two command queues")
+        one, rows, passed = str(self.card_device["index"]), [], True
+        for scene in SCENES[:2]:
+            runs = [[self.rate(scene, device) for device in (one, f"{one},{one}")] for _ in range(1 if self.options.quick else 5)]
+            failed = [why for turn in runs for rate, why in turn if rate is None]
+            same = len({sha for turn in runs for _, sha in turn}) == 1
+            passed = passed and not failed and same
+            ratio = "-" if failed else f"{statistics.median(two[0] / single[0] for single, two in runs):.3f}"
+            rows.append(f"| {scene} | {failed[0] if failed else 'same bits' if same else 'other bits'} | {ratio} |")
+        self.add("Two command queues", ["| scene | picture | samples per second, two queues over one |", "|---|---|---|", *rows], passed)
+
     def steps(self):
         """Runs a step at a time, so that the caller can write the report so far after each: a driver may crash the machine."""
         if self.devices():
-            for name, step in (("self-test", self.selftest), ("kernel tests", self.kernel_tests), ("pictures", self.pictures), ("traversal", self.traversal)):
+            for name, step in (("self-test", self.selftest), ("kernel tests", self.kernel_tests), ("pictures", self.pictures), ("traversal", self.traversal),
+                               ("two command queues", self.queues)):
                 self.under_way = name
                 yield
                 step()
