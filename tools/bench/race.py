@@ -63,6 +63,8 @@ def scene_of(name, options):
     path, environment, diffuse = SCENES.get(name, (name, None, False))
     if not path or not os.path.exists(path):
         return f"{name}: skipped, {'../shared/assets is not here' if name in SCENES else 'there is no such scene'}"
+    if not path.endswith(".gltf"):
+        return f"{name}: skipped, races read .gltf with files beside it; convert it, for example with gltf-transform copy"
     if environment:
         environment = common.shared(*environment)
         if not environment and not options.env:
@@ -102,7 +104,8 @@ def race(name, options, eclat):
         entrants = [race_entrants.Mitsuba(mi, scene, sensor, s, options.spp) for s in options.samplers.split(",")]
         target = options.error
         if target == "same":
-            target = f"{100 * min(race_result.errors(np.stack([e.run(1000 + k).luminance for k in range(2)]))[0] for e in entrants):.2g}%"
+            error = min(race_result.errors(np.stack([e.run(1000 + k).luminance for k in range(2)]))[0] for e in entrants)
+            target = f"{min(100 * error, 100):.2g}%"  # the most that --error takes
         common_options += options.extra.split()
         entrants += [race_entrants.Eclat(mi, eclat, path, common_options + way, folder, n) for n, way in ways_of(options, target).items()]
         reference = None
