@@ -9,6 +9,21 @@
 
 static ec_stage_id stage_of(bench_kind kind) { return kind == BENCH_SHADOW ? EC_CONNECT : EC_INTERSECT; }
 
+static void CL_CALLBACK free_memory(cl_mem buffer, void *memory)
+{
+    (void)buffer;
+    free(memory);
+}
+
+/* Puts a buffer on the device as a render does: a processor works on the builder's own memory, which has large pages. */
+static ec_result put(ec_cl *cl, ec_accel_buffer *from, cl_mem *buffer, ec_error *err)
+{
+    if (!ec_buffer_adopt(cl, from->label, from->bytes, from->data, free_memory, from->data, buffer))
+        return ec_buffer_create(cl, from->label, from->bytes, from->data, buffer, err);
+    from->data = NULL;
+    return EC_OK;
+}
+
 static ec_result upload_accels(bench_device *d, const bench_mesh *mesh, uint32_t accels, float grid_density, ec_error *err)
 {
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
@@ -18,9 +33,7 @@ static ec_result upload_accels(bench_device *d, const bench_mesh *mesh, uint32_t
         ec_accel accel;
         ec_result result = ec_accel_build(a, &input, &accel, err);
         for (int k = 0; result == EC_OK && k < EC_ACCEL_BUFFERS; k++)
-            if (accel.buffers[k].data)
-                result = ec_buffer_create(&d->cl, accel.buffers[k].label, accel.buffers[k].bytes, accel.buffers[k].data,
-                                          &d->accel_buffers[a][k], err);
+            if (accel.buffers[k].data) result = put(&d->cl, &accel.buffers[k], &d->accel_buffers[a][k], err);
         d->accel_stats[a] = accel.stats;
         ec_accel_free(&accel);
         ec_accel_input_free(&input);
