@@ -1,4 +1,4 @@
-"""A headless Chromium, spoken to over its DevTools pipe. Standard library only."""
+"""Drives a headless Chromium over its DevTools pipe. Standard library only."""
 import base64
 import fcntl
 import json
@@ -13,13 +13,14 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 
 
 class Browser:
-    """One page. Everything that it logs, throws and asks the network for is in `events`."""
+    """One page. `events` holds everything that it logs, throws and requests from the network."""
 
     def __init__(self):
         self.folder = tempfile.mkdtemp(prefix="eclat-browser-")
         to_browser, self.to = os.pipe()
         self.back, from_browser = os.pipe()
-        # Chromium reads from descriptor 3 and writes to 4; out of the way first, or one dup2 might close the other's source.
+        # Chromium reads from descriptor 3 and writes to 4. Both pipes are first moved to high numbers, or one dup2 might close the other's
+        # source.
         high = [fcntl.fcntl(fd, fcntl.F_DUPFD, 50) for fd in (to_browser, from_browser)]
 
         def place():
@@ -107,14 +108,14 @@ class Browser:
 
 
 def skip_without():
-    """For setUpModule: nothing here can be tested without a browser."""
+    """Skips the module where there is no browser. For setUpModule."""
     if not CHROMIUM:
         print("skipped: no chromium")
         sys.exit(77)
 
 
 class PageCase(unittest.TestCase):
-    """Tests of one page, which `make` writes into a folder of its own and tells the path of."""
+    """Tests of one page. `make` writes it into a folder of its own and returns its path."""
 
     @classmethod
     def make(cls, folder):

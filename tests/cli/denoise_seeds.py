@@ -1,9 +1,11 @@
 """usage: python3 denoise_seeds.py [--seeds N] [--keep FOLDER] [--clamp LIMIT] [SCENE ...]
-How far denoised pictures of many seeds are from the truth, and how often the stated intervals hold it. Prints rows of docs/denoise.md's table.
 
-What was rendered is kept in FOLDER, as slices: after a change of host/denoise they are merged and judged anew, and no path is traced. Ctrl-C
-while it renders ends with the seeds that all scenes have. The truth of a seed's picture is the mean of all other seeds' pictures, whose own
-variance is taken off: each square error is without bias."""
+Measures how far denoised pictures of many seeds are from the truth, and how often the stated intervals contain the real error. Prints rows
+of docs/denoise.md's table.
+
+Renders are kept in FOLDER as slices: after a change of host/denoise they are merged and judged again, and no path is traced. Ctrl-C during
+the renders ends with the seeds that all scenes have. The truth of a seed's picture is the mean of all other seeds' pictures. The variance
+of that mean is subtracted, so that each squared error is unbiased."""
 import argparse
 import json
 import math
@@ -18,7 +20,7 @@ from support import SOURCE, eclat, read_exr
 SCENES = ["cornell-box/cornell-box", "showcase/showcase", "ring/ring", "veach-plates/veach-plates", "lamps/lamps", "glass/glass", "drink/drink",
           "brushed-metal/brushed-metal", "furnace/spheres", "stadium/stadium"]
 NAMES = {"cornell-box": "Cornell box", "ring": "ring, a caustic", "veach-plates": "Veach's plates", "brushed-metal": "brushed metal"}
-# Slices that samples are rendered in, and those that come to the picture of each budget: to its bits.
+# Samples are rendered in these slices. Each budget merges some of them, which gives the bits of one render.
 SLICES = ((0, 16), (0, 64), (64, 256))
 BUDGETS = {16: SLICES[:1], 64: SLICES[1:2], 256: SLICES[1:]}
 LAYERS = ("", "denoised.", "best.")
@@ -42,7 +44,7 @@ def run(*words):
 
 
 class Seeds:
-    """Pictures of a scene, kept in a folder."""
+    """Pictures of one scene, kept in a folder."""
 
     def __init__(self, folder, scene, options=()):
         self.path = os.path.join(SOURCE, "scenes", scene + ".gltf")
@@ -52,14 +54,14 @@ class Seeds:
 
     def slice(self, seed, first, end):
         path = f"{self.stem}-{seed}-{first}-{end}.exr"
-        if not os.path.exists(path):  # --denoise: first hits of all samples
+        if not os.path.exists(path):  # --denoise keeps first hits of all samples
             part = os.path.join(self.folder, f"part-{os.getpid()}.exr")
             run("render", self.path, *self.options, "--seed", str(seed), "--samples", f"{first}:{end}", "--denoise=atrous", "-q", "-o", part)
             os.rename(part, path)
         return path
 
     def picture(self, seed, spp):
-        """The report, and the luminance of each layer."""
+        """Returns the report, and the luminance of each layer."""
         picture = os.path.join(self.folder, f"picture-{os.getpid()}.exr")
         report = json.loads(run("merge", *(self.slice(seed, *part) for part in BUDGETS[spp]), "--partial", "--denoise=oidn", "--json", "-o", picture))
         planes = read_exr(picture)[1]
@@ -68,7 +70,7 @@ class Seeds:
 
 
 class Truth:
-    """Of pictures alike: to each the mean of all others, and the variance of that."""
+    """The truth of each of several pictures of one scene: the mean of all others, and the variance of that mean."""
 
     def __init__(self, pictures):
         self.count = len(pictures)
@@ -76,7 +78,8 @@ class Truth:
         self.squares = array("d", (sum(y * y for y in pixel) for pixel in zip(*pictures)))
 
     def errors(self, own, layers):
-        """Of a seed's layers, relative to the mean luminance, squared; own: its picture among the others."""
+        """Returns the squared error of each layer of one seed, relative to the mean luminance. own: the seed's picture in the set that the
+        truth comes from."""
         others = self.count - 1
         truth = array("d", ((s - y) / others for s, y in zip(self.sums, own)))
         variance = sum((q - y * y) / others - t * t for q, y, t in zip(self.squares, own, truth)) / (others - 1)
@@ -85,7 +88,8 @@ class Truth:
 
 
 class Cell:
-    """What the seeds of a scene come to at a budget: real errors of each layer; of the denoised and the best one what is stated, and how often it held."""
+    """Sums over the seeds of one scene at one budget: real errors of each layer, and for the denoised and the best layer the stated errors
+    and how often the interval held."""
 
     def __init__(self, scene, spp):
         self.scene, self.spp, self.seeds = os.path.basename(scene), spp, 0
@@ -108,7 +112,7 @@ class Cell:
         return self.seeds - self.low[layer] - self.high[layer]
 
     def worse(self):
-        """Error of the best picture over that of the better of both."""
+        """Error of the best picture over the smaller error of the noisy and the denoised one."""
         return math.sqrt(self.real[2] / min(self.real[:2]))
 
     def row(self, is_first):
@@ -122,7 +126,7 @@ class Cell:
 
 
 def measure(folder, scene, seeds, options=(), budgets=tuple(BUDGETS)):
-    """A cell for each budget."""
+    """Returns a cell for each budget."""
     source = Seeds(folder, scene, options)
     most = max(budgets)
     pictures = {spp: [source.picture(seed, spp) for seed in range(1, seeds + 1)] for spp in budgets}
@@ -136,7 +140,7 @@ def measure(folder, scene, seeds, options=(), budgets=tuple(BUDGETS)):
 
 
 def fill(folder, scenes, seeds, options):
-    """Renders seed by seed what is to be judged; how many seeds all scenes have. Ctrl-C: no more than that."""
+    """Renders the pictures seed by seed; returns how many seeds all scenes have. Ctrl-C stops rendering."""
     for seed in range(1, seeds + 1):
         try:
             for scene in scenes:

@@ -1,4 +1,4 @@
-"""Intel's Open Image Denoise for tests: ECLAT_OIDN, or the system's, or PyPI's, fetched once into the build folder."""
+"""Finds Intel's Open Image Denoise for tests: in ECLAT_OIDN, in the system, or from PyPI, downloaded once into the build folder."""
 import ctypes
 import os
 import unittest
@@ -17,14 +17,14 @@ def is_of_system():
 
 
 def environment():
-    """What eclat needs to find it; skips where it cannot be had."""
+    """The environment variables by which eclat finds the library. Skips the test where there is none."""
     if os.environ.get("ECLAT_OIDN") or is_of_system():
         return {}
-    return {"ECLAT_OIDN": os.path.join(fetch("oidn", PACKAGE, "--no-deps"), "pyoidn")}  # the library alone is used
+    return {"ECLAT_OIDN": os.path.join(fetch("oidn", PACKAGE, "--no-deps"), "pyoidn")}  # no dependencies: only the library is used
 
 
 def environment_or_none():
-    """For tests of which most go without."""
+    """For modules most of whose tests need no library: None where there is none."""
     try:
         return {"ECLAT_OIDN": os.environ["ECLAT_OIDN"]} if os.environ.get("ECLAT_OIDN") else environment()
     except unittest.SkipTest:

@@ -1,5 +1,6 @@
-/* An Open Image Denoise for test_denoise.py. It makes colours 0.9 as bright, so that what is stated of them can be predicted, or with DIM_SHOWS_ALBEDO in the
- * environment puts the albedo in their place. It leaves a guide that comes alone as it is. Its declarations are those that host/denoise/oidn.c calls. */
+/* A stand-in for Open Image Denoise, for test_denoise.py. It makes colours 0.9 as bright, so that the test can predict the report. With
+   DIM_SHOWS_ALBEDO in the environment it returns the albedo instead. It does not change a guide that is filtered alone. It declares only
+   the functions that host/denoise/oidn.c calls. */
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>

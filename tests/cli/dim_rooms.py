@@ -1,4 +1,4 @@
-"""Rooms whose light is hard to find: what test_bounds.py renders. Metres; y up; standard library only."""
+"""Rooms whose light is hard to find, rendered by test_bounds.py. Metres; y up; standard library only."""
 import base64
 import math
 import struct
@@ -6,19 +6,19 @@ import zlib
 
 from support import data_uri, write_gltf
 
-SUN, HOLE = (0.3, -1.0, 0.1), 0.005  # the way its light goes; the hole's side
+SUN, HOLE = (0.3, -1.0, 0.1), 0.005  # direction of the sun's light; side of the hole
 SIDES = [(0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0, 1)]
 
 
 def png(side, grey):
-    """Square, 16 bits."""
+    """A square picture of one grey, 16 bits."""
     rows = b"".join(b"\0" + struct.pack(f">{side}H", *grey[side * y:side * y + side]) for y in range(side))
     chunks = (b"IHDR", struct.pack(">IIBBBBB", side, side, 16, 0, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b"")
     return b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(d)) + k + d + struct.pack(">I", zlib.crc32(k + d)) for k, d in chunks)
 
 
 class Room:
-    """A white box of 4 x 3 x 4, open above, and a camera in a corner."""
+    """A white box of 4 x 3 x 4 with an open top, and a camera in a corner."""
 
     def __init__(self, albedo):
         self.json = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "accessors": [],
@@ -29,7 +29,7 @@ class Room:
         for at, u, v in (((-2, 0, -2), (0, 0, 4), (4, 0, 0)), ((-2, 0, -2), (0, 3, 0), (0, 0, 4)), ((2, 0, -2), (0, 0, 4), (0, 3, 0)),
                          ((-2, 0, -2), (4, 0, 0), (0, 3, 0)), ((-2, 0, 2), (0, 3, 0), (4, 0, 0))):
             self.quad(self.white, at, u, v)
-        # from (1.7, 1.6, 1.8), a little downwards, 37 degrees to the left of -z
+        # the camera is at (1.7, 1.6, 1.8), looks a little downwards, and 37 degrees to the left of -z
         turn, tilt = math.radians(37) / 2, math.radians(-6) / 2
         c, s, d, t = math.cos(turn), math.sin(turn), math.cos(tilt), math.sin(tilt)
         rotation = [c * t, s * d, -s * t, c * d]
@@ -56,7 +56,7 @@ class Room:
         return len(self.json["accessors"]) - 1
 
     def quad(self, material, at, u, v):
-        """Faces u x v."""
+        """A parallelogram with the edges u and v."""
         points = [at[k] + a * u[k] + b * v[k] for a, b in SIDES for k in range(3)]
         streams = {"POSITION": self.floats(3, points), "TEXCOORD_0": self.floats(2, [c for side in SIDES for c in side])}
         self.json["meshes"].append({"primitives": [{"attributes": streams, "material": material}]})
@@ -69,7 +69,7 @@ class Room:
                 self.quad(self.white, (x0, 3, z0), (x1 - x0, 0, 0), (0, 0, z1 - z0))
 
     def rug(self, side):
-        """side x side small squares on the floor, each of its own height."""
+        """side x side small squares on the floor, each at its own height."""
         material, points = self.material(0.5), []
         for i in range(side * side):
             x, z, y = -1.5 + i % side / side, -1.5 + i // side / side, 0.01 + 0.001 * (i * 7 % 11)
@@ -80,7 +80,7 @@ class Room:
     def sun(self, irradiance):
         length = math.sqrt(sum(c * c for c in SUN))
         x, y, z = (c / length for c in SUN)
-        axis, cosine = (y, -x, 0), -z  # -z turned to SUN, about their cross product
+        axis, cosine = (y, -x, 0), -z  # turns -z to SUN, about their cross product
         w = math.sqrt((1 + cosine) / 2)
         self.node(rotation=[c / (2 * w) for c in axis] + [w], extensions={"KHR_lights_punctual": {"light": 0}})
         self.json["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": irradiance}]}}
@@ -93,7 +93,7 @@ class Room:
 
 
 def texel_room(path):
-    """A lamp of 1 m^2 of which one texel of 128 x 128 is 10^4 times as bright as the others."""
+    """A lamp of 1 m^2 with a texture of 128 x 128, one texel of which is 10^4 times as bright as the others."""
     room, side = Room(0.6), 128
     room.ceiling()
     grey = [round(65535 * 12.92e-4)] * side ** 2
@@ -105,9 +105,9 @@ def texel_room(path):
 
 
 def sun_room(path, kind, rug=0, ground=0):
-    """A dim lamp of 5 W, and outside a sun of 10^5 W/m^2. Through a "hole" of 5 mm it lights a patch of the floor; the room is "sealed"; or, in
-    place of both, the "patch" shines as what is reflected there. rug: squares along each side of one on the floor, 0: none. ground: side of the
-    plain that the room stands on, 0: none."""
+    """A room with a dim lamp of 5 W, and a sun of 10^5 W/m^2 outside. kind: "hole": the sun lights a patch of the floor through a hole of 5
+    mm; "sealed": no hole; "patch": no sun and no hole, but a patch that emits what it would reflect. rug: squares along each side of a rug
+    on the floor, 0: none. ground: side of the plain that the room stands on, 0: none."""
     room, irradiance = Room(0.7), 1e5
     x, z = 0.5, 0.3
     room.quad(room.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
@@ -126,8 +126,8 @@ def sun_room(path, kind, rug=0, ground=0):
 
 
 def lamp_room(path, kind):
-    """A dim lamp of 5 W, and a metre above the ceiling one of 125 kW, 2 mm across. Through a "hole" of 5 mm it lights a patch of the floor; or the
-    room is "sealed"."""
+    """A room with a dim lamp of 5 W, and a lamp of 125 kW, 2 mm across, a metre above the ceiling. kind: "hole": it lights a patch of the
+    floor through a hole of 5 mm; "sealed": no hole."""
     room, x, z, side = Room(0.7), 0.5, 0.3, 0.002
     room.quad(room.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
     room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)

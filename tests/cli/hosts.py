@@ -1,11 +1,12 @@
-"""Network namespaces as hosts for MPI: each with a name, an address, memory to share of its own, and no view of a folder that only the first one has."""
+"""Network namespaces that act as hosts for MPI. Each has a name, an address and shared memory of its own. Only the first sees `hidden`, a
+folder."""
 import os
 import shutil
 import subprocess
 
 
 class Hosts:
-    """So many of them on a bridge; use it in a `with`. OSError where namespaces are not permitted."""
+    """`count` hosts on a bridge; use it in a `with`. OSError where namespaces are not permitted."""
 
     def __init__(self, count, folder, hidden):
         self.tag, self.count, self.folder, self.hidden, self.made = f"eclat{os.getpid()}", count, folder, hidden, []
@@ -49,12 +50,12 @@ class Hosts:
             subprocess.run(["ip", "netns", "del", name], stderr=subprocess.DEVNULL)
 
     def on(self, i, hides):
-        """What runs a command as on host i."""
+        """The words that run a command on host i."""
         hide = f"mount -t tmpfs none {self.hidden} && " if hides else ""
         return ["ip", "netns", "exec", f"{self.tag}h{i}", "unshare", "--uts", "--ipc", "--mount", "sh", "-c", f'{hide}hostname host{i} && exec "$@"', "sh"]
 
     def mpirun(self, *arguments):
-        """mpirun on the first host, a process on each; others are reached by an agent in place of ssh."""
+        """The command that starts mpirun on the first host, with one process on each. An agent in place of ssh reaches the others."""
         agent = os.path.join(self.folder, "agent")
         with open(agent, "w", encoding="utf-8") as file:
             file.write("#!/bin/sh\nhost=$1\nshift\ncase $host in\n")

@@ -1,5 +1,5 @@
-"""Tests of options that find the light of path tracing in another way: the picture is the same within noise, and its bits do not depend on how a job is
-shared out."""
+"""Tests of options that find light in another way than path tracing alone: the picture must be equal within noise, and its bits must not
+depend on how a job is divided."""
 import json
 import os
 
@@ -11,14 +11,15 @@ def scene(name):
 
 
 class OtherWay(Case):
-    WAY = []  # the options
+    WAY = []  # the options of this way
 
     def render(self, *job, name="a.exr"):
         run = self.assert_ok(eclat("render", *NARROW, *job, "--json", "-q", "-o", self.path(name)))
         return json.loads(run.stdout)
 
     def assert_same_picture(self, job, samples, fewer=1.0, extra=()):
-        """Path tracing alone and this way agree within their noise: in the mean, in blocks, in pixels. error^2 is so many times smaller."""
+        """Checks that path tracing alone and this way agree within their noise: in the mean, in blocks and in pixels. fewer: the factor by
+        which error^2 falls."""
         alone = ["--light-paths", "0"]
         way = [*self.WAY, *extra]
         without = self.render(*job, *alone, "--spp", str(samples), name="without.exr")
@@ -28,7 +29,7 @@ class OtherWay(Case):
         self.assertLess(found["error"] ** 2 * fewer, without["error"] ** 2)
 
     def assert_same_bits(self, job, others):
-        """As without each of these options; returns what the report says."""
+        """Checks that none of these options changes a bit; returns the report of the render without them."""
         whole = self.render(*job, "--spp", "32")
         for other in others:
             with self.subTest(other=other):
@@ -45,7 +46,7 @@ class OtherWay(Case):
         self.assertEqual(self.render(*job, "--spp", "32", "--resume", self.path("c.exr"))["image_sha256"], whole)
 
     def assert_refused(self, others):
-        """others: options and a word of the message, besides this way's own."""
+        """others: pairs of options and a word of the message. The message must name this way's own option too."""
         for other, word in others:
             with self.subTest(other=other):
                 line = self.assert_one_error(eclat("render", scene("ring"), *self.WAY, *other, "-o", self.path("a.exr")), 2)
@@ -53,6 +54,6 @@ class OtherWay(Case):
                 self.assertIn(word, line)
 
     def assert_info(self, words):
-        """An effect like any other, where it is asked for."""
+        """Checks that `eclat info` lists the effect only where the option asks for it."""
         self.assertRegex(self.assert_ok(eclat("info", scene("ring"), *self.WAY)).stdout, words)
         self.assertNotRegex(self.assert_ok(eclat("info", scene("ring"))).stdout, r"\n *" + words.split(" ")[0] + "  ")

@@ -1,13 +1,13 @@
-"""Waiting for an event: the one place where tests pause, between two looks at what they wait for. No verdict hangs on a clock: the guard only
-ends what hangs."""
+"""Waits for events. This is the only module in which tests pause: between two looks at what they wait for. No verdict depends on a clock;
+the time limit only ends a test that hangs."""
 import os
 import time
 
-GUARD = 600  # seconds, also for processes that are waited for
+GUARD = 600  # seconds, also for processes that a test waits for
 
 
 def poll_until(happens, process=None, pause=0.01):
-    """The last value of happens(): true; or what it is when the process that it is waited for from has ended."""
+    """Calls happens() until it returns something true, and returns that. If `process` ends first, returns a last happens()."""
     end = time.monotonic() + GUARD
     while not (value := happens()):
         if process is not None and process.poll() is not None:
@@ -18,7 +18,7 @@ def poll_until(happens, process=None, pause=0.01):
 
 
 def written(path):
-    """Which writing of the file it is, since files that are replaced are others; None where there is none."""
+    """Identifies the last writing of a file: a file that is replaced gets another inode. None where there is no file."""
     try:
         status = os.stat(path)
         return status.st_ino, status.st_mtime_ns
@@ -27,7 +27,7 @@ def written(path):
 
 
 def poll_writes(path, process, count=1):
-    """Until the process has written the file so many times more, or has ended."""
+    """Waits until the process has written the file `count` more times, or has ended."""
     seen, last = 0, written(path)
 
     def happens():
@@ -39,7 +39,7 @@ def poll_writes(path, process, count=1):
 
 
 def over_a_while(look, seconds):
-    """look() before and after: for what must not change by itself."""
+    """Returns look() before and after a pause, to check that nothing changes by itself."""
     before = look()
     time.sleep(seconds)
     return before, look()

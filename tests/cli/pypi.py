@@ -1,4 +1,4 @@
-"""Packages of PyPI's that tests read files with, fetched once into the build folder."""
+"""Downloads packages from PyPI that tests read files with, once, into the build folder."""
 import fcntl
 import os
 import subprocess
@@ -9,7 +9,7 @@ from support import ECLAT, SOURCE
 
 
 def fetch(name, package, *options):
-    """The folder that it is in. options: pip's. Skips where it cannot be had."""
+    """Returns the folder that has the package. options: pip's. Skips the test where pip cannot get it."""
     folder = os.path.join(os.path.dirname(os.path.abspath(ECLAT)) if os.path.dirname(ECLAT) else os.path.join(SOURCE, "build"), "tests", name)
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "lock"), "w", encoding="utf-8") as lock:

@@ -1,11 +1,11 @@
-"""Pictures for the screen: PNGs read back, of 8 and 16 bits, and tone curves after their publications. Standard library only."""
+"""Pictures for the screen: a reader of PNGs of 8 and 16 bits, and tone curves as published. Standard library only."""
 import math
 import struct
 import zlib
 
 
 def read_png(path):
-    """(width, height, channels, bits, rows of integers)."""
+    """Returns (width, height, channels, bits, rows of integers)."""
     with open(path, "rb") as file:
         data = file.read()
     assert data[:8] == b"\x89PNG\r\n\x1a\n", "not a PNG file"
@@ -28,7 +28,7 @@ def read_png(path):
 
 
 def unfilter(kind, line, above, step):
-    """PNG's filters: none, left, up, average, Paeth."""
+    """Undoes a PNG filter: none, left, up, average or Paeth."""
     for i in range(len(line)):
         a, b, c = line[i - step] if i >= step else 0, above[i], above[i - step] if i >= step else 0
         paeth = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
@@ -37,13 +37,13 @@ def unfilter(kind, line, above, step):
 
 
 def srgb(x):
-    """IEC 61966-2-1."""
+    """The sRGB transfer function (IEC 61966-2-1)."""
     x = min(max(x, 0.0), 1.0)
     return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
 
 
 def columns(matrix, rgb):
-    """As GLSL multiplies a mat3, which is given by its columns."""
+    """Multiplies as GLSL does by a mat3, whose columns are given."""
     return [sum(matrix[k][c] * rgb[k] for k in range(3)) for c in range(3)]
 
 
@@ -52,7 +52,7 @@ def none(rgb):
 
 
 def neutral(rgb):
-    """github.com/KhronosGroup/ToneMapping, PBR_Neutral/pbrNeutral.glsl."""
+    """Khronos' neutral tone curve: github.com/KhronosGroup/ToneMapping, PBR_Neutral/pbrNeutral.glsl."""
     x = min(rgb)
     offset = x - 6.25 * x * x if x < 0.08 else 0.04
     rgb = [c - offset for c in rgb]
@@ -94,5 +94,5 @@ CURVES = {"neutral": neutral, "none": none, "aces": aces, "agx": agx, "filmic": 
 
 
 def shown(curve, rgb, exposure=0.0):
-    """Linear radiance as a screen has it, each channel 0 to 1."""
+    """Converts linear radiance to what a screen shows, each channel 0 to 1."""
     return [srgb(c) for c in CURVES[curve]([max(c, 0.0) * 2 ** exposure for c in rgb])]

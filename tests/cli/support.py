@@ -15,24 +15,25 @@ SHARED = os.environ.get("ECLAT_SHARED", os.path.join(SOURCE, "..", "shared"))
 CORNELL = os.path.join(SOURCE, "scenes", "cornell-box", "cornell-box.gltf")
 RING = os.path.join(SOURCE, "scenes", "ring", "ring.gltf")
 
-# Kernels compiled once serve every test of this build, and the user's own cache is left alone.
+# Tests of one build share a cache of kernels, and leave the user's own cache alone.
 LINE = 12 if os.path.exists("/usr/include/stb/stb_easy_font.h") else 0  # pixels of a name on a contact sheet
 ENVIRONMENT = dict(os.environ)
 ENVIRONMENT["XDG_CACHE_HOME"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "cache")
-# No processes that outlive a test; test_compile has its own. Wide kernels, as users have them, take three times as long to compile and give the same
-# bits: stat/test_same_bits, cli/test_render and the full tier have them. The quick tier begins, and ends, with those that building has compiled; and so
-# do renders of the full tier with NARROW, whose pictures take less time than wide kernels do.
+# No processes outlive a test; test_compile has its own settings. Wide kernels, which users get, take three times as long to compile and
+# give the same bits: stat/test_same_bits, cli/test_render and the full tier use them. The quick tier renders only with the kernels that
+# building has compiled. Renders of the full tier with NARROW do so too, where rendering takes less time than compiling wide kernels.
 WIDE = {"ECLAT_COMPILE": "first"}
 ENVIRONMENT["ECLAT_COMPILE"] = "narrow" if os.environ.get("ECLAT_TIER") == "quick" else "first"
 ENVIRONMENT["ECLAT_KERNELS"] = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "eclat-kernels")
 
-# NARROW: kernels for the scene alone. QUICK: kernels with all effects, which every scene can share, unless options (motion, instances) make them others.
+# NARROW: kernels for this scene only. QUICK: kernels with all effects. Every scene can share those, unless options (motion, instances)
+# change them.
 NARROW = ("--compile", "narrow")
 QUICK = ("--effects", "all", *NARROW)
 
 
 def eclat(*arguments, cwd=None, env=None, timeout=300, program=None, **options):
-    """Runs eclat, or another program, to its end; stdout and stderr as text."""
+    """Runs eclat, or another program, to its end; stdout and stderr are text."""
     environment = dict(ENVIRONMENT, **(env or {}))
     options.setdefault("stdout", subprocess.PIPE)
     options.setdefault("stderr", subprocess.PIPE)
@@ -41,7 +42,7 @@ def eclat(*arguments, cwd=None, env=None, timeout=300, program=None, **options):
 
 
 class Case(unittest.TestCase):
-    """A test with a folder of its own, and the questions that many tests ask."""
+    """A test with a folder of its own, and checks that many tests use."""
 
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="eclat-cli-")
@@ -51,7 +52,7 @@ class Case(unittest.TestCase):
         return os.path.join(self.folder, *names)
 
     def assert_one_error(self, run, code):
-        """Exit code, nothing on stdout, and exactly one line that is an error."""
+        """Checks the exit code, that nothing is on stdout, and that stderr is exactly one line, an error. Returns it."""
         self.assertEqual(run.returncode, code, run.stderr)
         self.assertEqual(run.stdout, "")
         lines = run.stderr.splitlines()
@@ -66,7 +67,7 @@ class Case(unittest.TestCase):
 
 
 def stand_in_renderer(folder, ending):
-    """Puts a program `my-renderer SCENE OPTIONS` into a folder, and the Cornell box as scene.gltf. ending: words of the shell after its options."""
+    """Writes a program `my-renderer SCENE OPTIONS` into a folder, and the Cornell box as scene.gltf. ending: shell words after its options."""
     path = os.path.join(folder, "my-renderer")
     with open(path, "w", encoding="utf-8") as file:
         file.write(f'#!/bin/sh\nscene=$1\nshift\nexec {ECLAT} render "$scene" "$@" {ending}\n')
@@ -78,8 +79,8 @@ def stand_in_renderer(folder, ending):
 # Scenes -------------------------------------------------------------------------------------------------------------
 
 def quad_scene(uri=None, material=None):
-    """A glTF object and its buffer: one quad of 2 x 2 in the plane z = 0 that emits 1, and a camera before it. The
-    positions come first in the buffer."""
+    """Returns a glTF object and its buffer: a quad of 2 x 2 in the plane z = 0 that emits 1, and a camera before it. Positions come first
+    in the buffer."""
     positions = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0)
     indices = struct.pack("<6H", 0, 1, 2, 0, 2, 3)
     buffer = positions + indices
@@ -103,7 +104,7 @@ def quad_scene(uri=None, material=None):
 
 
 def move_node(scene, node, start, end):
-    """In a scene of one buffer, as quad_scene's, the node goes from one place to another within a second."""
+    """Moves the node from start to end within a second. The scene has one buffer, as quad_scene's has."""
     data = struct.pack("<2f3f3f", 0, 1, *start, *end)
     scene["buffers"].append({"byteLength": len(data), "uri": data_uri(data)})
     scene["bufferViews"] += [{"buffer": 1, "byteLength": 8}, {"buffer": 1, "byteOffset": 8, "byteLength": 24}]
@@ -137,7 +138,7 @@ def write_glb(path, scene, buffer):
 # EXR ----------------------------------------------------------------------------------------------------------------
 
 def read_exr(path):
-    """(attributes, {channel: list of float}) of a scan-line file, ZIP or ZIPS; of several parts the first."""
+    """Returns (attributes, {channel: list of float}) of a scan-line file, ZIP or ZIPS; of a multi-part file the first part."""
     with open(path, "rb") as file:
         data = file.read()
     assert data[:4] == b"\x76\x2f\x31\x01", "not an EXR file"
@@ -182,12 +183,12 @@ def decode(kind, value):
     return numbers if kind == "box2i" else numbers[0]
 
 
-UINT, HALF, FLOAT = range(3)  # types of channels
+UINT, HALF, FLOAT = range(3)  # EXR's channel types
 VALUE = {UINT: ("I", 4), HALF: ("e", 2), FLOAT: ("f", 4)}
 
 
 def read_chunks(data, at, width, height, y0, attributes, skip):
-    """skip: bytes before each block, the number of its part."""
+    """skip: bytes before each block, which hold the number of its part."""
     compression = attributes["compression"][0]
     rows = {0: 1, 2: 1, 3: 16}[compression]
     count = -(-height // rows)
@@ -211,7 +212,8 @@ def read_chunks(data, at, width, height, y0, attributes, skip):
 
 
 def read_alike(a, b):
-    """The planes of two files. What one of them has as halves the other has too: a picture, and a checkpoint, slice or merged file."""
+    """Returns the planes of two files. A channel that is stored as halves in one is rounded to halves in the other too: a picture, and a
+    checkpoint, slice or merged file."""
     (left, mine), (right, theirs) = read_exr(a), read_exr(b)
     for attributes, planes in (right, mine), (left, theirs):
         for name, kind in attributes["channels"]:
@@ -221,12 +223,12 @@ def read_alike(a, b):
 
 
 def to_half(value):
-    """The nearest half that is not 0 for what is not, and finite for what is."""
+    """Rounds to the nearest half. A value that is not 0 stays so, and a finite one stays finite."""
     return 2.0 ** -24 if 0 < value < 2.0 ** -24 else struct.unpack("<e", struct.pack("<e", min(value, 65504.0)))[0]
 
 
 def unzip(block):
-    """zlib, then the byte predictor, then the two halves woven together again."""
+    """Decompresses a block: zlib, the byte predictor, then interleaving the two halves."""
     packed = bytearray(zlib.decompress(block))
     for i in range(1, len(packed)):
         packed[i] = (packed[i - 1] + packed[i] - 128) & 0xFF
@@ -238,7 +240,7 @@ def unzip(block):
 
 
 def write_exr(path, width, height, planes, attributes=(), half=False):
-    """Uncompressed scan lines of 32-bit floats, or halves; attributes: (name, int or float)."""
+    """Writes uncompressed scan lines of 32-bit floats, or of halves; attributes: (name, int or float)."""
     code, kind, size = ("e", 1, 2) if half else ("f", 2, 4)
     names = sorted(planes)
     channels = b"".join(name.encode() + b"\0" + struct.pack("<iiii", kind, 0, 1, 1) for name in names) + b"\0"

@@ -1,7 +1,7 @@
 # tier: full
-"""Which way brushed metal and brushed glass are brushed: KHR_materials_anisotropy's rotation counter-clockwise from the tangent, its texture's direction, the
-bitangent's sign, coordinates where there are no tangents. A sun lights a plate directly, so pictures are free of noise; those that mean
-the same direction agree to what rounding leaves."""
+"""The direction in which brushed metal and brushed glass are brushed: KHR_materials_anisotropy's rotation, counter-clockwise from the
+tangent; its texture's direction; the bitangent's sign; meshes without tangents. A sun lights a plate directly, so pictures have no noise.
+Pictures of one direction, described in different ways, agree to rounding."""
 import math
 import os
 import sys
@@ -15,7 +15,7 @@ ANISOTROPY, LIGHTS = "KHR_materials_anisotropy", "KHR_lights_punctual"
 PANE = {"KHR_materials_transmission": {"transmissionFactor": 1}}
 BODY = {**PANE, "KHR_materials_volume": {"thicknessFactor": 1}}
 SUN, BEHIND = (-0.3, 0.35, 0, math.sqrt(1 - 0.3 ** 2 - 0.35 ** 2)), (0.25, math.sqrt(1 - 0.25 ** 2 - 0.3 ** 2), 0.3, 0)
-ALONG = 0.7  # the direction that is meant, from +x towards +y
+ALONG = 0.7  # radians: the direction that all descriptions mean, from +x towards +y
 TURNED_UV = ("TEXCOORD_0", 2, [c for x, y, _ in zip(*[iter(QUAD)] * 3) for c in (math.cos(ALONG) * x + math.sin(ALONG) * y, math.sin(ALONG) * x - math.cos(ALONG) * y)])
 
 
@@ -24,7 +24,8 @@ def tangents(angle, sign=1):
 
 
 def towards(angle):
-    """A texture's texels of a direction, at full strength and nearly so: one value would be a factor."""
+    """Texels of a texture that all mean this direction, at full strength or nearly so. Texels of one value only would be folded into a
+    factor."""
     return [(round(127.5 + 127.5 * math.cos(angle)), round(127.5 + 127.5 * math.sin(angle)), strength) for strength in (255, 254)]
 
 
@@ -51,18 +52,18 @@ class Direction(Case):
     def test_all_ways_to_say_one_direction(self):
         expected = self.plate(tangents(ALONG), UV)
         other = self.plate(tangents(-ALONG), UV)
-        self.assertGreater(max(abs(x - y) for x, y in zip(expected, other)), 0.2 * max(expected))  # the test can see which way it is turned
+        self.assertGreater(max(abs(x - y) for x, y in zip(expected, other)), 0.2 * max(expected))  # the test can tell directions apart
         self.assert_alike(self.plate(tangents(0), UV, rotation=ALONG), expected, 1e-4, "rotation")
         self.assert_alike(self.plate(tangents(0.3), UV, rotation=ALONG - 0.3 - 4 * math.pi), expected, 1e-4, "rotation from a tangent that is turned")
         self.assert_alike(self.plate(tangents(0, -1), UV, rotation=-ALONG), expected, 1e-4, "the bitangent the other way round")
         self.assert_alike(self.plate(TURNED_UV), expected, 1e-4, "along u where there are no tangents")
-        self.assert_alike(self.plate(tangents(0), UV, texture=towards(ALONG)), expected, 0.02, "texture")  # bytes
+        self.assert_alike(self.plate(tangents(0), UV, texture=towards(ALONG)), expected, 0.02, "texture")  # the texture's bytes round
         self.assert_alike(self.plate(tangents(0), UV, rotation=ALONG - 0.4, texture=towards(0.4)), expected, 0.02, "rotation and texture")
         self.assert_alike(self.plate(tangents(0), UV, rotation=ALONG - 0.4, texture=towards(0.4)[:1]), expected, 0.02, "rotation and one texel")
         self.assert_alike(self.plate(tangents(ALONG + math.pi), UV), expected, 1e-4, "back to front")
 
     def test_glass(self):
-        """What it mirrors and what passes, through a wall and into a body."""
+        """Tests reflection and transmission, through a wall and into a body."""
         for what, options in {"mirrored": {"glass": PANE}, "through a pane": {"glass": PANE, "sun": BEHIND}, "out of a body": {"glass": BODY, "sun": BEHIND}}.items():
             with self.subTest(what):
                 expected = self.plate(tangents(ALONG), UV, **options)

@@ -16,7 +16,7 @@ OPTIONS = (*QUICK, "--size", f"{W}x{H}", "--env", "0.8,0.6,0.4")
 
 
 def radiance(path):
-    """Rows of (R, G, B) of a run-length encoded .hdr."""
+    """Returns rows of (R, G, B) of a run-length encoded .hdr."""
     with open(path, "rb") as file:
         head, data = file.read().split(b"\n\n", 1)
     assert head.startswith(b"#?RADIANCE"), head
@@ -65,7 +65,7 @@ class Background(Case):
             for c, e, a in zip(clear, seen, alpha):
                 if a in (0, 1):
                     self.assertEqual(c, (0, 0, 0) if a == 0 else e)
-                else:  # its samples are those of the alpha: what is not covered was the environment
+                else:  # colour and alpha come from the same samples: a pixel's uncovered part is environment
                     for k, env in enumerate([0.8, 0.6, 0.4]):
                         self.assertAlmostEqual(c[k] + (1 - a) * env, e[k], delta=2e-3)
             width, height, channels, bits, rows = read_png(self.path("clear.png"))
@@ -73,11 +73,12 @@ class Background(Case):
             for i, (c, a) in enumerate(zip(clear, alpha)):
                 there = rows[i // W][i % W * 4:i % W * 4 + 4]
                 self.assertLessEqual(abs(there[3] - 255 * a), 0.6)
-                for k, x in enumerate(shown("neutral", [v / a for v in c]) if a else (0, 0, 0)):  # not multiplied by alpha
+                # the PNG's colours are not multiplied by alpha
+                for k, x in enumerate(shown("neutral", [v / a for v in c]) if a else (0, 0, 0)):
                     self.assertLessEqual(abs(there[k] - 255 * x), 1)
 
     def test_a_colour_is_what_the_screen_shows(self):
-        """Behind the tone curve and the exposure, in linear light."""
+        """A background colour is composited after the tone curve and the exposure, in linear light."""
         for word, rgb in [("white", (255, 255, 255)), ("3366cc", (0x33, 0x66, 0xcc)), ("#000000", (0, 0, 0))]:
             self.render("on.exr", "on.png", background=word, options=("--exposure", "-1", "--tonemap", "agx"))
             clear, alpha = self.pixels("on.exr")
@@ -92,7 +93,8 @@ class Background(Case):
                     self.assertLessEqual(abs(rows[i // W][i % W * 3 + k] - 255 * srgb), 1)
 
     def test_a_blurred_environment_is_what_the_screen_shows(self):
-        """A map of radiance 1 + n.d: its blur by a von Mises-Fisher distribution is 1 + (coth k - 1 / k) n.d, k = 1 / R^2 (Mardia and Jupp, 9.3.9)."""
+        """The environment has radiance 1 + n.d. Its blur by a von Mises-Fisher distribution is 1 + (coth k - 1 / k) n.d, k = 1 / R^2
+        (Mardia and Jupp, 9.3.9)."""
         turn, n, width, height = math.radians(40), (0.6, 0.3, 0.5), 256, 128
         at = lambda d: 1 + sum(a * b for a, b in zip(n, d))  # noqa: E731
         data = bytearray()
@@ -119,12 +121,12 @@ class Background(Case):
                     value = min(1, 0.5 * (c[k] + (1 - a) * far))
                     srgb = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
                     self.assertAlmostEqual(rows[i // W][i % W * 3 + k] / 65535, srgb, delta=4e-3)
-        self.render("env.png"), self.render("alike.png", background="blur")  # of one colour
+        self.render("env.png"), self.render("alike.png", background="blur")  # this environment has one colour
         for a, b in zip(read_png(self.path("env.png"))[4], read_png(self.path("alike.png"))[4]):
             self.assertLessEqual(max(abs(x - y) for x, y in zip(a, b)), 2)
 
     def test_alpha_is_of_all_samples(self):
-        """512 a pixel: an edge's alpha is no multiple of 1/64, and what is not covered was the environment."""
+        """With 512 samples a pixel, an edge's alpha is no multiple of 1/64, and a pixel's uncovered part is environment."""
         options = ("--spp", "512")
         self.render("env.exr", options=options)
         self.render("clear.exr", background="transparent", options=options)
@@ -133,7 +135,7 @@ class Background(Case):
         self.assertTrue(any(abs(64 * a - round(64 * a)) > 0.1 for _, _, a in edges))
         for c, e, a in edges:
             self.assertAlmostEqual(c[0] + (1 - a) * 0.8, e[0], delta=1e-3)
-        self.render("adaptive.exr", background="transparent", options=(*options, "--adaptive"))  # a pilot of 32
+        self.render("adaptive.exr", background="transparent", options=(*options, "--adaptive"))  # the pilot has 32
         alpha = self.pixels("adaptive.exr")[1]
         self.assertTrue(any(abs(64 * a - round(64 * a)) > 0.1 for a in alpha))
 
@@ -163,7 +165,7 @@ class Background(Case):
         self.assertLess(sum(difference) / len(difference), 3)
 
     def test_avif_and_jxl_are_the_png(self):
-        """Where the build has the libraries; else the refusal names them."""
+        """Where the build lacks a library, the refusal names it."""
         decoders = {"avif": ("avifdec", lambda a, b: ("avifdec", a, b)), "jxl": ("djxl", lambda a, b: ("djxl", a, b))}
         built = {}
         for name in decoders:
@@ -192,7 +194,7 @@ class Background(Case):
         for i, c in enumerate(self.pixels("a.exr")[0]):
             for a, b in zip(rows[i // W][i % W], c):
                 self.assertLessEqual(abs(a - b), max(c) / 255)
-        self.render("back.exr", options=("--light", self.path("a.hdr")))  # it is read again, as an environment
+        self.render("back.exr", options=("--light", self.path("a.hdr")))  # eclat reads it again, as an environment
 
     def test_what_does_not_go_together(self):
         for options, says in [(["--background", "transparent", "-o", "a.jpg"], "'a.jpg' has no alpha; write a .png or an .exr"),

@@ -1,5 +1,5 @@
 # tier: quick
-"""Everything that can be wrong with what a render is given: one clear line, the right exit code, no partial file."""
+"""Bad input to a render: each error gives one clear line and the right exit code, and leaves no partial file."""
 import os
 import struct
 import subprocess
@@ -109,7 +109,8 @@ class BadScenes(BadInput):
                 self.refuse(write_gltf(os.path.join(inner, "scene.gltf"), quad_scene(uri=uri)[0]))
 
     def test_links_out_of_the_scene_folder(self):
-        """They are followed only where that is asked for; links within it, and a folder that is one, always are."""
+        """Links out of the folder are followed only on request. Links within it are always followed, as is a link that is the folder
+        itself."""
         os.makedirs(self.path("inner", "deep"))
         for name in ["outside.bin", os.path.join("inner", "deep", "inside.bin")]:
             with open(self.path(name), "wb") as file:
@@ -175,7 +176,7 @@ class BadRequests(BadInput):
             self.assertEqual(file.read(), b"precious")
 
     def test_output_over_a_file_that_the_scene_is_read_from(self):
-        """By any of its names, and whichever option gives it."""
+        """Refused under any name of the file, and for whichever option names the output."""
         scene = quad_scene(uri="quad%20data.exr")[0]
         scene["images"] = [{"uri": "./map.png"}, {"uri": data_uri(b"")}, {"uri": "missing.png"}]
         scene = write_gltf(self.path("scene.gltf"), scene)
@@ -195,7 +196,7 @@ class BadRequests(BadInput):
         self.assertEqual(len(os.listdir(self.folder)), 5)
 
     def test_pipes_and_folders_instead_of_pictures(self):
-        """Nobody writes into the pipe: whoever opened it would wait for ever."""
+        """Nobody writes into the pipe: a program that opened it would wait for ever."""
         pipe, folder, other = self.path("pipe.exr"), self.path("folder.exr"), self.path("a.exr")
         os.mkfifo(pipe)
         os.mkdir(folder)

@@ -1,5 +1,6 @@
 # tier: quick
-"""Pictures that show no surface are told of, and why; others are not. The camera of a file without one looks at fronts."""
+"""A picture that shows no surface gets a warning that says why; other pictures get none. The default camera looks at the fronts of
+surfaces."""
 import struct
 import unittest
 
@@ -12,7 +13,8 @@ BACKS = "sees nothing but backs of single-sided materials"
 
 class Blank(Case):
     def render(self, change=lambda scene: None, *options):
-        """(what is said, the share of the picture that shows surfaces); a warning goes with an empty picture, and only with one."""
+        """Returns (the warning, the share of the picture that shows surfaces). Checks that an empty picture has a warning, and that no
+        other has one."""
         scene, _ = quad_scene()
         change(scene)
         out = self.path("a.exr")
@@ -54,7 +56,8 @@ class Blank(Case):
         self.assertIn(BACKS + ", from within the scene", self.render(close)[0])
 
     def test_above_a_wide_picture(self):
-        """It would be in view of a picture as high as this one is wide; to the side as far it is."""
+        """The quad is above the picture, at a height that would be in view if the picture were as high as it is wide. To the side, at the
+        same distance, it is in view."""
         above, beside = [0, 2.5, 0], [2.5, 0, 0]
         self.assertEqual(self.render(lambda scene: scene["nodes"][0].update(translation=above), "--size", "96x8")[1], 0)
         self.assertGreater(self.render(lambda scene: scene["nodes"][0].update(translation=beside), "--size", "96x8")[1], 0)
@@ -73,7 +76,7 @@ class Blank(Case):
 
 class Fronts(Case):
     def test_the_camera_of_a_file_without_one(self):
-        """Whichever way a quad turns, its front is seen; the far side of what is two-sided is no better."""
+        """The default camera sees the quad's front whichever way the quad turns. For a two-sided quad both sides are equally good."""
         half = 0.5 ** 0.5
         for rotation in [[0, 0, 0, 1], [0, 1, 0, 0], [half, 0, 0, half], [-half, 0, 0, half], [0, half, 0, half], [0, -half, 0, half]]:
             eyes = []

@@ -1,9 +1,10 @@
 # tiers: quick, full
-"""The bound of the error: harmless scenes state one, and none is stated that does not hold. tools/bench/bounds.py counts the same over more
+"""The bound of the error: harmless scenes state one, and no stated bound is too small. tools/bench/bounds.py counts the same over more
 scenes, seeds and budgets.
 
-Each picture is compared with one that has the light that its samples can miss. A bound of 95 % may fail once in 20 renders, but true errors are
-two to four times the bounds that were stated before any was refused: 61 % and 25 % (lamp), 25 % and 6.5 % (glass), medians of ten seeds."""
+Each picture is compared with a reference that has the light that its samples can miss. A bound of 95 % may fail once in 20 renders, but
+true errors were two to four times the bounds stated before eclat refused any: 61 % and 25 % (lamp), 25 % and 6.5 % (glass), medians of ten
+seeds."""
 import base64
 import json
 import math
@@ -19,7 +20,7 @@ SEEDS = range(10)
 SIZE = 12
 PINLAMP, UNFOLDED = (os.path.join(SOURCE, "scenes", "pinlamp", name + ".gltf") for name in ("pinlamp", "unfolded"))
 VASE = os.path.join(SOURCE, "scenes", "vase", "vase.gltf")
-# Luminance of the vase under sky(), halves, rows from the top: a render of 2^20 samples a pixel, whose own error is 3.1 %.
+# Luminance of the vase under sky(), halves, rows from the top, from a render of 2^20 samples a pixel whose own error is 3.1 %.
 VASE_REFERENCE = """
 zTTNNM00zTTNNM00zTTNNM00zTTNNM00zTTNNM00zTTJNHU47DbINM00zTTNNM00zTTNNM00zTT7NJY5fzkpNc00zTTNNM00aTtqO207azvLOrM52DnIOmk7aTtpO2k7
 OTw5PDk8OTzQOn070DvGOjk8OTw5PDo8Ojw5PDk8HTzkOos7QDs0OyI8OTw5PDk8OTw7PDk8IzyOO4U7bztxOxs8Pjw+PDk8PzxVPFA8PjwoPNE6pDkqOzA8Szw+PDk8
@@ -41,7 +42,7 @@ def true_error(picture, reference):
 
 
 def sky(path):
-    """A grey sky and a sun of one texel, 1.4 degrees across, 40 degrees high, that lights the floor six times as much."""
+    """A grey sky with a sun of one texel, 1.4 degrees across and 40 degrees high, that lights the floor six times as much as the rest."""
     width, height, x, y = 256, 128, 90, 35
     texels = [0.3] * (width * height)
     texels[y * width + x] = 20000.0
@@ -50,15 +51,15 @@ def sky(path):
 
 class Bounds(Case):
     def render(self, scene, *options):
-        """(bound or None, luminance)"""
-        # of four scenes each its own kernels are compiled sooner than those for all effects
+        """Returns (bound or None, luminance)."""
+        # for four scenes, kernels of their own compile sooner than those with all effects
         out = self.path("out.exr")
         run = self.assert_ok(eclat("render", "-q", *NARROW, "--size", f"{SIZE}x{SIZE}", "--json", "-o", out, *options, scene))
         bound = json.loads(run.stdout).get("error_bound")
         return bound if isinstance(bound, (int, float)) and math.isfinite(bound) else None, luminance(out)
 
     def unmet(self, scene):
-        """Light that 16 samples a pixel may miss, relative to the picture's."""
+        """Returns how much light 16 samples a pixel may miss, relative to the picture's."""
         return json.loads(self.assert_ok(eclat("render", "-q", *NARROW, "--size", f"{SIZE}x{SIZE}", "--spp", "16", "--max-depth", "5", "--json",
                                                "-o", self.path("out.exr"), scene)).stdout)["error_unmet"]
 
@@ -70,7 +71,7 @@ class Bounds(Case):
                     self.assertLessEqual(true_error(picture, reference), bound)
 
     def test_harmless_box_states_a_bound(self):
-        # all of its light is found by light sampling: there is no reason to refuse
+        # light sampling finds all of its light: there is no reason to refuse a bound
         for seed in SEEDS:
             bound, _ = self.render(CORNELL, "--seed", str(seed), "--spp", "64", "--max-depth", "5")
             with self.subTest(seed=seed):
@@ -78,7 +79,7 @@ class Bounds(Case):
 
     @full
     def test_lamp_with_one_bright_texel_has_a_bound_that_holds(self):
-        # sampled evenly, one of 8 192 rays to it found its light: true errors of 70 % under bounds of 12 %
+        # when the lamp was sampled uniformly, one of 8 192 rays to it found its light: true errors of 70 % under bounds of 12 %
         room = texel_room(self.path("texel.gltf"))
         _, reference = self.render(room, "--spp", "4096", "--seed", "1000", "--max-depth", "5")
         for seed in range(5):
@@ -89,44 +90,46 @@ class Bounds(Case):
                 self.assertLessEqual(true_error(picture, reference), bound)
 
     def test_sun_through_a_small_hole_has_no_bound_that_fails(self):
-        # one path in 50 000 meets the patch that lights the room: true errors of 66 % under bounds of 20 %
+        # one path in 50 000 meets the patch that lights the room: true errors were 66 % under bounds of 20 %
         _, reference = self.render(sun_room(self.path("patch.gltf"), "patch"), "--spp", "4096", "--seed", "1000", "--max-depth", "5")
         hole = sun_room(self.path("hole.gltf"), "hole")
         for seed in range(3):
             bound, picture = self.render(hole, "--seed", str(seed), "--spp", "64", "--max-depth", "5")
             with self.subTest(seed=seed):
                 self.assertTrue(bound is None or true_error(picture, reference) <= bound)
-        for seed in range(3):  # where there is no hole the same sun is harmless
+        for seed in range(3):  # without the hole, this sun is harmless
             bound, _ = self.render(sun_room(self.path("sealed.gltf"), "sealed"), "--seed", str(seed), "--spp", "64", "--max-depth", "5")
             with self.subTest(seed=seed):
                 self.assertIsNotNone(bound)
 
     @full
     def test_lamp_behind_a_small_hole_is_found(self):
-        # a quarter of a per mille of the floor is lit, and brings 15 % of the light
+        # 0.025 % of the floor is lit, and brings 15 % of the light
         self.assertGreater(self.unmet(lamp_room(self.path("hole.gltf"), "hole")), 0.05)
         self.assertEqual(self.unmet(lamp_room(self.path("sealed.gltf"), "sealed")), 0)
 
     @full
     def test_hole_is_found_in_a_scene_of_many_triangles(self):
-        # of 60 000 edges 8 192 are tried: taken evenly they passed by those of the hole
+        # the search tries 8 192 of 60 000 edges: uniform choices missed the hole's edges
         self.assertGreater(self.unmet(sun_room(self.path("hole.gltf"), "hole", rug=100)), 0.1)
 
     @full
     def test_hole_is_found_in_a_room_on_a_plain(self):
-        # a ten-thousandth of the scene's radius, by which rays pass edges, is wider than the hole; and all is lit beyond the room
+        # the hole is narrower than a ten-thousandth of the scene's radius, the distance at which rays pass edges; and everything outside
+        # the room is lit
         self.assertGreater(self.unmet(sun_room(self.path("hole.gltf"), "hole", ground=400)), 0.1)
         self.assertEqual(self.unmet(sun_room(self.path("sealed.gltf"), "sealed", ground=400)), 0)
 
     @full
     def test_lamp_that_light_paths_find_has_a_bound(self):
-        # a screen hides it from the camera, whose paths end where a guided direction leads into a wall: of those nobody knows how far they would have gone
+        # a screen hides the lamp from the camera. Light paths find it. Camera paths may end where a guided direction leads into a wall; how
+        # far they would have gone is unknown.
         bound, _ = self.render(PINLAMP, "--spp", "64")
         self.assertIsNotNone(bound)
 
     @full
     def test_lamp_that_no_path_meets_has_no_bound_that_fails(self):
-        # unfolded.gltf is the same picture (scenes/pinlamp/README.md)
+        # unfolded.gltf gives the same picture (scenes/pinlamp/README.md)
         _, reference = self.render(UNFOLDED, "--spp", "4096", "--seed", "1000")
         self.assert_bounds_hold(reference, PINLAMP, "--spp", "256")
 

@@ -8,7 +8,7 @@ import unittest
 
 from support import ECLAT, SOURCE, Case
 
-REFERENCES = os.environ.get("ECLAT_TEST_REFERENCES", os.path.join(os.path.dirname(ECLAT), "references"))  # an hour to make, and kept
+REFERENCES = os.environ.get("ECLAT_TEST_REFERENCES", os.path.join(os.path.dirname(ECLAT), "references"))  # take an hour to render; kept
 
 
 @unittest.skipUnless(all(importlib.util.find_spec(name) for name in ("numpy", "OpenEXR")), "numpy and OpenEXR (PyPI) are not installed")

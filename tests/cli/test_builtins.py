@@ -1,5 +1,6 @@
 # tier: full
-"""kernels/shared/builtins.h: kernels call the same functions, of the same types, as with all of OpenCL's functions declared. Skips without Clang."""
+"""kernels/shared/builtins.h declares what kernels call: they call the same functions, of the same types, as with all of OpenCL's functions
+declared. Skips without Clang."""
 import collections
 import glob
 import os
@@ -11,12 +12,12 @@ import unittest
 from support import SOURCE, Case
 
 CLANG = shutil.which("clang-15") or shutil.which("clang")
-CALL = re.compile(r"\bcall\b[^(]*@(_Z\w+)")  # its mangled name, with the types of its arguments
+CALL = re.compile(r"\bcall\b[^(]*@(_Z\w+)")  # the mangled name, which has the types of the arguments
 OWN, ALL = ["-D_OPENCL_H_", "-DEC_OWN_BUILTINS"], ["-Xclang", "-finclude-default-header"]
 
 
 def calls(source, lanes, declarations):
-    """None: not a kernel for so many lanes."""
+    """Counts the calls of each function in a kernel's source; None where the source does not compile for so many lanes."""
     done = subprocess.run([CLANG, "-x", "cl", "-cl-std=CL1.2", "-cl-no-stdinc", "-target", "x86_64", "-S", "-emit-llvm", "-O0", "-w", "-Xclang", "-disable-O0-optnone",
                            f"-DLANES={lanes}", "-DFEATURES=0ul", "-DINTERLEAVE=8", *declarations, source, "-o", "-"], capture_output=True, encoding="utf-8", check=False)
     return collections.Counter(CALL.findall(done.stdout)) if done.returncode == 0 else None

@@ -1,6 +1,6 @@
 # tier: full
-"""Caustics against numbers: light through a slab of glass, in the focus of a ball of glass, and all of what passes that ball, by tracing rays in double
-precision. Light paths, path guiding and both together find them."""
+"""Caustics against numbers from rays traced in double precision: light through a slab of glass, light in the focus of a ball of glass, and
+all light that passes the ball. Light paths, path guiding and both together find them."""
 import json
 import math
 import os
@@ -17,14 +17,14 @@ GLASS = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
          "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}, "KHR_materials_ior": {"ior": IOR}}}
 LAMP = {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0}, "emissiveFactor": [1, 1, 1],
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": LE}, "KHR_materials_specular": {"specularFactor": 0}}}
-# Light that falls on it from above leaves it below.
+# A sheet that transmits diffusely: light that falls on it from above leaves it below.
 SHEET = {"pbrMetallicRoughness": {"metallicFactor": 0}, "doubleSided": True,
          "extensions": {"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1}, "KHR_materials_specular": {"specularFactor": 0}}}
-CENTRE, RADIUS, LAMP_AT, LAMP_HALF = 0.9, 0.5, 5.4, 0.2  # of the ball above the floor, and of the lamp that it shows there
+CENTRE, RADIUS, LAMP_AT, LAMP_HALF = 0.9, 0.5, 5.4, 0.2  # heights above the floor; radius; half of the lamp's side
 
 
 def square(half, y, up=True):
-    """Two triangles in a plane of that y that face up or down."""
+    """Two triangles in the plane of this y, facing up or down."""
     corners = [(-half, y, -half), (-half, y, half), (half, y, half), (half, y, -half)]
     order = (0, 1, 2, 0, 2, 3) if up else (0, 2, 1, 0, 3, 2)
     return [c for i in order for c in corners[i]]
@@ -46,14 +46,15 @@ def ball(rings, y, radius):
 
 
 def passes(cosine, ior):
-    """What a smooth face lets through (Fresnel 1823), and the cosine beyond."""
+    """Returns the transmittance of a smooth interface (Fresnel 1823), and the cosine behind it."""
     beyond = math.sqrt(1 - (1 - cosine * cosine) / (ior * ior))
     s, p = (cosine - ior * beyond) / (cosine + ior * beyond), (ior * cosine - beyond) / (ior * cosine + beyond)
     return 1 - 0.5 * (s * s + p * p), beyond
 
 
 def through_ball(x, y, dx, dy):
-    """A ray in a plane of the axis: point and direction behind the ball, and the light that passes; None where it misses."""
+    """Traces a ray in a plane of the axis: returns point and direction behind the ball, and the transmitted part; None where the ray
+    misses."""
     along = x * dx + (y - CENTRE) * dy
     square_ = along * along - (x * x + (y - CENTRE) ** 2 - RADIUS ** 2)
     if square_ <= 0:
@@ -73,7 +74,7 @@ def through_ball(x, y, dx, dy):
 
 class CausticForms(Case):
     def mean(self, scene, *options, finds, size="8x8", spp=512):
-        """Mean luminance and its standard error."""
+        """Returns the mean luminance and its standard error."""
         run = self.assert_ok(eclat("render", scene, "--max-depth", "4", "--size", size, "--spp", str(spp), *finds, *options, "--json", "-q",
                                    "-o", self.path("a.exr")))
         said = json.loads(run.stdout)
@@ -99,7 +100,7 @@ class CausticForms(Case):
     WAYS = [["--light-paths", "1"], ["--guiding"], ["--guiding", "--light-paths", "0.5"]]
 
     def test_slab(self):
-        """Irradiance of points under a slab, by the lamp's area: rays leave it as they came, shifted aside."""
+        """Irradiance of points under a slab, by integrating over the lamp: rays leave the slab in their old direction, shifted aside."""
         below, thick, lamp_at, half = 1, 0.5, 3, 0.25
         scene = self.scene_of(MATT, GLASS, LAMP)
         scene.add(square(4, 0), 0).add(square(4, below + thick) + square(4, below, up=False), 1).add(square(half, lamp_at, up=False), 2)
@@ -110,7 +111,7 @@ class CausticForms(Case):
             return (lamp_at - thick) * tangent + thick * sine / math.sqrt(1 - sine * sine)
 
         def arriving(r):
-            """Radiance times cosine and solid angle over the lamp's area, at r aside of it."""
+            """Radiance times cosine and solid angle over the lamp's area, at a distance r from the axis."""
             low, high = 0, 100
             for _ in range(60):
                 middle = (low + high) / 2
@@ -128,7 +129,7 @@ class CausticForms(Case):
             self.assert_found(path, ALBEDO / math.pi * irradiance, *self.look_at(x, f"{x},0.7,2", 0.5), ways=self.WAYS, accuracy=2e-3, spp=4096)
 
     def test_focus_of_a_ball(self):
-        """Irradiance where a ball makes the lamp's image, by directions about the axis."""
+        """Irradiance where a ball makes the lamp's image, by integrating over directions about the axis."""
         scene = self.scene_of(MATT, GLASS, LAMP)
         positions, normals, indices = ball(150, CENTRE, RADIUS)
         scene.add(square(4, 0), 0).add(positions, 1, indices=indices, streams=[("NORMAL", 3, normals)]).add(square(LAMP_HALF, LAMP_AT, up=False), 2)
@@ -147,7 +148,8 @@ class CausticForms(Case):
         self.assert_found(path, ALBEDO / math.pi * irradiance, *self.look_at(0, "1.2,0.6,0", 0.1), ways=self.WAYS, accuracy=0.01)
 
     def test_flux_through_a_ball(self):
-        """All sunlight that a ball lets pass or mirrors onto a sheet, seen from below: no direction meets the sun, so that light paths alone find it."""
+        """All sunlight that a ball transmits or reflects onto a sheet, seen from below. A sun has no area, so that only light paths find
+        this light."""
         scene = self.scene_of(SHEET, GLASS).extend("KHR_lights_punctual", {"lights": [{"type": "directional", "intensity": SUN}]})
         positions, normals, indices = ball(100, CENTRE, RADIUS)
         half, steps = 2, 20000

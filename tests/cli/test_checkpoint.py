@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""A render that stops and goes on is the render that never stopped, bit for bit; checkpoints of anything else are refused."""
+"""A render that stops and goes on has the bits of a render without a break. A checkpoint of another job is refused."""
 import json
 import os
 import shlex
@@ -13,7 +13,7 @@ from support import CORNELL, ECLAT, ENVIRONMENT, RING, Case, eclat, quad_scene, 
 from tiers import full
 
 SIZE = ["--size", "20x18"]
-SMALL = ["--size", "12x10"]  # tiles that are not whole, too
+SMALL = ["--size", "12x10"]  # the last row and column of tiles are cut
 RESULT = ["image_sha256", "samples", "rays", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates"]
 
 
@@ -26,7 +26,8 @@ class Checkpoint(Case):
         return json.loads(self.assert_ok(eclat("render", *options, "--json", "-q", "-o", self.path(name))).stdout)
 
     def assert_same(self, first, job, limits, says=True):
-        """A render that ends early and is gone on with to the job's limits, and the job without a break. says: the command that its report has, too."""
+        """Compares a render that ends early and goes on to the job's limits with the job without a break. says: also runs the command in
+        its report."""
         whole = self.render(CORNELL, *SMALL, *job)
         planes = read_exr(self.path("a.exr"))[1]
         begun = self.render(CORNELL, *SMALL, *first, "--checkpoint", self.kept)
@@ -40,12 +41,14 @@ class Checkpoint(Case):
             self.assertEqual(again["image_sha256"], json.loads(self.assert_ok(eclat(*command[1:], "--json", "-q")).stdout)["image_sha256"])
 
     def test_paths(self):
-        """Within the first batches of the replicates, between two strides, and within a batch: 101 samples are those of batch 100:102 but one."""
+        """Ends within the first batches of the replicates, between two strides, and within a batch: 101 samples are one less than batch
+        100:102 ends with."""
         for first, all_of_it in [(2, 8), (32, 80), (101, 300), (37, 203)]:
             self.assert_same(["--spp", str(first)], ["--spp", str(all_of_it)], ["--spp", str(all_of_it)], says=first == 37)
 
     def test_first_hits_within_a_batch(self):
-        """Of all batches, as the environment is hidden; what a batch that is cut short adds to them is not in the checkpoint."""
+        """A hidden environment needs first hits of all batches. A batch that was cut short adds first hits that the checkpoint must not
+        have."""
         job = ["--background", "transparent"]
         self.assert_same([*job, "--spp", "37"], [*job, "--spp", "80"], ["--spp", "80"])
 
@@ -62,14 +65,14 @@ class Checkpoint(Case):
             self.assert_same([*job, "--spp", "5"], [*job, "--spp", "21"], ["--spp", "21"])
 
     def test_adaptive(self):
-        """Within the pilot, at its end, and with pixels of different counts."""
+        """Ends within the pilot, at its end, and where pixels have different counts."""
         for first in [12, 32, 50]:
             self.assert_same(["--adaptive", "--spp", str(first)], ["--adaptive", "--spp", "96"], ["--spp", "96"], says=first == 50)
 
     @full
     def test_in_the_middle_of_a_batch(self):
-        """A wave of 256 paths is 1 of 22 and more of a batch: nearly every stop is within one."""
-        clean = ["--adaptive", "--denoise=atrous", "--channels", "all"]  # with first hits of all samples
+        """A wave has 256 paths, so that a batch takes 22 or more: nearly every stop is within a batch."""
+        clean = ["--adaptive", "--denoise=atrous", "--channels", "all"]  # keeps first hits of all samples
         for options in [["--spp", "96", "--adaptive"], ["--spp", "1280", "--samples", "1024:1280"], ["--spp", "160", *clean]]:
             job = [CORNELL, "--size", "40x36", "--wave", "256", *options]
             whole = self.render(*job)
@@ -97,7 +100,7 @@ class Checkpoint(Case):
         return json.loads(read_exr(self.kept)[0]["eclat.state"])
 
     def signalled(self, number, write, *job):
-        """A render with a checkpoint after each wave, which is sent the signal as the next one takes the place of that one."""
+        """Renders with a checkpoint after each wave. The process gets the signal as it renames the checkpoint with number `write`."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_FOLDER": self.folder, "FAULT_CALL": "rename", "FAULT_AT": str(write),
@@ -106,7 +109,7 @@ class Checkpoint(Case):
 
     @full
     def test_within_the_first_batches(self):
-        """What is kept of a batch under way there has its first hits too, which are averaged over the first batch of each replicate."""
+        """The kept part of a batch that is under way has first hits here, which are averaged over the first batch of each replicate."""
         job = [CORNELL, "--size", "40x36", "--wave", "64", "--spp", "64"]  # 23 waves a batch
         whole = self.render(*job)
         planes = read_exr(self.path("a.exr"))[1]
@@ -123,7 +126,7 @@ class Checkpoint(Case):
 
     @full
     def test_within_a_pass(self):
-        """Ctrl-C in one that holds no more than the picture: what is kept of it is in the pass's order, and stays as it is."""
+        """Ctrl-C in a render that holds no more than the picture. The kept part is in the order of the pass, and stays as it is."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         job = [CORNELL, "--size", "640x480", "--max-depth", "1", "--spp", "72", "--wave", "65536", "--adaptive", "--denoise=atrous"]
@@ -147,7 +150,7 @@ class Checkpoint(Case):
 
     @full
     def test_within_the_first_batch_of_a_slice(self):
-        """It is cut as any other: on large pictures it takes minutes."""
+        """This batch is cut like any other: on large pictures it takes minutes."""
         job = [CORNELL, "--size", "40x36", "--wave", "1024", "--spp", "4608", "--samples", "4096:4608"]  # a checkpoint after each of 90 waves
         whole = self.render(*job)
         planes = read_exr(self.path("a.exr"))[1]
@@ -165,7 +168,7 @@ class Checkpoint(Case):
 
     @full
     def test_until_an_error(self):
-        """Also where samples go where noise is, which --resume keeps as it was: on by itself with --error, off without."""
+        """Also with adaptive sampling, which --resume keeps as it was: on by default with --error, otherwise off."""
         self.assert_same(["--spp", "12"], ["--error", "60%", "--adaptive=off"], ["--error", "60%"])
         self.assert_same(["--error", "10%", "--spp", "40"], ["--error", "10%"], ["--error", "10%"])
         self.assert_same(["--error", "60%"], ["--spp", "150", "--adaptive"], ["--spp", "150"])
@@ -180,7 +183,7 @@ class Checkpoint(Case):
         self.assert_ok(eclat("merge", self.path("b.exr"), "--partial", "-q", "-o", self.path("m.exr")))
 
     def test_a_slice_that_ends_within_a_batch(self):
-        """Its checkpoint ends before that batch, its picture within."""
+        """The checkpoint ends before that batch, the picture within it."""
         job = [CORNELL, *SIZE, "--spp", "101", "--samples", "64:101"]
         whole = self.render(*job)
         planes = read_exr(self.path("a.exr"))[1]
@@ -201,7 +204,7 @@ class Checkpoint(Case):
         return process.communicate(timeout=GUARD)
 
     def test_asked_to_stop(self):
-        """A last checkpoint is written, of all that the picture shows."""
+        """A last checkpoint is written, with everything that the picture shows."""
         for number in [signal.SIGINT, signal.SIGTERM]:
             process = self.start(CORNELL, "--size", "40x40", "--spp", "100000", "--checkpoint", self.kept, "--every", "0.05s",
                                  "--channels", "all", "-o", self.path("a.exr"))
@@ -227,11 +230,11 @@ class Checkpoint(Case):
             run = self.assert_ok(eclat("render", "--resume", "kept.exr", *limit, cwd=self.folder))
             self.assertEqual(run.stderr, "eclat: 'kept.exr' already has 20 samples a pixel, and "
                              f"{(limit or ['--spp', '20'])[1]} are asked for; the picture is written as it is\n")
-        self.assertEqual(os.stat(self.kept).st_mtime_ns, before)  # it has all that there is
+        self.assertEqual(os.stat(self.kept).st_mtime_ns, before)  # the checkpoint already has all samples
         self.assert_ok(eclat("render", "--resume", "kept.exr", "--checkpoint", "other.exr", "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.kept)[1], read_exr(self.path("other.exr"))[1])
         self.assert_ok(eclat("render", "--resume", "other.exr", "-q", cwd=self.folder))
-        for limit, kept in [(["--spp", "22"], 20), ([], 20), (["--spp", "24"], 24)]:  # of 20:24 half, again, and all
+        for limit, kept in [(["--spp", "22"], 20), ([], 20), (["--spp", "24"], 24)]:  # half of 20:24, again, and all of it
             self.assert_ok(eclat("render", "--resume", "kept.exr", *limit, "-q", cwd=self.folder))
             self.assertEqual(set(read_exr(self.path("x.exr"))[1]["samples"]), {float((limit or [0, 20])[1])})
             self.assertEqual(set(read_exr(self.kept)[1]["samples"]), {float(kept)})
@@ -265,7 +268,7 @@ class Checkpoint(Case):
 
     @full
     def test_meshes_that_are_kept_once_and_written_out(self):
-        """Accelerators that know no instances have other triangles, and the same samples."""
+        """Accelerators that know no instances number triangles differently, but trace the same samples."""
         scene, _ = quad_scene(material={"doubleSided": True})
         scene["nodes"] += [{"mesh": 0, "translation": [k, 0.5, -k]} for k in range(3)]
         scene["scenes"][0]["nodes"] += [2, 3, 4]
@@ -307,7 +310,7 @@ class Checkpoint(Case):
         self.assertRegex(self.assert_one_error(run, 1), rf"cornell-box.gltf.*; the job was begun in '{os.getcwd()}'$")
 
     def test_snapshots(self):
-        """Pictures on the way, whole whenever they are read; the last one is the final one but for its attributes."""
+        """Snapshots are whole whenever they are read. The last one is the final picture except for its attributes."""
         shot, end = self.path("shot.exr"), self.path("a.exr")
         process = self.start(CORNELL, *SIZE, "--spp", "512", "--channels", "default,depth", "--snapshot", shot, "--every", "0.000001s", "-q", "-o", end)
         samples = []
@@ -342,7 +345,7 @@ class Checkpoint(Case):
             refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", name, "-o", "a.exr")
             refuse("are the same file; leave one out", CORNELL, "-o", "a.exr", "-o", name)
         link, end = self.path("b.exr"), self.path("a.exr")
-        os.symlink("a.exr", link)  # to what is not there yet
+        os.symlink("a.exr", link)  # the link's target does not exist yet
         refuse("is both the checkpoint and the picture", CORNELL, "--checkpoint", end, "-o", link)
         refuse("are the same file; leave one out", CORNELL, "-o", link, "-o", end)
         refuse("cannot open", "--resume", self.path("none.exr"), code=1)

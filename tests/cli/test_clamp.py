@@ -1,5 +1,5 @@
 # tiers: quick, full, long
-"""--clamp: what it takes away is counted, pixel by pixel; the bits are the same however a job is shared out; without it nothing changes."""
+"""--clamp: the light that it removes is counted pixel by pixel; the bits do not depend on how a job is divided; without it nothing changes."""
 import json
 import math
 import statistics
@@ -28,8 +28,8 @@ class Clamp(Case):
         self.assertEqual(whole[2], other[2])
 
     def assert_is_what_is_missing(self, job):
-        """The same samples with and without: a pixel differs by roundings of its floats alone, 2^-24 of its luminance each: of the film's
-        mean a batch, of the scaled light and of its sum. 1e-6 is 16 of them."""
+        """Renders the same samples with and without a clamp. A pixel may differ by rounding only, 2^-24 of its luminance each: a mean a
+        batch in the film, the scaled light, and its sum. 1e-6 is 16 roundings."""
         _, _, free = self.render(*job)
         _, _, clamped = self.render(*job, "--clamp", "0.5")
         lost = 0
@@ -47,15 +47,15 @@ class Clamp(Case):
                 self.assert_is_what_is_missing(job)
 
     def test_figures(self):
-        """What is stated is what the channels hold."""
+        """The report states what the channels hold."""
         report, attributes, planes = self.render("--spp", "64", "--clamp", "0.5")
         clamp, pixels = report["clamp"], len(planes["R"])
         mean, cut = sum(luminance(planes)) / pixels, sum(planes["clamped.Y"]) / pixels
         noise = sum(s * s for s in planes["clamped.stderr"]) / pixels
         self.assertEqual(clamp["limit"], 0.5)
         power = math.log2(clamp["luminance"] / 0.5)
-        self.assertAlmostEqual(4 * power, round(4 * power), delta=1e-5)    # a quarter of a power of two …
-        self.assertAlmostEqual(power, math.log2(mean + cut), delta=0.375)  # … by the picture's mean
+        self.assertAlmostEqual(4 * power, round(4 * power), delta=1e-5)  # the limit is a quarter of a power of two …
+        self.assertAlmostEqual(power, math.log2(mean + cut), delta=0.375)  # … near the picture's mean
         self.assertAlmostEqual(clamp["missing"], cut / (cut + mean), delta=1e-6)
         bias = math.sqrt(sum(c * c for c in planes["clamped.Y"]) / pixels - noise) / mean
         self.assertAlmostEqual(clamp["bias"], bias, delta=1e-5 * bias)
@@ -65,7 +65,8 @@ class Clamp(Case):
         self.assertGreater(clamp["missing_stderr"], 0)
         for name, key in [("limit", "limit"), ("luminance", "luminance"), ("missing", "missing"), ("missingStderr", "missing_stderr"),
                           ("noise", "noise"), ("bias", "bias"), ("biasMost", "bias_most"), ("error", "error")]:
-            self.assertAlmostEqual(attributes["eclat.clamp." + name], clamp[key], delta=1e-15 + 1e-14 * clamp[key])  # digits of JSON
+            # rounding of decimal digits
+            self.assertAlmostEqual(attributes["eclat.clamp." + name], clamp[key], delta=1e-15 + 1e-14 * clamp[key])
 
     def test_words(self):
         run = self.assert_ok(eclat("render", *JOB, "--spp", "64", "--clamp", "0.5", "-o", self.path("a.exr")))
@@ -74,7 +75,7 @@ class Clamp(Case):
         self.assertIn("clamped  how much light is missing is not known\n", run.stdout)
 
     def test_few_samples_decide(self):
-        """A caustic: little noise is left, but what was cut off is hardly known, and the picture is not called good."""
+        """A caustic: little noise is left, but how much light was cut off is hardly known, and the picture is not called good."""
         job = [RING, "--size", "32x32", "--spp", "64", "--clamp", "4", "-o", self.path("a.exr")]
         run = self.assert_ok(eclat("render", *job))
         self.assertRegex(run.stdout, r"bias up to [\d.]+ %, together up to [\d.]+ %\n")
@@ -85,9 +86,9 @@ class Clamp(Case):
 
     @long
     def test_standard_error(self):
-        """Over independent renders of one limit (another seed may round to another one) the spread of what is cut off, and of its share of the
-        light, is what they state of it. A variance of 20 has a relative error of 32 %; one of 10 000 is under 0.2 or over 2.5 times what is
-        expected of it."""
+        """Over independent renders of one limit (another seed may round to another limit), the spread of the removed light, and of its
+        share of all light, matches the stated errors. A variance of 20 values has a relative error of 32 %: one in 10 000 is under 0.2 or
+        over 2.5 times its expectation."""
         job = ["--spp", "16", "--sampler", "independent", "--clamp", "1"]
         renders = [self.render(*job, "--seed", str(seed)) for seed in range(30)]
         limit = statistics.mode(report["clamp"]["luminance"] for report, _, _ in renders)
@@ -106,13 +107,13 @@ class Clamp(Case):
 
     @full
     def test_direct_light_stays(self):
-        """Two segments: emission, and light reflected once. And a limit over all there is cuts nothing off."""
+        """Paths of two segments see emission, and light reflected once: neither is clamped. A limit above all radiance cuts nothing off."""
         for more, clamp in [(["--max-depth", "2"], "0.01"), ([], "1000000")]:
             free, _, planes = self.render("--spp", "32", *more)
             clamped, _, others = self.render("--spp", "32", *more, "--clamp", clamp)
             self.assertEqual(set(others["clamped.Y"] + others["clamped.stderr"]), {0.0})
             self.assertEqual((clamped["clamp"]["missing"], clamped["clamp"]["bias"]), (0, 0))
-            self.assertEqual(free["rays"], clamped["rays"])  # those of the pilot are not the picture's
+            self.assertEqual(free["rays"], clamped["rays"])  # the count leaves the pilot's rays out
             if more:
                 self.assertEqual(free["image_sha256"], clamped["image_sha256"])
             for y, other in zip(luminance(planes), luminance(others)):
@@ -153,7 +154,7 @@ class Clamp(Case):
 
     @full
     def test_adaptive(self):
-        """What pixels are due goes by the clamped picture; what is missing is a mean over each pixel's own samples."""
+        """Adaptive sampling uses the clamped picture. The missing light is a mean over each pixel's own samples."""
         job = ["--spp", "200", "--adaptive", "--clamp", "1"]
         whole = self.render(*job)
         self.assertGreater(len(set(whole[2]["samples"])), 1)
@@ -164,7 +165,7 @@ class Clamp(Case):
 
     @long
     def test_devices(self):
-        """Two of PoCL's single-threaded driver, where there is that."""
+        """Two of PoCL's single-threaded devices, where the driver has them."""
         whole = self.render("--spp", "101", "--clamp", "1")
         run = eclat("render", *JOB, "--spp", "101", "--clamp", "1", "--device", "all", "--json", "-q", "-o", self.path("b.exr"), env={"POCL_DEVICES": "basic basic"})
         report = json.loads(self.assert_ok(run).stdout)

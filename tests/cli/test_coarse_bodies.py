@@ -1,6 +1,6 @@
 # tiers: quick, long
-"""Caustics of bodies of few triangles with smooth normals, which are bent where the camera path would see their back: light paths lose no light there and
-count none twice."""
+"""Caustics of bodies that have few triangles and smooth normals. Normals are bent where a camera path would see a back. Light paths must
+lose no light there, and count none twice."""
 import os
 import sys
 import unittest
@@ -51,7 +51,7 @@ class CoarseBodies(OtherWay):
         self.check(MIRROR, 0.5, 512)
 
     def test_light_alone(self):
-        """The floor beside a mirror, by light paths alone."""
+        """The floor beside a mirror, rendered with light paths alone."""
         self.assert_same_picture([self.scene(MIRROR), *BESIDE], 512, 0, ["--integrator", "light"])
 
     @long

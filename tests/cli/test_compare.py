@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""eclat compare from end to end: figures, verdicts, exit codes, and files it cannot use."""
+"""eclat compare from end to end: figures, verdicts, exit codes, and files that it cannot use."""
 import json
 import math
 import os
@@ -31,7 +31,7 @@ class Compare(Case):
         return write_exr(self.path(name), width, height, planes, **options)
 
     def noisy(self, name, brightness=1.0, seed=0, half=False, errors=True, replicates=8):
-        """A picture with one standard deviation of noise, known: 5 % of each value."""
+        """A picture with known noise: its standard deviation is 5 % of each value."""
         noise = random.Random(seed)
         planes = {c: [brightness * (0.5 + 0.02 * (i % W)) * (1 + 0.05 * noise.gauss(0, 1)) for i in range(W * H)] for c in "RGB"}
         if errors:
@@ -47,9 +47,9 @@ class Renders(Compare):
 
     @full
     def test_the_stated_error_is_what_is_measured_against_a_long_render(self):
-        """The mean square of the stated errors is compared with that of 40 measured ones. Of 60 seeds the measured squares have a relative spread
-        of 45 %, the stated ones of 16 %: their ratio one of 7.6 %, three standard errors 23 %; of relMSE 33 % and 16 %. One run in 200 would fail
-        with other seeds."""
+        """Compares the mean square of the stated errors with that of 40 measured ones. Over 60 seeds the measured squares have a relative
+        spread of 45 %, the stated ones of 16 %. So their ratio has a spread of 7.6 %, and three standard errors are 23 %; for relMSE 33 %
+        and 16 %. One run in 200 would fail with other seeds."""
         self.render("long.exr", "--spp", "16384", "--seed", "100")
         stated, measured, relmse_stated, relmse_measured = 0, 0, 0, 0
         for seed in range(40):
@@ -64,8 +64,8 @@ class Renders(Compare):
         self.assertAlmostEqual(relmse_measured / relmse_stated, 1, delta=0.16)
 
     def test_an_edge_of_a_lamp_is_no_difference(self):
-        """Four replicates may agree by chance where a pixel is noisy and its neighbours are not, which then tell nothing of it."""
-        for a, b in [(37, 38), (46, 47)]:  # of 207 pairs these came out at 1e-13 and 1e-10
+        """Four replicates may agree by chance where a pixel is noisy and its neighbours are not; then the neighbours tell nothing about it."""
+        for a, b in [(37, 38), (46, 47)]:  # among 207 pairs, these had p = 1e-13 and 1e-10
             for seed in (a, b):
                 self.assert_ok(eclat("render", CORNELL, "-q", "--size", "32x24", "--spp", "64", "--seed", str(seed), "-o", f"{seed}.exr", cwd=self.folder))
             self.assertGreater(self.compare(f"{a}.exr", f"{b}.exr")["noise_test"]["p"], 0.01)
@@ -151,7 +151,7 @@ class Noise(Compare):
     def test_without_standard_errors_equal_means_equal(self):
         a = self.exr("a.exr", flat(0.5))
         planes = flat(0.5)
-        planes["G"][100] = 0.5 * (1 + 2e-6)  # rounding
+        planes["G"][100] = 0.5 * (1 + 2e-6)  # within rounding
         self.assertIsNone(self.compare(a, self.exr("b.exr", planes))["noise_test"])
         planes["G"][100] = 0.5001
         self.assertEqual(self.compare(a, self.exr("c.exr", planes), code=1)["unequal_pixels"], 1)

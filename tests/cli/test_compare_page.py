@@ -1,5 +1,5 @@
 # tier: full
-"""The page of `eclat compare --html`, in a real browser: no complaints, no requests, every view, an order by each column, from narrow to wide."""
+"""The page of `eclat compare --html` in a real browser: no errors, no requests, every view, sorting by each column, narrow and wide."""
 import json
 import os
 import unittest
@@ -40,7 +40,7 @@ class Page(PageCase):
         return self.browser.evaluate(expression)
 
     def seen(self, view, card=0):
-        """Which pictures of a card show in a view."""
+        """Lists the pictures of a card that a view shows."""
         self.evaluate(f"document.getElementById('view-{view}').click()")
         return self.evaluate(f"""[...document.querySelectorAll('article')[{card}].querySelectorAll('.stage img')]
             .filter(i => getComputedStyle(i).display !== 'none').map(i => i.className)""")

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""eclat compare with pictures for a screen: PNG, JPEG and WebP against EXR, masks, alpha, exposures, noise that no file states."""
+"""eclat compare with pictures for a screen: PNG, JPEG and WebP against EXR, masks, alpha, exposures, and noise that no file states."""
 import base64
 import json
 import math
@@ -14,8 +14,8 @@ from support import CORNELL, Case, eclat, write_exr
 from tiers import full
 
 W, H = 24, 16
-# All of one grey, 188 of 255, by Pillow.
-GREY = {  # to the lossy WebP a step is lost
+# Pictures of one grey, 188 of 255, made by Pillow.
+GREY = {  # the lossy WebP loses one step
     "grey.jpg": "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAIBAQEBAQIBAQECAgICAgQDAgICAgUEBAMEBgUGBgYFBgYGBwkIBgcJBwYGCAsICQoKCgoKBggLDAsKDAkKCgr/wAALCAAQ"
                 "ABgBAREA/8QAFQABAQAAAAAAAAAAAAAAAAAAAAj/xAAUEAEAAAAAAAAAAAAAAAAAAAAA/9oACAEBAAA/ALwAB//Z",
     "grey.webp": "UklGRjAAAABXRUJQVlA4ICQAAACwAgCdASoYABAAPm0skUWkIqGYBABABsS0gAA9kAAA/vDvgAA=",
@@ -24,7 +24,7 @@ GREY = {  # to the lossy WebP a step is lost
 
 
 def encode(linear):
-    """IEC 61966-2-1."""
+    """The sRGB transfer function (IEC 61966-2-1)."""
     x = min(max(linear, 0), 1)
     return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
 
@@ -54,7 +54,7 @@ class Pictures(Case):
         return [[factor * (0.02 + 0.03 * (i % W)) * (1 - 0.2 * c) for c in range(3)] for i in range(W * H)]
 
     def exr(self, name, pixels, error=0, seed=1):
-        """error: relative, of noise that the file states."""
+        """error: the relative noise that the file states."""
         noise = random.Random(seed)
         planes = {c: [p[k] * (1 + error * noise.gauss(0, 1)) for p in pixels] for k, c in enumerate("RGB")}
         if error:
@@ -110,7 +110,7 @@ class Formats(Pictures):
 
 class Noise(Pictures):
     def test_the_reference_s_noise_goes_through_the_curve(self):
-        """A right picture passes whatever the noise, and one that is 2 % darker is found while there are enough pixels."""
+        """A right picture passes whatever the noise. One that is 2 % too dark is found while there are enough pixels."""
         right, dark = self.png("right.png", self.ramp()), self.png("dark.png", self.ramp(0.9))
         for seed in range(5):
             b = self.exr("b.exr", self.ramp(), error=0.05, seed=seed)
@@ -125,7 +125,7 @@ class Noise(Pictures):
             self.assertEqual("caution   tone curves bend noise of more than 40 %" in eclat("compare", a, b).stdout, bent)
 
     def test_rounding_of_a_whole_surface_is_no_difference(self):
-        grey = [[decode(100.45 / 255)] * 3] * (W * H)  # half a step from what 8 bits hold, many standard errors of the mean
+        grey = [[decode(100.45 / 255)] * 3] * (W * H)  # half a step away from a value of 8 bits, many standard errors of the mean
         b = self.exr("b.exr", grey, error=1e-3)
         self.compare(self.png("a.png", grey), b, "--tonemap", "none")
         self.compare(self.png("off.png", grey, off=2), b, "--tonemap", "none", code=1)
@@ -198,7 +198,7 @@ class Several(Pictures):
             self.png(f"mine/{name}.png", self.ramp(factor))
         for name in "one", "two":
             self.exr(f"theirs/{name}.exr", self.ramp())
-            self.png(f"theirs/{name}.png", self.ramp(0.1))  # EXR is preferred
+            self.png(f"theirs/{name}.png", self.ramp(0.1))  # an EXR is preferred
 
     def test_each_with_the_last_or_folder_with_folder(self):
         self.fill()

@@ -1,5 +1,6 @@
 # tier: full
-"""Kernels that the driver does not have yet: a render begins with others, which compile sooner, while eclat-compile makes the fast ones."""
+"""Kernels that the driver has not compiled yet: a render begins with narrow ones, which compile sooner, while eclat-compile makes the fast
+ones."""
 import glob
 import json
 import os
@@ -41,7 +42,7 @@ class Compile(Case):
         self.addCleanup(self.end_children)
 
     def end_children(self):
-        """What would write to the folder while it is removed."""
+        """Ends the compilers, which would write to the folder while it is removed."""
         while found := children(self.cache):
             for process in found:
                 try:
@@ -50,7 +51,8 @@ class Compile(Case):
                     pass
 
     def hurry(self):
-        """True once they have ended. Beside other work, processes of the lowest priority might take for ever; only root may raise it."""
+        """Raises the priority of compilers; returns true once all have ended. Beside other work, processes of the lowest priority might
+        take for ever. Only root may raise it."""
         found = children(self.cache)
         for process in found:
             try:
@@ -60,11 +62,11 @@ class Compile(Case):
             except PermissionError:
                 self.is_refused = True
             except (FileNotFoundError, ProcessLookupError):
-                pass  # sessions are no groups here; or it has ended
+                pass  # the system does not group sessions, or the process has ended
         return not found
 
     def compiled(self, kernel):
-        """How many programs it was compiled for."""
+        """Counts the programs that have this kernel compiled."""
         return len(glob.glob(os.path.join(self.cache, "pocl", "**", kernel + ".so"), recursive=True))
 
     def render(self, *options, eclat_is=None, scene=CORNELL, spp=8, **more):
@@ -85,12 +87,12 @@ class Compile(Case):
         self.assertEqual(first["lanes"] > 1, True)
         again, _ = self.render("--compile", "first")
         self.assertEqual((again["first_kernels"], again["image_sha256"]), ("fast", first["image_sha256"]))
-        later, said = self.render()  # what was compiled first counts too
+        later, said = self.render()  # the kernels that the render above compiled count too
         self.assertEqual((later["first_kernels"], later["image_sha256"]), ("fast", first["image_sha256"]))
         self.assertNotIn(FIRST_LINE, said)
 
     def test_what_a_kernel_does_is_compiled_once(self):
-        """PoCL makes an entry point and two launchers of a kernel, into which it would inline it."""
+        """PoCL makes an entry point and two launchers of each kernel. By default the kernel's code would be inlined into all of them."""
         if not shutil.which("nm"):
             self.skipTest("nm of binutils reads the sizes")
         for options in (("--light-paths", "1"), ("--accel", "bvh8"), ("--accel", "grid")):
@@ -101,7 +103,7 @@ class Compile(Case):
             sizes = {words[3]: int(words[1], 16) for words in lines if len(words) == 4}
             with self.subTest(kernel=name):
                 self.assertIn(f"{name}_item", sizes)
-                if name not in ("ec_features", "ec_splat"):  # which are short
+                if name not in ("ec_features", "ec_splat"):  # these two are short
                     self.assertLess(sizes[f"_pocl_kernel_{name}_workgroup"], sizes[f"{name}_item"])
 
     def test_the_fast_ones_take_over(self):
@@ -133,7 +135,7 @@ class Compile(Case):
                 os.kill(int(process), signal.SIGKILL)
 
     def idle_compiler(self):
-        """An eclat whose eclat-compile does nothing."""
+        """Copies eclat beside an eclat-compile that does nothing."""
         alone = self.path("eclat")
         shutil.copy(ECLAT, alone)
         for library in glob.glob(os.path.join(os.path.dirname(ECLAT), "libeclat.so*")):
@@ -146,7 +148,7 @@ class Compile(Case):
         return alone
 
     def test_a_render_takes_part_in_compiling(self):
-        """All of it, where the other process does nothing."""
+        """The render compiles everything itself where the other process does nothing."""
         alone = self.idle_compiler()
         report, _ = self.render(eclat_is=alone, spp=12000)
         self.skip_unless_late(report)
@@ -156,7 +158,7 @@ class Compile(Case):
         self.assertEqual((later["first_kernels"], later["image_sha256"]), ("fast", report["image_sha256"]))
 
     def test_packets_are_not_waited_for(self):
-        """Of two accelerators, the one that sends a ray at a time is enough for the fast kernels to take over."""
+        """Of two accelerators' kernels, those that take one ray at a time are enough for the fast kernels to take over."""
         job = dict(scene=os.path.join(SOURCE, "scenes", "stadium", "stadium.gltf"), spp=8000)
         report, _ = self.render(eclat_is=self.idle_compiler(), **job)
         self.skip_unless_late(report)
@@ -171,7 +173,7 @@ class Compile(Case):
         self.assertEqual((report["first_kernels"], report["fast_kernels_after_seconds"]), ("narrow", None))
 
     def test_narrow_ones_to_the_end(self):
-        """Nothing is compiled but what compiles soonest, and fast ones that are there are taken."""
+        """The render compiles only narrow kernels, and uses fast ones where these are already compiled."""
         report, said = self.render("--compile", "narrow", spp=64)
         self.skip_unless_late(report)
         self.assertEqual((report["first_kernels"], report["fast_kernels_after_seconds"], children(self.cache)), ("narrow", None, []))
@@ -187,7 +189,7 @@ class Compile(Case):
         self.assertEqual((report["first_kernels"], children(self.cache)), ("fast", []))
 
     def end_children_after(self, files):
-        """Once a compiler has begun, and so many more files are in the cache, or none compiles any more."""
+        """Ends the compilers once `files` more files are in the cache, or none is left that compiles."""
         def count():
             return sum(len(names) for _, _, names in os.walk(self.cache))
         poll_until(lambda: children(self.cache))
@@ -218,7 +220,7 @@ class Compile(Case):
         self.assertEqual(report["first_kernels"], "fast")
 
     def test_a_damaged_file_is_set_aside(self):
-        whole, said = self.render(*NARROW)  # compiles quickest
+        whole, said = self.render(*NARROW)  # narrow ones compile soonest
         self.skip_unless_late(whole)
         for name, damage in (("ec_shade.so", b""), ("ec_shade.so", b"no library"), ("program.bc", None)):
             with self.subTest(name, damage=damage):
@@ -238,7 +240,7 @@ class Compile(Case):
         poll_until(lambda: self.hurry() or self.is_refused, pause=1)
         if self.is_refused:
             self.skipTest("only root may raise the priority of eclat-compile")
-        other = ("--without", "back-face-culling", "--size", "320x240")  # waves of another size
+        other = ("--without", "back-face-culling", "--size", "320x240")  # the size of waves changes
         report, said = self.render(*other)
         self.assertEqual(report["first_kernels"], "universal")
         self.assertNotIn(FIRST_LINE, said)

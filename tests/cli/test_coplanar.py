@@ -1,6 +1,6 @@
 # tier: full
-"""Of faces that lie on one another in one plane every ray meets the same one: the picture of both has, where that one is, the bits of its
-picture alone. The faces shine, one red, one green, so that one sample a pixel tells which was met."""
+"""Every ray meets the same one of two faces that overlap in one plane: the picture of both has the bits of that face's own picture wherever
+it is. One face shines red, one green, so that one sample a pixel tells which was met."""
 import math
 import os
 import sys
@@ -12,7 +12,7 @@ from support import NARROW, Case, eclat, read_exr
 
 SIZE = 48
 TURN = [0.3, 0.4, 0.2, math.sqrt(1 - 0.3 ** 2 - 0.4 ** 2 - 0.2 ** 2)]
-NEXT, OTHER, FAN = [0, 1, 2, 0, 2, 3], [0, 1, 3, 1, 2, 3], [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4]  # of corners and the middle
+NEXT, OTHER, FAN = [0, 1, 2, 0, 2, 3], [0, 1, 3, 1, 2, 3], [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4]  # indices of the corners and of the middle
 
 
 def shining(red, green, **material):
@@ -30,7 +30,7 @@ def turned(point, quaternion=TURN):
 
 
 def face(x0, y0, x1, y1, order, back=False, turn=True, height=0.0):
-    """Positions of triangles in a turned plane."""
+    """Positions of triangles in a tilted plane."""
     corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1), ((x0 + x1) / 2, (y0 + y1) / 2)]
     points = [turned((*c, height)) if turn else [*c, height] for c in corners]
     if back:
@@ -45,7 +45,8 @@ WAYS = [(), ("--accel", "bvh2"), ("--accel", "grid"), ("--accel", "kdtree"), ("-
 
 class Coplanar(Case):
     def picture(self, faces, *options, camera=None):
-        """Pixels of faces, each (material, what Scene.add() takes); (0, 0) before the environment, which no face is brighter than: none has lamps' edges."""
+        """Pixels of faces, each (material, arguments of Scene.add()); (0, 0) where the environment shows. No face is brighter than the
+        environment, so that none has rays of its own at its edges, as lamps have."""
         scene = Scene(*(material for material, _ in faces))
         scene.camera.update(camera or {})
         for k, (_, mesh) in enumerate(faces):
@@ -57,7 +58,7 @@ class Coplanar(Case):
         return [(r, g) if b == 0 else (0, 0) for r, g, b in zip(*(channels[c] for c in "RGB"))]
 
     def check(self, faces, winner, *options, **where):
-        """The first and the second of two faces by themselves, the other one being there unseen; then both."""
+        """Renders each of two faces by itself, with the other there but invisible; then both."""
         alone = [self.picture([(material if k == i else NOTHING, mesh) for k, (material, mesh) in enumerate(faces)], *options, **where) for i in (0, 1)]
         both = self.picture(faces, *options, **where)
         over, under = alone[winner], alone[1 - winner]
@@ -80,7 +81,7 @@ class Coplanar(Case):
         self.check(faces[::-1], 0, camera=behind)
 
     def test_one_mesh_in_two_places(self):
-        """Turned and moved by their nodes, so that corners are rounded otherwise."""
+        """Nodes turn and move the mesh, so that its corners are rounded differently."""
         moved = turned([0.3, 0.2, 0])
         scene_mesh = {"positions": face(*LARGE, FAN, turn=False), "rotation": TURN}
         self.check([(RED, scene_mesh), (GREEN, dict(scene_mesh, translation=moved))], 0)
@@ -98,7 +99,7 @@ class Coplanar(Case):
         self.check([(RED, {"positions": face(*LARGE, NEXT)}), (GREEN, {"positions": near})], 1)
 
     def test_lamps_that_are_hidden_do_not_shine(self):
-        """A bright lamp under a weak one, over a floor that is seen from below its edge."""
+        """A bright lamp lies under a weak one, over a floor that the camera sees from below."""
         floor = {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0, "roughnessFactor": 1}, "doubleSided": True}
         quads = [(RED, {"positions": face(*LARGE, NEXT)}), (shining(9, 9), {"positions": face(*LARGE, FAN)}),
                  (floor, {"positions": face(-2, -2, 2, 2, NEXT, height=-0.5)})]
@@ -106,7 +107,7 @@ class Coplanar(Case):
         for faces in (quads, [quads[0], (NOTHING, quads[1][1]), quads[2]]):
             pixels = self.picture(faces, "--spp", "64", "--max-depth", "2")
             means.append([sum(p[c] for p in pixels) / len(pixels) for c in (0, 1)])
-        self.assertLess(means[0][1], 1e-5)  # along the rims
+        self.assertLess(means[0][1], 1e-5)  # only along the rims
         self.assertAlmostEqual(means[0][0] / means[1][0], 1, delta=0.01)
 
 

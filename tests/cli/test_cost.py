@@ -1,5 +1,5 @@
 # tiers: quick, full, long
-"""eclat cost: the budget, the table, the JSON, what Ctrl-C leaves."""
+"""eclat cost: the budget, the table, the JSON, and what Ctrl-C leaves."""
 import json
 import math
 import os
@@ -23,7 +23,7 @@ def rung_of(report, name):
 
 
 def study_that_measures(rung, budget, *arguments):
-    """Standard output and the JSON; again with a larger budget, in seconds, where it was too small on this machine."""
+    """Returns standard output and the JSON. Doubles the budget, in seconds, where it was too small on this machine."""
     for doubled in range(6):
         with tempfile.TemporaryDirectory(prefix="eclat-cli-") as folder:
             path = os.path.join(folder, "out.json")
@@ -39,7 +39,7 @@ def study_that_measures(rung, budget, *arguments):
 
 class Denoiser(Case):
     def assert_rung_and_words(self, size, points):
-        """A budget that is enough for so many points of its curve."""
+        """Raises the budget until the denoiser's curve has so many points."""
         oidn = denoiser.environment()
         scene = os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf")
         for budget in (12, 24, 48, 96):
@@ -57,7 +57,7 @@ class Denoiser(Case):
 
     @full
     def test_rung_and_words(self):
-        """Where a denoiser is it has a rung of its own, whose bias fades, and the report says where it pays."""
+        """With a denoiser, the study has a rung for it, whose bias fades; the report says where it pays."""
         self.assert_rung_and_words("24x24", 3)
 
     @long
@@ -67,7 +67,7 @@ class Denoiser(Case):
 
 class NoDenoiser(Case):
     def test_a_library_that_is_named_but_not_there(self):
-        """The study goes on without the rung."""
+        """Without the library, the study leaves the rung out."""
         scene = os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf")
         self.assert_ok(eclat("cost", scene, *SMALL, "--budget", "2", "--json", self.path("c.json"), env={"ECLAT_OIDN": self.path("nowhere")}))
         with open(self.path("c.json"), encoding="utf-8") as file:
@@ -77,7 +77,7 @@ class NoDenoiser(Case):
 @long
 class Caustics(Case):
     def test_light_paths_are_traced(self):
-        """In a ring, most of whose noise is a caustic: they take noise away and no light."""
+        """In the ring, most of whose noise is a caustic, light paths remove noise but no light."""
         report = study_that_measures("light-paths", 15, RING, *SMALL)[1]
         base, found = rung_of(report, PATH), rung_of(report, "light-paths")
         self.assertLess(found["variance"], base["variance"])
@@ -86,7 +86,7 @@ class Caustics(Case):
 
 
 class FullStudy(Case):
-    """One study, long enough to reach what leaves something out."""
+    """One study, long enough to reach rungs that leave light out."""
 
     @classmethod
     def setUpClass(cls):
@@ -115,7 +115,7 @@ class FullStudy(Case):
 
     @full
     def test_biased_by_design(self):
-        """Direct light from a point, without shadows, is another picture; and no time helps."""
+        """Direct light from a point, without shadows, gives another picture; more time does not help."""
         raster = rung_of(self.report, "raster")
         self.assertEqual(raster["state"], "measured")
         self.assertTrue(raster["biased"])
@@ -124,7 +124,7 @@ class FullStudy(Case):
 
     @full
     def test_unbiased_by_design(self):
-        """Each by chance once in 30 000."""
+        """Each check fails by chance once in 30 000."""
         for rung in self.report["rungs"]:
             if rung.get("unbiased_by_design") and rung["id"] in ("path", "sample-light", "rr-0.8", "sampler-independent"):
                 self.assertLess(abs(rung["bias_squared"]), 4 * rung["bias_squared_se"], rung["id"])
@@ -143,7 +143,8 @@ class FullStudy(Case):
 
     @full
     def test_the_headline_and_the_table_say_the_same(self):
-        """A column's best is the default, or by more than three standard errors better; the sentence names that of its column."""
+        """The best of a column is the default, unless another is better by more than three standard errors. The headline names the best of
+        its column."""
         ids = {rung["id"]: rung for rung in self.report["rungs"]}
         base = ids[PATH]
         for column, best in self.report["best"].items():
@@ -193,7 +194,7 @@ class Study(Case):
 
     @full
     def test_pictures_fit_the_budget(self):
-        """Without --size: smaller ones where time is short, which is said."""
+        """Without --size, pictures are smaller where time is short, and the report says so."""
         run = self.assert_ok(eclat("cost", CORNELL, "--json", self.path("out.json"), "--budget", "1s"))
         with open(self.path("out.json"), encoding="utf-8") as file:
             report = json.load(file)
@@ -241,8 +242,8 @@ class Study(Case):
 
     @long
     def test_scattering(self):
-        """Where there is rough metal. White of roughness 1, seen head-on in a white sky, returns 1 - ln 2 by scattering once (Heitz 2014), and
-        next to all by scattering again: the floor is what once loses."""
+        """Rough metal has a rung. White of roughness 1, seen head-on in a white sky, returns 1 - ln 2 by single scattering (Heitz 2014),
+        and nearly everything by multiple scattering: the floor is what single scattering loses."""
         plate = {"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}
         document, _ = quad_scene(material=plate)
         document["cameras"][0]["perspective"]["yfov"] = 0.01

@@ -1,5 +1,5 @@
 # tier: full
-"""The page of `eclat cost -o`, in a real browser: no complaints, no requests, curves on the canvas, the JSON's numbers."""
+"""The page of `eclat cost -o` in a real browser: no errors, no requests, curves on the canvas, and the numbers of the JSON."""
 import json
 import os
 import unittest
@@ -52,7 +52,7 @@ class Page(PageCase):
                 self.assertEqual(columns, {})
 
     def test_what_the_cells_say(self):
-        """The first digits of a few values, by another formatter than the page's."""
+        """Compares the first digits of a few values; the page formats them differently."""
         self.show()
         text = self.browser.evaluate("""Object.fromEntries([...document.querySelectorAll("#table tr[data-id=path] td")].map(c => [c.dataset.column, c.textContent]))""")
         base = self.report["rungs"][0]
@@ -65,7 +65,7 @@ class Page(PageCase):
         expected = [[r["id"], [[p["seconds"], p["error"]] for p in r["curve"] if p["error"]]] for r in self.curves]
         self.assertEqual(drawn, expected)
         self.assertGreaterEqual(len(drawn), 3)
-        # The colour of a curve is on the canvas where its first point is, alone on the chart.
+        # The canvas has a curve's colour at its first point when only that curve is drawn.
         for index in range(len(drawn)):
             name = drawn[index][0]
             self.browser.evaluate("document.getElementById('none').click()")
@@ -107,7 +107,8 @@ class Page(PageCase):
         self.assertEqual(sizes, [[24, 24, True]] * (1 + 2 * len(pictured)))
 
     def test_slider_through_time(self):
-        """At each of its stops every rung shows its picture of the most samples that is done by then, or says when its first is."""
+        """At each stop of the slider, every rung shows the picture with the most samples that was done by then, or says when its first one
+        is."""
         self.show()
         pictured = [r for r in self.report["rungs"] if r.get("curve")]
         times = sorted({p["seconds"] for r in pictured for p in r["curve"]})

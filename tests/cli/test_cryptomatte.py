@@ -1,5 +1,6 @@
 # tiers: quick, full
-"""Cryptomatte: names by hash and the parts of pixels that they have, read by an own parser after the specification and by cryptomatte-api (PyPI)."""
+"""Cryptomatte: hashed names and their coverage of pixels, read by a parser of our own after the specification, and by cryptomatte-api
+(PyPI)."""
 import json
 import os
 import struct
@@ -15,7 +16,7 @@ KINDS = ("CryptoObject", "CryptoMaterial", "CryptoAsset")
 
 
 def murmur3(name):
-    """MurmurHash3_x86_32 with seed 0, from its reference in words of Python."""
+    """MurmurHash3_x86_32 with seed 0, after the reference implementation."""
     data, h, turn = name.encode(), 0, lambda x, r: (x << r | x >> (32 - r)) & 0xffffffff
     padded = data + b"\0" * (-len(data) % 4)
     for i in range(0, len(padded), 4):
@@ -30,13 +31,13 @@ def murmur3(name):
 
 
 def id_of(name):
-    """As the specification makes a float of it: neither infinite nor NaN nor denormal."""
+    """The specification's conversion of a hash to a float: never infinite, NaN or denormal."""
     h = murmur3(name)
     return h ^ 1 << 23 if h >> 23 & 255 in (0, 255) else h
 
 
 def read_mattes(path):
-    """{kind: (manifest, [{id: coverage} of each pixel])}, checked as far as the file goes."""
+    """Returns {kind: (manifest, [{id: coverage} of each pixel])}, and checks all that the file alone allows to check."""
     attributes, planes = read_exr(path)
     mattes = {}
     for key in [name.split("/")[1] for name in attributes if name.startswith("cryptomatte/") and name.endswith("/name")]:
@@ -58,8 +59,8 @@ def read_mattes(path):
 
 
 def two_quads():
-    """In a view of 3 x 3 "left" over x from -1 to 0 and a node without a name, of the mesh "board", over x from 0 to 0.7, both in "group"; y from -0.5 to
-    0.5. Materials "red" and one without a name."""
+    """A view of 3 x 3 with two nodes in "group": "left" has x from -1 to 0; a node without a name, of the mesh "board", has x from 0 to
+    0.7. y is -0.5 to 0.5. One material is "red", the other has no name."""
     b = Builder()
     b.camera(1.5)
     b.add(dict(GLOW, name="red"), name="left", translation=[-.5, 0, 0])
@@ -76,7 +77,8 @@ class Mattes(Case):
         return self.path(name)
 
     def test_names_and_hashes(self):
-        """Vectors of Appleby's; and what a file says: names of nodes, or of their meshes, of materials, or their numbers, of what they hang below."""
+        """Hashes match Appleby's test vectors. Names are those of nodes (without one: of their mesh), of materials (without one: a number),
+        and of the nodes at the top."""
         self.assertEqual([murmur3(s) for s in ("", "hello", "hello, world", "The quick brown fox jumps over the lazy dog")], [0, 0x248bfa47, 0x149bbb7f, 0x2e4ff723])
         path = self.render("a.exr", "--channels", "A,cryptomatte", scene=two_quads().write(self.path("two.gltf")))
         attributes, _, mattes = read_mattes(path)
@@ -94,8 +96,8 @@ class Mattes(Case):
             self.assert_coverage("--integrator", integrator)
 
     def assert_coverage(self, *options):
-        """Of 24 x 12 pixels to the bit where they are covered wholly or not at all, of the column at x = 0.7, which is covered by 0.6, within the samples'
-        discrepancy. An asset is all that hangs below it."""
+        """Of 24 x 12 pixels, those covered wholly or not at all are exact. The column at x = 0.7 is covered by 0.6 within the samples'
+        discrepancy. An asset is everything below a node."""
         path = self.render("a.exr", "--channels", "A,cryptomatte", *options, scene=two_quads().write(self.path("two.gltf")), size="24x12")
         _, _, mattes = read_mattes(path)
         left, board, red, other, group = (id_of(name) for name in ("left", "board", "red", "material1", "group"))
@@ -113,7 +115,8 @@ class Mattes(Case):
 
     @full
     def test_same_bits_everywhere(self):
-        """In any width, wave and structure, by several devices, of a scene whose meshes are kept once; the picture has the bits that it has without."""
+        """Bits do not depend on width, wave, structure or the number of devices, also for meshes that are kept once. Mattes do not change
+        the picture."""
         job = ["--channels", "default,cryptomatte", "--filter", "blackman-harris"]
         _, planes = read_exr(self.render("a.exr", *job, scene=CORNELL))
         _, alone = read_exr(self.render("b.exr", "--filter", "blackman-harris", scene=CORNELL))
@@ -125,7 +128,7 @@ class Mattes(Case):
 
     @full
     def test_meshes_that_are_kept_once(self):
-        """Names are those of places: the same with --instancing on and off."""
+        """Names belong to places: --instancing on and off give the same."""
         b = two_quads()
         b.scene["nodes"][2]["mesh"] = 0
         scene = b.write(self.path("kept.gltf"))
@@ -134,7 +137,7 @@ class Mattes(Case):
 
     @full
     def test_adaptive_samples_all_count(self):
-        """Coverage sums up to what samples say though pixels have their own numbers of them."""
+        """Coverages add up although pixels have different numbers of samples."""
         _, planes, mattes = read_mattes(self.render("a.exr", "--channels", "default,CryptoObject", "--adaptive", scene=CORNELL, spp="64"))
         self.assertGreater(len(set(planes["samples"])), 1)
         for samples, seen in zip(planes["samples"], mattes["CryptoObject"][1]):
@@ -143,7 +146,7 @@ class Mattes(Case):
 
     @full
     def test_what_moves_keeps_its_name(self):
-        """A quad that moves by two pixels while the shutter is open, and one beside it that stays."""
+        """One quad moves by two pixels while the shutter is open; another beside it stays."""
         b = two_quads()
         b.animate(1, "translation", [(-.5, 0, 0), (-.75, 0, 0)])
         path = self.render("a.exr", "--channels", "A,CryptoObject", "--shutter", "0:1", scene=b.write(self.path("moving.gltf")), spp="256")

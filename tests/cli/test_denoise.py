@@ -1,5 +1,6 @@
 # tiers: quick, full, long
-"""--denoise: what is stated is what the channels hold, R, G and B stay as they are, the PNG shows the best, and nothing happens in silence."""
+"""--denoise: the report states what the channels hold, R, G and B stay as they are, the PNG shows the best picture, and every omission is
+reported."""
 import json
 import math
 import os
@@ -14,9 +15,9 @@ from test_frames import FramesCase
 from tiers import full, long
 
 JOB = [CORNELL, "--size", "48x40", *QUICK]
-# A caustic-free room with texture and gloss, where denoising pays.
+# A room with texture and gloss but no caustics, where denoising pays.
 SMOOTH = [os.path.join(SOURCE, "scenes", "velvet", "velvet.gltf"), "--size", "64x48", *QUICK]
-WIDER = ["--effects", "needed", "--lanes", "8"]  # QUICK is of one lane
+WIDER = ["--effects", "needed", "--lanes", "8"]  # QUICK has one lane
 LAYERS = [*(f"{layer}.{c}" for layer in ("denoised", "best") for c in "RGB"), "denoised.stderr"]
 
 
@@ -29,7 +30,7 @@ def luminance(planes, layer=""):
 
 
 def distance(a, b):
-    """Of b, relative to its mean."""
+    """Distance of a and b relative to the mean of b."""
     return math.sqrt(sum((x - y) ** 2 for x, y in zip(a, b)) / len(b)) / (sum(b) / len(b))
 
 
@@ -53,30 +54,31 @@ class Denoise(Case):
             self.assertLessEqual(one["error"], one["high95"])
         self.assertAlmostEqual(math.hypot(clean["bias"], clean["noise"]), clean["error"], delta=1e-9)
         self.assertEqual(clean["tiles"], 9)
-        self.assertGreater(best["tiles_off"], 0)  # at the edges of the lamp
+        self.assertGreater(best["tiles_off"], 0)  # tiles at the edges of the lamp
         self.assertTrue(0 <= best["off_x"] < 48 and 0 <= best["off_y"] < 40)
-        self.assertLess(best["error"], 1.25 * min(clean["error"], report["error"]))  # 1920 pixels do not tell it better
+        self.assertLess(best["error"], 1.25 * min(clean["error"], report["error"]))  # 1920 pixels do not tell it more precisely
         for key in ("error", "low95", "high95"):
             self.assertAlmostEqual(attributes["eclat.denoised." + key], clean[key], delta=1e-12)
             self.assertAlmostEqual(attributes["eclat.best." + key], best[key], delta=1e-12)
         self.assertRegex(attributes["eclat.denoised.library"], r"^Open Image Denoise 2\.")
 
     def test_radiance_stays_as_it_is(self):
-        """R, G, B, their errors and the digest are those of a render with as many replicates and without --denoise, which has no such layers."""
+        """R, G, B, their errors and the digest are those of a render with as many replicates and without --denoise, which has none of the
+        layers."""
         plain, _, without = self.render("--spp", "32", "--replicates", "8", denoise=())
         report, _, planes = self.render("--spp", "32")
         self.assertIsNone(plain["denoised"])
         self.assertIsNone(plain["best"])
         self.assertEqual(plain["image_sha256"], report["image_sha256"])
         self.assertEqual(plain["error"], report["error"])
-        for name in set(without) - {"A"}:  # of first hits, of which there are more
+        for name in set(without) - {"A"}:  # A comes from first hits, of which --denoise takes more
             self.assertEqual(without[name], planes[name], name)
         self.assertEqual(sorted(set(planes) - set(without)), sorted(LAYERS))
         self.assertEqual(self.render("--spp", "32", "--replicates", "8", denoise=("--denoise=off",))[2], without)
 
     @full
     def test_same_bits(self):
-        """Again, by one thread, by other lanes and in other waves."""
+        """Repeated, and with one thread, other lanes and other waves."""
         _, _, whole = self.render("--spp", "32")
         for options, env in (([], {}), ([], {"OMP_NUM_THREADS": "1"}), (["--wave", "500", *WIDER], {})):
             with self.subTest(options=options, env=env):
@@ -84,7 +86,7 @@ class Denoise(Case):
 
     @full
     def test_atrous(self):
-        """The filter of eclat's own needs no library, and its arithmetic is exact: the same bits on one thread and by kernels of other widths."""
+        """The built-in filter needs no library, and its arithmetic is exact: one thread and kernels of other widths give the same bits."""
         nothing = {"ECLAT_OIDN": self.path("nowhere")}
         report, attributes, planes = self.render("--spp", "16", job=SMOOTH, denoise=("--denoise=atrous",), env=nothing)
         self.assertEqual(report["denoise"], "atrous")
@@ -97,7 +99,7 @@ class Denoise(Case):
 
     @full
     def test_png_shows_the_best(self):
-        """What is smooth makes a smaller file."""
+        """The PNG is smaller, since a smooth picture compresses better."""
         for name, denoise in (("clean", ["--denoise"]), ("noisy", [])):
             self.assert_ok(eclat("render", *JOB, *denoise, "--spp", "16", "-q", "-o", self.path(name + ".png"), env=self.oidn))
         self.assertLess(os.path.getsize(self.path("clean.png")), 0.9 * os.path.getsize(self.path("noisy.png")))
@@ -110,7 +112,7 @@ class Denoise(Case):
         self.assertRegex(run.stdout, rf"best     error {number} \(95 % interval {number} to {number}\); the denoiser is off in \d of 9 tiles, .* around pixel \d+, \d+\n")
 
     def test_too_few_samples(self):
-        """There is a picture, but none that is denoised, and why is said."""
+        """A picture is written, but no denoised one, and a message says why."""
         report, _, planes = self.render("--spp", "3")
         self.assertIsNone(report["denoised"]["error"])
         self.assertIn("4 samples a pixel", report["denoised"]["why_not"])
@@ -124,7 +126,7 @@ class Denoise(Case):
             self.assertIn(word, line)
 
     def test_merged(self):
-        """Slices come to the denoised picture of the whole, first hits included; each is denoised by itself."""
+        """Merged slices give the denoised picture of the whole, first hits included. Each slice can be denoised by itself."""
         whole, attributes, planes = self.render("--spp", "96", "--channels", "all")
         slices = []
         for samples in ("0:64", "64:80", "80:96"):
@@ -136,7 +138,8 @@ class Denoise(Case):
         for name in ("denoised", "best"):
             self.assertEqual({**report[name], "seconds": 0}, {**whole[name], "seconds": 0})
         merged_attributes, merged_planes = read_exr(merged)
-        exact = {c: v if v == planes[c] else [half(x) for x in v] for c, v in merged_planes.items()}  # a picture alone keeps some in 16 bits
+        # a picture that can be merged no further keeps some channels in 16 bits
+        exact = {c: v if v == planes[c] else [half(x) for x in v] for c, v in merged_planes.items()}
         self.assertEqual([c for c in planes if exact.get(c) != planes[c]], [])
         first = read_exr(slices[0])[1]
         self.assertNotEqual([half(x) for x in first["albedo.R"]], planes["albedo.R"])
@@ -151,7 +154,8 @@ class Denoise(Case):
         self.assertFalse(os.path.exists(self.path("c.exr")))
 
     def test_no_library(self):
-        """--denoise oidn names both ways to get one, and nothing is rendered before; --denoise alone says so and filters by itself."""
+        """--denoise oidn fails before rendering, and names both ways to get the library. --denoise alone says that the library is missing,
+        and uses the built-in filter."""
         nowhere = {"HOME": self.folder, "VIRTUAL_ENV": "", "ECLAT_OIDN": self.path("nowhere")}
         line = self.assert_one_error(eclat("render", *JOB, "--denoise", "-o", self.path("a.exr"), env=nowhere), 1)
         self.assertIn("ECLAT_OIDN: there is no", line)
@@ -175,7 +179,7 @@ class Denoise(Case):
 
     @full
     def test_stops_by_the_clean_picture(self):
-        """The error asked for is reached with fewer samples; the stated interval of the best picture ends under it."""
+        """The requested error is reached with fewer samples: the stated interval of the best picture ends below it."""
         noisy, _, _ = self.render("--error", "2.5%", "--adaptive=off", job=SMOOTH, denoise=())
         clean, _, _ = self.render("--error", "2.5%", "--adaptive=off", job=SMOOTH)
         self.assertEqual(clean["stopped_by"], "error")
@@ -185,7 +189,7 @@ class Denoise(Case):
 
     @long
     def test_stated_error_is_the_real_one(self):
-        """Of 20 seeds: the interval holds the distance to a long render in most of them. 95 % of 20 stray by 1.0."""
+        """The interval contains the distance to a long render for most of 20 seeds. The standard deviation of 95 % of 20 is 1.0."""
         _, _, reference = self.render("--spp", "8192", "--seed", "99", name="r.exr", job=SMOOTH, denoise=())
         truth = luminance(reference)
         held = 0
@@ -196,7 +200,7 @@ class Denoise(Case):
 
     @full
     def test_resumed(self):
-        """A checkpoint goes on to the same clean picture, and so does one without first hits of all its samples."""
+        """A resumed render gives the same denoised picture, also from a checkpoint that lacks first hits of some samples."""
         _, _, whole = self.render("--spp", "96")
         for spp in ("20", "40", "64"):
             checkpoint = self.path("c.exr")
@@ -206,7 +210,7 @@ class Denoise(Case):
 
 
 class Halves(Case):
-    """With a denoiser that makes all colours 0.9 as bright."""
+    """A stand-in for the denoiser makes all colours 0.9 as bright."""
 
     def render(self, *options, env=None):
         if "ECLAT_DIM_DENOISER" not in os.environ:
@@ -222,7 +226,8 @@ class Halves(Case):
                 self.assertAlmostEqual(denoised, 0.9 * noisy, delta=1e-6 * abs(noisy))
 
     def test_each_half_has_its_own_guides(self):
-        """The albedo in place of colours: the mean of both halves' is that of the whole picture, but for the scale that colours are filtered in."""
+        """The stand-in returns the albedo in place of colours. The mean of both halves' albedos is the whole picture's, times the scale in
+        which colours are filtered."""
         _, planes = self.render("--spp", "16", "--channels", "denoised,albedo", env={"DIM_SHOWS_ALBEDO": "1"})
         scale = 2 ** round(math.log2(sum(planes["denoised.R"]) / sum(planes["albedo.R"])))
         for c in "RGB":
@@ -230,8 +235,8 @@ class Halves(Case):
                 self.assertAlmostEqual(denoised, scale * albedo, delta=1e-3 * scale)  # half floats
 
     def test_each_half_is_judged_by_the_other(self):
-        """A half that judged itself would take its noise for accuracy: 0.41 of the squared error would be stated."""
-        truth = luminance(self.render("--spp", "512", "--seed", "99")[1])  # its own noise adds 3 % to what is real
+        """A half that judged itself would take its noise for accuracy: the stated squared error would be 0.41 of the real one."""
+        truth = luminance(self.render("--spp", "512", "--seed", "99")[1])  # its own noise adds 3 % to the real error
         stated = real = 0
         for seed in range(8):
             report, planes = self.render("--spp", "16", "--seed", str(seed))
@@ -242,8 +247,8 @@ class Halves(Case):
 
 class Truths(unittest.TestCase):
     def test_without_bias(self):
-        """Sets of six pictures of ten pixels around 1, with a noise of 0.5, and one with a pixel off by 0.3: squares of 0.25 and of 0.009, though the mean
-        of five strays by 0.05."""
+        """Sets of six pictures of ten pixels around 1 with a noise of 0.5, and one picture with a pixel off by 0.3. Their expected squares
+        are 0.25 and 0.009, though the mean of five pictures has a variance of 0.05."""
         sets, sums, off, dice = 400, [0, 0], [1.3] + [1.0] * 9, random.Random(1)
         for _ in range(sets):
             noisy = [[1 + 0.5 * dice.gauss(0, 1) for _ in range(10)] for _ in range(6)]
@@ -258,7 +263,7 @@ class Truths(unittest.TestCase):
 @full
 class Frames(FramesCase):
     def test_each_by_itself(self):
-        """As the picture of that moment alone."""
+        """Each frame equals the picture of that moment alone."""
         oidn, scene = denoiser.environment(), self.sliding()
         job = ["render", scene, "--size", "32x24", *QUICK, "--denoise", "--spp", "32", "-q"]
         self.assert_ok(eclat(*job, "--frames", "0:1", "--fps", "4", "-o", self.path("f%d.exr"), env=oidn))

@@ -1,18 +1,18 @@
 # tier: long
-"""Does the stated interval of a denoised picture hold its real error, on ten scenes at three budgets, 100 seeds each? Prints a cell's row of
-docs/denoise.md; denoise_seeds.py says how it is measured, and does it by hand."""
+"""Checks that the stated interval of a denoised picture contains its real error, on ten scenes at three budgets, for 100 seeds each. Prints
+a row of docs/denoise.md for each cell. denoise_seeds.py describes the measurement, and can be run by hand."""
 import os
 import tempfile
 import unittest
 
 from denoise_seeds import SCENES, SEEDS, measure, show
 
-LEAST = 89  # of 100 seeds: 95 stray by 2.2, and of 60 counts one by 2.6 times that
+LEAST = 89  # of 100 seeds: a count of 95 has a standard deviation of 2.2, and the lowest of 60 counts is 2.6 times that below
 
 
 class Coverage(unittest.TestCase):
     def measure(self, *words):
-        """Kept in $ECLAT_SEEDS, else for as long as it takes."""
+        """Renders are kept in $ECLAT_SEEDS, or in a temporary folder."""
         with tempfile.TemporaryDirectory() as passing:
             cells = measure(os.environ.get("ECLAT_SEEDS", passing), *words)
         show(cells)
@@ -27,10 +27,10 @@ class Coverage(unittest.TestCase):
         for layer in (1, 2):
             held = sum(cell.held(layer) for cell in cells) / (SEEDS * len(cells))
             self.assertGreater(held, 0.94)
-            self.assertLess(held, 0.97)  # wider intervals than need be say too little; 96 % of 3000 stray by 0.4
+            self.assertLess(held, 0.97)  # intervals that are too wide say too little; 96 % of 3000 have a standard deviation of 0.4 %
 
     def test_with_a_clamp(self):
-        """Of the clamped picture: the truth has the same limit."""
+        """Renders with a clamp: the truth has the same limit."""
         for scene in ("ring/ring", "lamps/lamps"):
             self.measure(scene, SEEDS, ["--clamp", "10"], (16, 64))
 

@@ -72,7 +72,8 @@ class Devices(Case):
         self.assertIn("pocl-opencl-icd", line)
 
     def test_a_driver_that_the_loader_is_not_told_of(self):
-        """As in containers that get NVIDIA's libraries from outside: what stands in for the driver is any library."""
+        """Containers may get NVIDIA's libraries from outside, without a file that tells the loader. Any library stands in for the driver
+        here."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         shutil.copy(os.environ["ECLAT_FAULT_SHIM"], self.path("libnvidia-opencl.so.1"))
@@ -83,7 +84,7 @@ class Devices(Case):
         self.assertEqual(self.assert_ok(eclat(*picture, env=brought_in)).stderr, f"eclat: warning: {mend}\n")
         self.assertEqual(self.assert_ok(eclat(*picture, "--device", "0", env=brought_in)).stderr, "")
         drivers = "/etc/OpenCL/vendors"
-        if os.path.isdir(drivers):  # who names a folder has chosen
+        if os.path.isdir(drivers):  # a user who names a folder of drivers has chosen
             self.assertEqual(self.assert_ok(eclat("devices", env={**brought_in, "OCL_ICD_VENDORS": drivers})).stderr, "")
         line = self.assert_one_error(eclat("devices", env={**brought_in, "OCL_ICD_VENDORS": self.path("none")}), 1)
         self.assertIn("no OpenCL driver is installed; " + mend, line)

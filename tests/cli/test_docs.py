@@ -1,5 +1,6 @@
 # tier: quick
-"""README and manual: links lead somewhere, commands are known to the program, generated parts are fresh, the site builds and asks nobody."""
+"""README and manual: links lead somewhere, commands exist, generated parts are up to date, and the site builds and loads nothing from
+elsewhere."""
 import glob
 import json
 import os
@@ -44,7 +45,7 @@ def without_code(text):
 
 
 def anchors(text):
-    """Of headings, as MkDocs makes them and as code hosts do; only those in which both agree can be linked to."""
+    """Anchors of headings, as MkDocs and code hosts make them. Only those in which both agree can be links' targets."""
     found = set()
     for heading in re.findall(r"^#+ (.+)$", text, re.M):
         plain = re.sub(r"[^\w\s-]", "", heading).strip().lower()
@@ -56,13 +57,13 @@ def anchors(text):
 
 
 def code_lines(text):
-    """Lines of indented blocks without comments, and what stands in backquotes; fenced blocks are other programs' output."""
+    """Lines of indented blocks without comments, and text in backquotes. Fenced blocks are output of other programs."""
     text = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     return [re.sub(r"\s#.*", "", line) for line in re.findall(r"^ {4}(.*)$", text, re.M)] + re.findall(r"`([^`\n]+)`", text)
 
 
 def eclat_commands(text):
-    """Command lines of eclat as lists of words, with something in place of shell variables."""
+    """eclat's command lines as lists of words, with values in place of shell variables."""
     for line in code_lines(text):
         line = re.sub(r"^tools/render", "eclat render", line)
         for command in re.findall(rf"\beclat (?:{'|'.join(COMMANDS)})\b(?:'[^'|;]*'|[^'|;])*", line):
@@ -92,7 +93,7 @@ class Text(Case):
         self.assertLessEqual(len(read(MANUAL[0]).split()), README_WORDS)
 
     def test_commands_are_known(self):
-        """With --help at the end the program reads all options, says so, and does nothing."""
+        """With --help at the end the program checks all options, prints help, and does nothing else."""
         count = 0
         for path in MANUAL:
             for words in eclat_commands(read(path)):
@@ -119,14 +120,15 @@ class Text(Case):
 
 
 class Facts(Case):
-    """What the manual lists is what the program has."""
+    """Lists in the manual match the program."""
 
     def test_json_keys_and_channels(self):
         page = read(os.path.join(ROOT, "docs", "scripting.md"))
         keys, channels = (re.findall(r"^\| (`.*?) \|", page.split(head)[1].split("\n\n")[0], re.M) for head in ("| key of a render |", "| channel |"))
         run = self.assert_ok(eclat("render", CORNELL, "--lanes", "4", "--size", "8x8", "--spp", "8", "--clamp", "10", "--channels", "all", "--json", "-q", "-o", "a.exr", cwd=self.folder))
         report, planes = json.loads(run.stdout), read_exr(self.path("a.exr"))[1]
-        planes = set(planes) | {*(f"{layer}.{c}" for layer in ("denoised", "best") for c in "RGB"), "denoised.stderr"}  # by a library that may not be here
+        # channels of a library that may be missing here
+        planes = set(planes) | {*(f"{layer}.{c}" for layer in ("denoised", "best") for c in "RGB"), "denoised.stderr"}
         self.assertEqual(set(re.findall(r"`(\w+)`", " ".join(keys))) - set(report), set())
         listed, stem = set(), ""
         for name in re.findall(r"`([\w.]+)`", " ".join(channels)):
@@ -151,7 +153,7 @@ class Pictures(unittest.TestCase):
                 self.assertTrue(PICTURE.search(text), "no picture")
                 for caption, file in PICTURE.findall(text):
                     self.assertTrue(caption, file)
-                    if not file.endswith(".svg"):  # drawn by hand
+                    if not file.endswith(".svg"):  # these are drawn by hand
                         self.assertTrue(text.split(f"]({file})\n\n", 1)[1].startswith("    "), f"no command below {file}")
 
     def test_they_are_small_and_all_in_use(self):

@@ -1,5 +1,5 @@
 # tier: full
-"""The manual's examples as a reader runs them: the notebook, and the recipe that tests a renderer against a reference."""
+"""The manual's examples as a reader runs them: the notebook, and the script that tests a renderer against a reference."""
 import ast
 import json
 import os
@@ -14,7 +14,7 @@ NOTEBOOK = os.path.join(SOURCE, "docs", "examples", "how-many-samples.ipynb")
 
 
 def recipe():
-    """The shell blocks of the manual: how the reference is made, and what each run does."""
+    """The manual's shell blocks: one makes the reference, others test a picture."""
     with open(os.path.join(SOURCE, "docs", "scripting.md"), encoding="utf-8") as page:
         return re.findall(r"```sh\n(.*?)```", page.read().split("## Check a renderer")[1].split("\n## ")[0], re.DOTALL)
 
@@ -35,36 +35,36 @@ class Examples(support.Case):
         self.assertGreater(support.png_size(self.path("a.png"))[0], 300)
         fresh, kept = (json.load(open(path, encoding="utf-8"))["cells"] for path in (out, NOTEBOOK))
         self.assertEqual([cell["source"] for cell in fresh], [cell["source"] for cell in kept])
-        for cell in kept:  # what the manual shows is what it was executed to
+        for cell in kept:  # the manual shows the result of running the notebook
             self.assertTrue(cell["cell_type"] == "markdown" or cell["execution_count"])
         answer = ast.literal_eval("".join(fresh[-1]["outputs"][0]["data"]["text/plain"]))
         best, worst = answer["forecast"]
         self.assertTrue(best <= answer["samples"] <= worst, answer)
         self.assertLess(answer["adaptive"], answer["samples"])
         self.assertLessEqual(answer["bound"], answer["target"])
-        # As far from the reference as both errors allow: the noise of 96 x 96 pixels is known to a few per cent.
+        # The distance to the reference is within both errors: the noise of 96 x 96 pixels is known to a few per cent.
         self.assertLess(answer["distance"], 1.2 * answer["distance of noise"])
 
     def test_the_page(self):
-        """Every block of Python, as it stands."""
+        """Runs every block of Python unchanged."""
         os.symlink(os.path.join(SOURCE, "scenes"), self.path("scenes"))
         with open(os.path.join(SOURCE, "docs", "python.md"), encoding="utf-8") as page:
             blocks = re.findall(r"```python\n(.*?)```", page.read(), re.DOTALL)
         self.assertGreater(len(blocks), 2)
         for block in blocks:
             run = self.assert_ok(self.run_here(self.venv.python, "-c", block))
-        self.assertTrue(100 <= int(re.findall(r"(\d+) spp", run.stdout)[-1]) < 1000)  # the last one stops where it says
+        self.assertTrue(100 <= int(re.findall(r"(\d+) spp", run.stdout)[-1]) < 1000)  # the last one stops at its limit
         self.assertTrue(os.path.exists(self.path("picture.exr")) and os.path.exists(self.path("picture.png")))
 
     def test_the_recipe(self):
-        # It knows nothing of its noise; WRONG are options by which it errs.
+        # This renderer does not state its noise. WRONG: options that make it wrong.
         support.stand_in_renderer(self.folder, "--replicates 1 --channels A -q $WRONG")
         os.symlink(os.path.join(SOURCE, "docs"), self.path("docs"))
         reference, check = recipe()
         self.assert_ok(self.run_here("sh", "-ec", reference))
         right = self.assert_ok(self.run_here("sh", "-ec", check))
         self.assertIn("no more different than noise makes them", right.stdout)
-        # Noisier, and as right.
+        # Noisier, but as right.
         self.assert_ok(self.run_here("sh", "-ec", check, WRONG="--spp 16"))
         for wrong in ("--max-depth 4", "--fov 39"):
             os.remove(self.path("difference.png"))

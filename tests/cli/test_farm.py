@@ -1,5 +1,5 @@
 # tier: quick
-"""The scripts for Slurm and for machines reached by ssh, with stand-ins for both: the bits of one render."""
+"""The scripts for Slurm and for machines reached by ssh, with stand-ins for both: the picture has the bits of one render."""
 import glob
 import os
 import signal
@@ -10,7 +10,7 @@ from polling import GUARD, poll_writes
 from support import CORNELL, ECLAT, ENVIRONMENT, SOURCE, Case, eclat, read_alike, read_exr
 
 SIZE = ["--size", "20x18"]
-JOB = ["--spp", "47"]  # which is within a batch, 44:48
+JOB = ["--spp", "47"]  # the last batch, 44:48, is cut
 
 
 class Farm(Case):
@@ -32,9 +32,9 @@ class Farm(Case):
     def test_an_array_job(self):
         for number in [3, 0, 4, 1]:
             self.assert_ok(self.task(number))
-        self.assert_ok(self.task(2, tasks=1, TASKS="5"))  # submitted again, alone
+        self.assert_ok(self.task(2, tasks=1, TASKS="5"))  # this task is submitted again, alone
         with open(self.path("cornell-box.8.checkpoint.exr"), "w", encoding="utf-8"):
-            pass  # of a task that is to run again: no slice
+            pass  # the checkpoint of a task that is to run again is no slice
         slices = sorted(os.path.basename(path) for path in glob.glob(self.path("cornell-box.*-*.exr")))
         self.assertEqual(slices, ["cornell-box.0-8.exr", "cornell-box.16-24.exr", "cornell-box.24-32.exr", "cornell-box.32-47.exr", "cornell-box.8-16.exr"])
         self.assert_ok(eclat("merge", *map(self.path, slices), "-q", "-o", self.path("all.exr")))
@@ -54,13 +54,14 @@ class Farm(Case):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_a_task_that_is_run_again(self):
-        """Cut off it leaves a checkpoint, and out of time it asks for a place in the queue too."""
+        """A task that is interrupted leaves a checkpoint. One that runs out of time also puts itself into the queue again."""
         big = [CORNELL, "8000000", "--size", "32x32", "--max-depth", "3"]
         task = {"SLURM_ARRAY_JOB_ID": "77", "SLURM_ARRAY_TASK_ID": "1", "SLURM_ARRAY_TASK_COUNT": "2"}
         kept, asked, before = self.path("cornell-box.4000000.checkpoint.exr"), self.path("asked"), 0
         self.program("scontrol", f'echo "$@" >{asked}')
         path = self.folder + ":" + os.environ["PATH"]
-        often = self.program("often", f"exec '{os.path.abspath(ECLAT)}' \"$@\" --every 0.1s")  # where it is gone on with, it would be once a minute
+        # a task that goes on would write once a minute
+        often = self.program("often", f"exec '{os.path.abspath(ECLAT)}' \"$@\" --every 0.1s")
         for number, code in [(signal.SIGTERM, 143), (signal.SIGUSR1, 0)]:
             process = subprocess.Popen([os.path.join(SOURCE, "tools", "farm", "array.sbatch"), *big], cwd=self.folder,
                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
@@ -75,14 +76,14 @@ class Farm(Case):
             self.assertEqual(glob.glob(self.path("cornell-box.*-*.exr")) + glob.glob(self.path("*.part.exr")), [])
         with open(asked, encoding="utf-8") as file:
             self.assertEqual(file.read(), "requeue 77_1\n")
-        wrapper = self.program("wrapper", 'echo "$@"; for last; do :; done; : >"$last"')  # writes what a render would have
+        wrapper = self.program("wrapper", 'echo "$@"; for last; do :; done; : >"$last"')  # writes a file in place of a render
         resumed = self.run_script("array.sbatch", *big, ECLAT=wrapper, **task)
         self.assert_ok(resumed)
         self.assertIn("--resume cornell-box.4000000.checkpoint.exr", resumed.stdout)
         self.assertEqual(glob.glob(self.path("cornell-box.*.exr")), [self.path("cornell-box.4000000-8000000.exr")])
 
     def test_time_that_is_too_short(self):
-        """What has rendered nothing is not put into the queue for ever."""
+        """A task that has rendered nothing is not put into the queue for ever."""
         self.program("scontrol", "echo asked >&2")
         sleeper = self.program("sleeper", 'trap "exit 0" TERM; kill -USR1 $PPID; tail --pid=$$ -f /dev/null & wait')
         run = self.run_script("array.sbatch", CORNELL, "47", ECLAT=sleeper, PATH=self.folder + ":" + os.environ["PATH"], SLURM_ARRAY_JOB_ID="77",
@@ -110,7 +111,7 @@ class Farm(Case):
         self.assertEqual(sorted(os.listdir(self.folder)), ["all.exr.farm", "ssh", "whole.exr"])
 
     def test_a_farm_of_nothing(self):
-        """Refused before anything is there that the right command would stumble over."""
+        """Bad arguments are refused before any file is made that would disturb the right command."""
         wrong = [("", "47", {}, "no hosts"), (" ", "47", {}, "no hosts")]
         wrong += [("here", spp, {}, f"'{spp}' is not a number of samples") for spp in ["0", "00", "abc", "", "4.5"]]
         wrong += [("here", "47", {name: value}, name) for name, value in [("STEP", "0"), ("STEP", "8x"), ("SLICES", "x")]]
@@ -120,7 +121,7 @@ class Farm(Case):
             self.assertRegex(run.stderr, r"\Afarm: .*\n\Z")
             self.assertIn(says, run.stderr)
         self.assertEqual(os.listdir(self.folder), [])
-        os.makedirs(self.path("all.exr.farm", "todo"))  # of a command that came to nothing: another begins anew
+        os.makedirs(self.path("all.exr.farm", "todo"))  # of an earlier command that failed: the new one begins again
         with open(self.path("all.exr.farm", "job"), "w", encoding="utf-8") as file:
             file.write("another\n")
         run = self.run_script("farm", "down", CORNELL, "47", "all.exr", *SIZE, FARM_SSH="false", SLICES="2")
@@ -128,7 +129,7 @@ class Farm(Case):
         self.assertEqual(len(os.listdir(self.path("all.exr.farm", "todo"))), 2)
 
     def test_a_farm_that_goes_on(self):
-        """The machine renders two slices and is gone; the same command renders the other three."""
+        """The machine renders two slices and disappears; the same command renders the other three."""
         farm = ["farm", "here", CORNELL, "47", "all.exr", *SIZE, "--seed", "0"]
         stop = dict(FARM_SSH=self.path("ssh"), SLICES="5")
         self.program("ssh", 'shift\n[ ! -e gone ] || exit 255\necho >>rendered\n[ "$(wc -l <rendered)" != 2 ] || : >gone\nexec sh -c "$*"')

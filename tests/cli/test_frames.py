@@ -1,6 +1,6 @@
 # tiers: quick, full
-"""Sequences of frames: each the bits of that frame alone, skipped where it is done, refused where it is something else; and what the frames
-share."""
+"""Sequences of frames: each frame has the bits of a render of it alone, is skipped where it is done, and refused where the file is
+something else. Also tests what frames share."""
 import json
 import math
 import os
@@ -15,12 +15,12 @@ from test_motion import GLOW, GREY, Builder, room, turn
 from tiers import full
 
 SMALL = ["--size", "16x12", "--spp", "4", "-q"]
-# Scenes of these call for what the Cornell box does, whose kernels other tests compile.
+# Scenes of these materials need only the Cornell box's effects, whose kernels other tests compile.
 MATT, LAMP = (dict(material, doubleSided=False) for material in (GREY, GLOW))
 
 
 def rows_of(run):
-    """What --json said: a line for each frame, and one for all."""
+    """Output of --json: a line for each frame, and one for the sequence."""
     rows = [json.loads(line) for line in run.stdout.splitlines()]
     return rows[:-1], rows[-1]
 
@@ -34,7 +34,7 @@ class FramesCase(Case):
         self.assertIn(says, line)
 
     def model(self, name, half=4):
-        """With a camera of its own: a still would be framed by itself."""
+        """Returns a sample model with a camera added: without one, each still would be framed by itself."""
         path = os.path.join(SHARED, "assets", "gltf", name, "glTF", name + ".gltf")
         if not os.path.exists(path):
             self.skipTest("no " + path)
@@ -50,7 +50,8 @@ class FramesCase(Case):
         return write_gltf(self.path(name + ".gltf"), scene)
 
     def sliding(self):
-        """A lamp that slides over a grey floor, seen from behind and so not itself; and with --animation all a slab that turns: little to render."""
+        """A lamp that slides over a grey floor. The camera is behind the lamp and does not see it. With --animation all, a slab turns too.
+        Renders quickly."""
         b = Builder()
         b.add(MATT, scale=[4, 4, 4], translation=[0, 0, -1])
         b.animate(b.add(LAMP, rotation=turn(0, 180)), "translation", [(-1, 0, 1), (1, 0, 1)])
@@ -62,7 +63,7 @@ class FramesCase(Case):
 @full
 class SameBits(FramesCase):
     def assert_as_alone(self, scene, *options, frames="0:4:2", fps="8", numbers=(0, 2, 4)):
-        """The sequence, each frame by --at, and one by the command that its file has."""
+        """Compares the sequence with a render of each frame by --at, and one frame with a run of the command in its report."""
         frames, last = rows_of(self.render(scene, "--frames", frames, "--fps", fps, "-o", "s.%02d.exr", *options))
         self.assertEqual((last["frames"], last["rendered"], last["skipped"], last["failed"]), (len(numbers), len(numbers), 0, 0))
         self.assertEqual([row["frame"] for row in frames], list(numbers))
@@ -105,7 +106,7 @@ class SameBits(FramesCase):
             self.assertEqual(row["shared"]["structures"], "kept", row["frame"])
 
     def test_a_limit_of_its_own(self):
-        """A clamp goes by each frame's mean luminance."""
+        """The clamp depends on each frame's mean luminance."""
         frames = self.assert_as_alone(room().write(self.path("room.gltf")), "--animation", "all", "--env", "0.3,0.3,0.3", "--clamp", "0.5", *QUICK)
         for row in frames:
             self.assertGreater(row["clamp"]["missing"], 0)
@@ -127,7 +128,8 @@ class SameBits(FramesCase):
             self.assertEqual(got, wanted, accel)
 
     def test_a_frame_before_anything_is_there(self):
-        """What pops in: the first picture is of what lies around, by every integrator. kernel/test_traversal has structures of nothing."""
+        """The object appears after the first frame, which shows only the environment, with every integrator. kernel/test_traversal has
+        empty structures."""
         b = Builder()
         b.animate(b.add(GLOW), "scale", [(0, 0, 0), (1, 1, 1)])
         b.camera(1)
@@ -158,7 +160,8 @@ class SameBits(FramesCase):
             self.assertEqual(alone["image_sha256"], row["image_sha256"])
 
     def test_triangles_that_would_be_cut(self):
-        """Long beams across each other: single stills may have them in parts, frames never, so that they are the same whatever came before."""
+        """Long beams across each other. A still may cut triangles into parts; frames never do, so that a frame does not depend on those
+        before it."""
         b = Builder()
         b.add(MATT, scale=[6, 6, 6], translation=[0, 0, -1])
         b.animate(b.add(LAMP, translation=[0, 0, 3], rotation=turn(0, 180)), "translation", [(0, 0, 3), (1, 0, 3)])
@@ -172,7 +175,7 @@ class SameBits(FramesCase):
         rows, _ = rows_of(self.render(scene, "--frames", "0:2", *common, "-o", "s.%d.exr"))
         first, *others = [row["shared"]["structures"] for row in rows]
         self.assertEqual(first, "built")
-        self.assertLessEqual(set(others), {"refitted", "rebuilt"})  # as the one or the other was quicker
+        self.assertLessEqual(set(others), {"refitted", "rebuilt"})  # by whichever took less time
         for row in rows:
             alone, _ = rows_of(self.render(scene, "--frames", str(row["frame"]), *common, "-o", f"alone{row['frame']}.exr"))
             self.assertEqual(alone[0]["image_sha256"], row["image_sha256"], row["frame"])
@@ -192,7 +195,7 @@ class SameBits(FramesCase):
         self.refuse(scene, "--seed frame belongs to --frames", "--seed", "frame")
 
     def test_what_appears_and_goes(self):
-        """Triangles without area are dropped: what structures are of changes from frame to frame."""
+        """Triangles without area are dropped: the set of triangles changes from frame to frame."""
         b = Builder()
         b.add(MATT, scale=[4, 4, 4], translation=[0, 0, -1])
         b.animate(b.add(LAMP), "scale", [(0, 0, 0), (1, 1, 1), (0, 0, 0)], times=(0.0, 0.5, 1.0))
@@ -346,7 +349,7 @@ class Going(FramesCase):
 
 
 class Sharing(FramesCase):
-    """After the first frame nothing is made again that stays as it is. The figures are what the program counts as it does so."""
+    """After the first frame, whatever stays as it is is kept. The figures are the program's own counts."""
 
     def shared(self, scene, *options):
         rows, _ = rows_of(self.render(scene, *options, "-o", "x.%d.exr"))
@@ -364,7 +367,7 @@ class Sharing(FramesCase):
             self.assertGreaterEqual(row["bytes_kept"], texels)
             self.assertLess(row["bytes_uploaded"], first["bytes_uploaded"] - texels + 1)
         self.assertIn("refitted", [row["structures"] for row in others])
-        for row in others: # until a tree is built anew, when time says so, which has nodes of its own number
+        for row in others:  # as far as the first rebuilt tree, whose number of nodes is another; when a tree is rebuilt depends on time
             if row["structures"] == "rebuilt":
                 break
             self.assertEqual(row["bytes_kept"] + row["bytes_uploaded"], first["bytes_uploaded"])
@@ -405,7 +408,7 @@ class Sharing(FramesCase):
 
     @full
     def test_other_effects_build_other_programs_and_only_then(self):
-        """The lamp goes out between frame 1 and 2: kernels for what the scene calls for are others from then on."""
+        """The lamp goes out between frames 1 and 2: from then on the scene needs kernels for other effects."""
         b = Builder()
         b.add(MATT, scale=[4, 4, 4], translation=[0, 0, -1])
         lamp = b.add(LAMP)

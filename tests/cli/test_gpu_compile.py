@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""tools/gpu_compile: what the kernels come to on graphics cards, and budgets that they keep. Skips where the compilers cannot be had."""
+"""tools/gpu_compile: registers and memory of the kernels on graphics cards, within budgets. Skips without the compilers."""
 import json
 import os
 import subprocess
@@ -14,7 +14,7 @@ BUILD = os.path.dirname(os.path.abspath(ECLAT))
 NVIDIA, AMD, INTEL = ("sm_75", "sm_90"), ("gfx906", "gfx1030", "gfx1100"), ("tgllp", "dg2")
 NAMES = {"ec_generate", "ec_intersect_bvh2", "ec_shade", "ec_connect_bvh2", "ec_lamp_edges", "ec_accumulate", "ec_features"}
 
-# Most registers of a work-item on NVIDIA's and on AMD's cards.
+# Maximum registers of a work-item on NVIDIA's and on AMD's cards.
 SHADE = {"cornell-box": (96, 96), "showcase": (128, 120), "lamps": (168, 168)}
 TRACE = (80, 80)
 STACK = 128  # bytes of private memory
@@ -45,7 +45,7 @@ class Usage(Case):
 
 @full
 class Budgets(Case):
-    """Of one scene on Intel's cards, whose compiler takes ten times as long as the others."""
+    """Intel's compiler takes ten times as long as the others: it compiles one scene only."""
 
     def rows(self, name, *options):
         done = run("--json", *options, scene(name))
@@ -64,10 +64,10 @@ class Budgets(Case):
             with self.subTest(target=row["target"], kernel=row["kernel"]):
                 shade, is_trace = row["kernel"] == "ec_shade", row["kernel"].endswith("bvh2")
                 self.assertEqual(row["spill_bytes"], 0)
-                self.assertFalse(row["lane_atomics"])  # None where that is not known
+                self.assertFalse(row["lane_atomics"])  # None: not known
                 self.assertLessEqual(row["private_bytes"], STACK if is_trace else 0)
                 most = SHADE[name] if shade else TRACE if is_trace else (64, 64)
-                if row["target"] not in INTEL:  # whose threads have 128, and hold more work-items or fewer
+                if row["target"] not in INTEL:  # Intel's threads have 128 each, and vary the number of work-items instead
                     self.assertLessEqual(row["registers"], most[row["target"] in AMD])
 
     def test_diffuse_scene(self):

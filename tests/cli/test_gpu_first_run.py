@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""tools/gpu_first_run, tried on a processor that is taken for a card."""
+"""tools/gpu_first_run, tried on a CPU that is treated as a graphics card."""
 import os
 import re
 import signal

@@ -1,5 +1,5 @@
 # tier: quick
-"""tools/bench/gpu_model.py: what it makes of Oclgrind's histograms, and its roofline."""
+"""tools/bench/gpu_model.py: its counts from Oclgrind's histograms, and its roofline."""
 import os
 import sys
 import unittest

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""--ground: a floor under the scene, and one that catches shadows alone."""
+"""--ground: a floor under the scene, and a floor that only catches shadows."""
 import json
 import math
 import unittest
@@ -16,7 +16,7 @@ class Ground(Case):
     def setUp(self):
         super().setUp()
         scene = quad_scene(material=BLACK)[0]
-        scene["nodes"][0] = {"mesh": 0, "rotation": [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]}  # lies in y = 0, 2 x 2
+        scene["nodes"][0] = {"mesh": 0, "rotation": [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]}  # turns the square into y = 0, 2 x 2
         self.document = scene
         self.scene = write_gltf(self.path("scene.gltf"), scene)
 
@@ -25,7 +25,8 @@ class Ground(Case):
         return json.loads(run.stdout), read_exr(self.path(name))[1]
 
     def test_a_matte_floor_at_the_lowest_point(self):
-        """In light of 1 from everywhere a floor of reflectance 0.5 shows 0.5, but for what hides the sky; straight from above it is as far as its height says."""
+        """In a white environment of 1, a floor of reflectance 0.5 shows 0.5, except where an object hides the sky. Seen straight from
+        above, its depth is that of its height."""
         away = ("--env", "1,1,1", "--eye", "9,5,0", "--look-at", "9,0,0", "--up", "0,0,1", "--fov", "5", "--channels", "A,depth")
         _, seen = self.render("a.exr", "--ground", *away, spp=256)
         for c in "RGB":
@@ -36,7 +37,7 @@ class Ground(Case):
         _, none = self.render("none.exr", "--env", "1,1,1", *away[2:])
         self.assertEqual(set(none["A"]), {0.0})
         _, below = self.render("below.exr", "--ground", "--env", "1,1,1", "--eye", "9,-5,0", "--look-at", "9,0,0", "--up", "0,0,1", "--channels", "A", spp=8)
-        self.assertEqual(set(below["A"]), {1.0})  # it is no pane
+        self.assertEqual(set(below["A"]), {1.0})  # the floor is opaque
 
     def test_instances_and_the_ground(self):
         self.document["nodes"] += [{"mesh": 0, "translation": [2.5 * k, 1, -2]} for k in range(-2, 3)]
@@ -47,9 +48,10 @@ class Ground(Case):
         self.assertEqual(len(hashes), 1)
 
     def test_the_shadow_of_a_square(self):
-        """Under a square at height h over the ground, the part of a sky of 1 that is hidden, cosine weighted, is a view factor: for the point below its centre
-        (2 / pi) * 2 * a / sqrt(1 + a^2) * atan(a / sqrt(1 + a^2)), a = side / 2 h (Howell, B-3)."""
-        self.document["nodes"].append({"mesh": 0, "scale": [1e-3] * 3, "translation": [4, -1, 0]})  # brings the ground to y = -1
+        """A square at height h hides a part of a sky of 1. Cosine-weighted, that part is a view factor. For the point below the centre it
+        is (2 / pi) * 2 * a / sqrt(1 + a^2) * atan(a / sqrt(1 + a^2)), a = side / 2 h (Howell, B-3)."""
+        # the lowest point brings the ground to y = -1
+        self.document["nodes"].append({"mesh": 0, "scale": [1e-3] * 3, "translation": [4, -1, 0]})
         self.document["scenes"][0]["nodes"].append(2)
         scene = write_gltf(self.path("high.gltf"), self.document)
         under = ("--env", "1,1,1", "--background", "transparent", "--eye", "0,-0.5,0", "--look-at", "0,-1,0", "--up", "0,0,1", "--fov", "3")
@@ -60,13 +62,13 @@ class Ground(Case):
         self.assertLess(report["shadow_stderr"], 0.02)
         self.assertAlmostEqual(mean, expected, delta=max(0.003, 4 * report["shadow_stderr"] / N))
         spread = math.sqrt(sum((x - mean) ** 2 for x in seen["A"]) / (N ** 2 - 1))
-        self.assertLess(0.6, report["shadow_stderr"] / spread)  # that is what it is an error of
+        self.assertLess(0.6, report["shadow_stderr"] / spread)  # the stated error matches the spread
         self.assertGreater(1.6, report["shadow_stderr"] / spread)
-        self.assertEqual({v for c in "RGB" for v in seen[c]}, {0.0})  # nothing but the shadow
+        self.assertEqual({v for c in "RGB" for v in seen[c]}, {0.0})  # the picture has only the shadow
 
     @full
     def test_no_shadow_where_nothing_is_in_the_way(self):
-        """To the bit: both pictures have the same samples. The sun is straight above, so that the shadow is the square itself."""
+        """Equal bits: both pictures have the same samples. The sun is straight above, so that the shadow is the square itself."""
         self.document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3}]}}
         self.document["extensionsUsed"] = ["KHR_lights_punctual"]
         self.document["nodes"] += [{"extensions": {"KHR_lights_punctual": {"light": 0}}, "rotation": [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]},
@@ -80,8 +82,8 @@ class Ground(Case):
 
     @full
     def test_it_stays_while_things_move(self):
-        """In all frames under the lowest point that there is at any time: of a square that falls from y = 3 to 1 within a second, and a camera 5 over y = 1. Frames of a range of
-        their own have the same bits; the box is 2 x 2 x 2."""
+        """The ground is the same in all frames, under the lowest point of all times: a square falls from y = 3 to 1 within a second, and
+        the camera is 5 above y = 1. A shorter range of frames gives the same bits. The box is 2 x 2 x 2."""
         move_node(self.document, 0, [0, 3, 0], [0, 1, 0])
         scene = write_gltf(self.path("falling.gltf"), self.document)
         away = ("--env", "1,1,1", "--eye", "9,6,0", "--look-at", "9,1,0", "--up", "0,0,1", "--fov", "5", "--channels", "A,depth")
@@ -95,7 +97,7 @@ class Ground(Case):
     @full
     @unittest.skipIf(without_mpi(), "no MPI")
     def test_processes_of_an_mpi_job(self):
-        """Have the bits of one process, shadow included."""
+        """The ranks' picture has the bits of one process, shadow included."""
         for ground in (["--ground"], ["--ground=shadow", "--background", "transparent"]):
             job = [self.scene, *QUICK, *ground, "--size", f"{N}x{N}", "--spp", "32", "--env", "1,0.8,0.6", "--eye", "3,4,9", "--look-at", "0,0,0", "-q"]
             self.assert_ok(eclat("render", *job, "-o", self.path("one.exr")))

@@ -1,6 +1,6 @@
 # tiers: quick, full, long
-"""--guiding: the picture is the one that path tracing alone converges to, sooner; its bits are the same however a job is shared out; without
-anything that bends light nothing changes."""
+"""--guiding: the picture converges to that of path tracing alone, sooner. Its bits do not depend on how a job is divided. Nothing changes
+in a scene where nothing reflects or refracts specularly."""
 import os
 import unittest
 
@@ -18,7 +18,7 @@ class Guiding(OtherWay):
 
     @full
     def test_ring(self):
-        """A ring's caustic, which paths from the camera seldom find by the surface's own directions."""
+        """The ring's caustic: camera paths seldom find it by sampling the BSDF."""
         self.assert_same_picture([RING, "--size", "32x32"], 128, fewer=3)
 
     @full
@@ -27,7 +27,7 @@ class Guiding(OtherWay):
 
     @full
     def test_bits(self):
-        """Whatever order, width, structure or share; narrow kernels have one lane."""
+        """Bits do not depend on order, width, structure or slices. Narrow kernels have one lane."""
         whole = self.assert_same_bits(JOB, [["--lanes", "8"], ["--wave", "4096"], ["--accel", "kdtree"]])
         self.assertGreater(whole["guide_seconds"], 0)
 
@@ -40,7 +40,7 @@ class Guiding(OtherWay):
         self.assert_slices_and_resume(JOB)
 
     def test_nothing_to_learn(self):
-        """A box of diffuse walls: no other bit."""
+        """A box of diffuse walls: no bit changes."""
         job = [CORNELL, "--size", "20x18", "--spp", "8", *QUICK]
         self.assertEqual(self.render(*job)["image_sha256"], self.render(*job, "--guiding")["image_sha256"])
 
@@ -52,8 +52,9 @@ class Guiding(OtherWay):
 
     @full
     def test_with_other_options(self):
-        """Clamp and adaptive sampling know it, since each sample is a camera path's."""
-        self.assert_same_picture([RING, "--size", "32x32", "--adaptive"], 512, fewer=3)  # with 128 the noise without guiding is not normal yet
+        """--clamp and --adaptive work with it, since each sample is still one camera path's."""
+        # with 128 samples the noise without guiding is not normal yet
+        self.assert_same_picture([RING, "--size", "32x32", "--adaptive"], 512, fewer=3)
         loss = self.render(RING, "--size", "32x32", "--spp", "64", "--guiding", "--clamp", "100")["clamp"]
         self.assertIsNotNone(loss)
 
@@ -75,7 +76,7 @@ class Guiding(OtherWay):
     @full
     @unittest.skipUnless(os.path.exists(SUN), "no map with a sun")
     def test_sun_through_a_vase(self):
-        """Path tracing alone meets that light so seldom that its noise is not known: means are compared no further than light paths' own."""
+        """Path tracing alone finds this light so seldom that its noise is unknown: only means are compared, both with light paths."""
         job = [scene("vase"), "--env", SUN, "--size", "48x48", "--spp", "64", "--light-paths", "0.25"]
         without, guided = self.render(*job, name="without.exr"), self.render(*job, "--guiding", "--seed", "2", name="with.exr")
         self.assertLess(abs(without["mean_luminance"] - guided["mean_luminance"]), 0.1 * guided["mean_luminance"])

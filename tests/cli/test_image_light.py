@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""EXT_lights_image_based: the cube of a scene's light as its environment."""
+"""EXT_lights_image_based: the cube map of a scene's light is its environment."""
 import struct
 import unittest
 import zlib
@@ -8,7 +8,7 @@ from support import QUICK, Case, data_uri, eclat, quad_scene, read_exr, write_gl
 from tiers import full
 
 EXTENSION = "EXT_lights_image_based"
-# +x, -x, +y, -y, +z, -z
+# order of the faces: +x, -x, +y, -y, +z, -z
 DIRECTIONS = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 COLOURS = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0), (0, 255, 255), (255, 0, 255)]
 
@@ -29,7 +29,7 @@ def linear(byte):
 
 
 def turned(quaternion, v):
-    """v + 2 w (q x v) + 2 q x (q x v)"""
+    """rotates v by v + 2 w (q x v) + 2 q x (q x v)"""
     q, w = quaternion[:3], quaternion[3]
     def cross(a, b):
         return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -38,7 +38,7 @@ def turned(quaternion, v):
 
 
 def looking(direction):
-    """A node's matrix whose -z is that direction."""
+    """A node's matrix that turns -z to this direction."""
     z = [-d for d in direction]
     up = [0, 1, 0] if abs(z[1]) < 0.9 else [0, 0, 1]
     x = [up[1] * z[2] - up[2] * z[1], up[2] * z[0] - up[0] * z[2], up[0] * z[1] - up[1] * z[0]]
@@ -49,7 +49,7 @@ def looking(direction):
 
 
 def lit_scene(faces, material=None, directions=(), size=8, **light):
-    """A quad before camera 0, and a camera of a degree in the middle of nothing for each of the directions."""
+    """A quad in view of camera 0, and for each direction a camera with a field of one degree that sees only the environment."""
     scene, _ = quad_scene(material=material or {})
     scene["images"] = [{"uri": data_uri(face)} for face in faces]
     scene["extensionsUsed"] = [EXTENSION]
@@ -59,14 +59,14 @@ def lit_scene(faces, material=None, directions=(), size=8, **light):
     for direction in directions:
         scene["cameras"].append({"type": "perspective", "perspective": {"yfov": 0.02, "znear": 0.1, "aspectRatio": 1}})
         scene["scenes"][0]["nodes"].append(len(scene["nodes"]))
-        # 50 behind the quad's plane and off its axis: no camera sees it
+        # each is 50 behind the quad's plane and off its axis: no camera sees the quad
         scene["nodes"].append({"camera": len(scene["cameras"]) - 1, "matrix": looking(direction)[:12] + [30, 20, -50, 1]})
     return scene
 
 
 class ImageLight(Case):
     def colour(self, scene, camera, *options):
-        """Mean radiance of what a camera sees."""
+        """Mean radiance in a camera's view."""
         out = self.path("out.exr")
         self.assert_ok(eclat("render", "-q", *QUICK, "--size", "4x4", "--spp", "16", "--camera", str(camera), "-o", out, *options,
                              write_gltf(self.path("scene.gltf"), scene)))
@@ -77,7 +77,7 @@ class ImageLight(Case):
             self.assertAlmostEqual(a, b, delta=delta * max(expected))
 
     def test_each_direction_has_its_face(self):
-        # a grey that sRGB makes 0.2: linear, not as it stands
+        # the code is 0.2 in linear light by sRGB's curve
         faces = [png(8, lambda x, y, c=colour: tuple(v * 124 // 255 for v in c)) for colour in COLOURS]
         scene = lit_scene(faces, directions=DIRECTIONS, intensity=3)
         for i, colour in enumerate(COLOURS):
@@ -86,7 +86,8 @@ class ImageLight(Case):
 
     @full
     def test_pixels_of_a_face_lie_as_opengl_samples_them(self):
-        # bright where s is right of the middle, and green above it: +z has s along +x and its top at +y; +y its s along +x, its top at -z
+        # bright red where s is right of the middle, bright green above it. Face +z has s along +x and its top at +y; face +y has s along +x
+        # and its top at -z.
         def quarters(x, y):
             return (200 if x > 3 else 20, 200 if y < 4 else 20, 20)
         faces = [png(8, quarters if i in (2, 4) else lambda x, y: (0, 0, 0)) for i in range(6)]
@@ -108,7 +109,7 @@ class ImageLight(Case):
         for i, colour in enumerate(COLOURS):
             with self.subTest(face=DIRECTIONS[i]):
                 self.assert_colour(self.colour(scene, i + 1), [linear(v) for v in colour], 1e-5)
-        # on top of it: a quarter about +y more takes +z, the cube's, to where a quarter about +y takes what it was
+        # --env-rotate comes after the light's own rotation: another quarter about +y
         scene = lit_scene(faces, directions=[turned([0, 0.5 ** 0.5, 0, 0.5 ** 0.5], turned(unit, (0, 0, 1)))], rotation=quaternion)
         self.assert_colour(self.colour(scene, 1, "--env-rotate", "90"), [linear(v) for v in COLOURS[4]], 1e-5)
 
@@ -128,10 +129,10 @@ class ImageLight(Case):
         furnace = self.colour(scene, 0, "--spp", "4096")
         self.assertGreater(furnace[0], 0.4)
         self.assertEqual(furnace, self.colour(scene, 0, "--spp", "4096", "--env", "1,1,1"))
-        # nearly constant, so that it has to be a map: 255 and 254 in turn, whose mean is 0.9956
+        # nearly constant, so that it stays a map: texels of 255 and 254 in turn, whose mean is 0.9956
         nearly = lit_scene([png(8, lambda x, y: (255 - (x + y) % 2,) * 3)] * 6, material=matt)
         mapped = self.colour(nearly, 0, "--spp", "4096")
-        self.assert_colour(mapped, [v * (1 + linear(254)) / 2 for v in furnace], 0.01)  # each has noise of some 0.2 %
+        self.assert_colour(mapped, [v * (1 + linear(254)) / 2 for v in furnace], 0.01)  # each has about 0.2 % of noise
 
     def test_env_wins_and_says_so(self):
         scene = lit_scene([png(8, lambda x, y: (255, 0, 0))] * 6, directions=[(0, 0, 1)])

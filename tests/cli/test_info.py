@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""eclat info: the figures of scenes whose contents are known."""
+"""eclat info: figures of scenes with known contents."""
 import json
 import os
 import struct
@@ -46,7 +46,7 @@ class Info(Case):
             self.assertEqual(gltf[key], glb[key])
 
     def effects(self, roughness=1.0, metallic=0.0, rough_texture=None, texture=None, transmission=None, ior=None, volume=None):
-        """Of a quad; textures are lists of texels."""
+        """Effects of glass that a quad with this material needs; textures are lists of texels."""
         pbr = {"roughnessFactor": roughness, "metallicFactor": metallic}
         extensions = {"KHR_materials_ior": {"ior": ior}} if ior is not None else {}
         images = [t for t in (rough_texture, texture) if t]
@@ -75,7 +75,7 @@ class Info(Case):
         cases = [
             (set(), {}),
             ({smooth}, {"roughness": 0}),
-            # alpha = roughness^2 under 1e-4
+            # smooth where alpha = roughness^2 < 1e-4
             ({smooth}, {"roughness": 0.0099}),
             (set(), {"roughness": 0.0102}),
             ({smooth}, {"roughness": 0.5, "rough_texture": [white, black]}),
@@ -83,7 +83,7 @@ class Info(Case):
             (set(), {"roughness": 0.5, "rough_texture": [white, grey]}),
             (set(), {"transmission": 0}),
             ({passes}, {"transmission": 0.1}),
-            # smooth and without a volume: shadow rays pass
+            # shadow rays pass a smooth surface without a volume
             ({passes, smooth, pane}, {"transmission": 1, "roughness": 0}),
             ({passes, smooth, pane}, {"transmission": 1, "roughness": 0.5, "rough_texture": [white, black]}),
             ({passes, smooth, pane}, {"transmission": 1, "roughness": 0, "volume": brown}),
@@ -91,14 +91,14 @@ class Info(Case):
             ({passes, smooth}, {"transmission": 1, "roughness": 0, "volume": body}),
             ({smooth}, {"transmission": 1, "roughness": 0, "texture": [black]}),
             ({passes, textured}, {"transmission": 1, "texture": [black, grey]}),
-            # transmission is in red
+            # transmission is in the red channel
             (set(), {"transmission": 1, "texture": [black, (0, 255, 255)]}),
             (set(), {"transmission": 0, "texture": [white]}),
-            # metal lets nothing in, and metal is in blue
+            # metal transmits nothing; metalness is in the blue channel
             (set(), {"transmission": 1, "metallic": 1}),
             ({passes}, {"transmission": 1, "metallic": 1, "rough_texture": [white, (255, 255, 254)]}),
             (set(), {"transmission": 1, "metallic": 1, "rough_texture": [white, (0, 255, 255)]}),
-            # a body absorbs, where its colour is not white and it can be entered
+            # a body absorbs if its colour is not white and rays can enter it
             ({passes}, {"transmission": 1, "volume": body}),
             ({passes, absorbs}, {"transmission": 1, "volume": {**body, **brown}}),
             ({passes}, {"transmission": 1, "volume": brown}),
@@ -107,7 +107,7 @@ class Info(Case):
             (set(), {"transmission": 0, "volume": {**body, **brown}}),
             (set(), {"transmission": 1, "volume": {**body, **brown}, "texture": [black]}),
             (set(), {"volume": {**body, **brown}}),
-            # where nothing bends, roughness blurs nothing, and shadow rays pass
+            # without refraction, roughness has no effect, and shadow rays pass
             ({passes, smooth, pane, straight}, {"transmission": 1, "volume": body, "ior": 1}),
             ({passes, smooth}, {"transmission": 1, "volume": body, "ior": 1.00009}),
             ({passes}, {"transmission": 1, "volume": body, "ior": 1.00011}),
@@ -136,7 +136,7 @@ class Info(Case):
         self.assertFalse(nested(0, thin=True))
 
     def layers(self, extension, *texels, roughness=1.0, unlit=False):
-        """Effects that a quad calls for by an extension; textures by index."""
+        """Effects that a quad with this extension needs; the extension names textures by index."""
         extensions = dict(extension, **({"KHR_materials_unlit": {}} if unlit else {}))
         scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": roughness}, "extensions": extensions})
         scene["images"] = [{"uri": png(*t)} for t in texels]
@@ -166,7 +166,7 @@ class Info(Case):
             (set(), {**one, "clearcoatTexture": {"index": 0}}, green),
             ({coat, textured}, {**one, "clearcoatTexture": {"index": 0}}, white),
             ({coat, textured, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, white),
-            # one value is a factor
+            # a texture of one value is folded into the factor
             ({coat}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, green),
             ({coat, smooth}, {**one, "clearcoatRoughnessTexture": {"index": 0}}, black),
             ({coat, bent}, {**one, "clearcoatNormalTexture": {"index": 0}}, white),
@@ -183,17 +183,18 @@ class Info(Case):
             (set(), {"sheenColorFactor": [1, 0, 1], "sheenColorTexture": {"index": 0}}, green),
             ({sheen}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, green),
             ({sheen, textured}, {"sheenColorFactor": [0, 1, 0], "sheenColorTexture": {"index": 0}}, white),
-            ({sheen}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, white),  # of factor 0
+            ({sheen}, {"sheenColorFactor": [0, 1, 0], "sheenRoughnessTexture": {"index": 0}}, white),  # the factor is 0
         ])
 
     def test_anisotropy_calls_for_what_it_has(self):
         one = {"anisotropyStrength": 0.5}
         long, textured, blue, yellow = "anisotropy", "anisotropy-texture", [(0, 0, 255)], [(255, 255, 0)]
         cases = [(set(), {}), (set(), {"anisotropyRotation": 1}), (set(), one)]
-        self.check_layers("KHR_materials_anisotropy", {long, textured}, cases)  # at roughness 1
+        self.check_layers("KHR_materials_anisotropy", {long, textured}, cases)  # the roughness is 1
         turned = {"index": 0, "extensions": {"KHR_texture_transform": {"rotation": 1}}}
         for expected, members, *texels in [({long}, one), ({long, textured}, {**one, "anisotropyTexture": {"index": 0}}, blue + [(0, 9, 255)]),
-                                           ({long}, {**one, "anisotropyTexture": {"index": 0}}, blue),  # one direction is a rotation
+                                           # a texture of one direction is folded into the rotation
+                                           ({long}, {**one, "anisotropyTexture": {"index": 0}}, blue),
                                            ({long, textured}, {**one, "anisotropyTexture": turned}, blue),
                                            (set(), {**one, "anisotropyTexture": {"index": 0}}, yellow)]:
             found = self.layers({"KHR_materials_anisotropy": members}, *texels, roughness=0.5)
@@ -204,7 +205,7 @@ class Info(Case):
         report = json.loads(run.stdout)
         rows = {row["name"]: row for row in report["effect_list"]}
         self.assertEqual([name for name in rows if rows[name]["called_for"]], report["effects"])
-        for row in rows.values():  # why, where and what for: all of it or nothing
+        for row in rows.values():  # an effect has all of these, or none: reason, kernels, buffers
             self.assertEqual(row["called_for"], bool(row["why"]))
             self.assertEqual(row["called_for"], bool(row["kernels"]), row)
             self.assertEqual(bool(row["buffers"]), row["buffer_bytes"] > 0, row)
@@ -219,7 +220,8 @@ class Info(Case):
         self.assertEqual(rows["sheen"]["kernels"], ["shade"])
         self.assertEqual(rows["sheen"]["buffers"], [])
         self.assertEqual(rows["sobol-sampler"]["why"], "--sampler sobol")
-        self.assertEqual(rows["environment"]["why"], "the environment map shines")  # the studio of a scene without light
+        # the built-in studio, which lights a scene without light
+        self.assertEqual(rows["environment"]["why"], "the environment map shines")
         self.assertIsNone(rows["clearcoat"]["why"])
         self.assertEqual(report["kernels"], ["generate", "intersect", "shade", "connect", "accumulate", "features"])
 
@@ -257,7 +259,7 @@ class Info(Case):
         scene["scenes"][0]["nodes"] = [0, 1, 2, 3]
         _, rows = self.reasons(scene)
         self.assertEqual(rows["punctual-lights"]["why"], 'point light "bulb", and 1 other')
-        # two lights of ec_light_data and of ec_distribution_entry
+        # two entries each of ec_light_data and ec_distribution_entry
         self.assertEqual(rows["punctual-lights"]["buffers"], ["lights", "light table"])
         self.assertEqual(rows["punctual-lights"]["buffer_bytes"], 2 * (64 + 8))
 
@@ -290,7 +292,7 @@ class Info(Case):
             (set(), {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, green),
             ({film, textured}, {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0}}, white),
             ({film, textured}, thickness, white),
-            ({film}, thickness, black),  # one thickness is a factor
+            ({film}, thickness, black),  # a texture of one thickness is folded
             ({film}, {**thickness, "iridescenceThicknessMinimum": 400}, white),
             (set(), {**thickness, "iridescenceThicknessMinimum": 0}, black),
             (set(), {**thickness, "iridescenceThicknessMaximum": 0}, green),
@@ -306,7 +308,7 @@ class Info(Case):
             ({through}, half),
             ({through}, {**half, "diffuseTransmissionColorFactor": [0, 0, 0]}),
             (set(), {**half, "diffuseTransmissionTexture": {"index": 0}}, clear),
-            ({through}, {**half, "diffuseTransmissionTexture": {"index": 0}}, open_),  # one value is a factor
+            ({through}, {**half, "diffuseTransmissionTexture": {"index": 0}}, open_),  # a texture of one value is folded into the factor
             ({through}, {**half, "diffuseTransmissionColorTexture": {"index": 0}}, clear),
             ({through, textured}, {**half, "diffuseTransmissionTexture": {"index": 0}}, both),
             ({through, textured}, {**half, "diffuseTransmissionColorTexture": {"index": 0}}, both),
@@ -338,7 +340,8 @@ class Info(Case):
         for mode, rgba, expected in [
                 ("OPAQUE", (1, 1, 1, 1), {"sheen"}), ("OPAQUE", (1, 1, 1, 0.5), {"sheen"}), ("OPAQUE", (1, 0.5, 1, 1), {"sheen", "vertex-colors"}),
                 ("BLEND", (1, 1, 1, 1), {"sheen"}), ("BLEND", (1, 1, 1, 0.5), names),
-                ("BLEND", (1, 1, 1, 0), {"alpha", "vertex-colors"}), ("MASK", (1, 1, 1, 0.4), {"alpha", "vertex-colors"})]:  # nothing shows
+                # fully transparent
+                ("BLEND", (1, 1, 1, 0), {"alpha", "vertex-colors"}), ("MASK", (1, 1, 1, 0.4), {"alpha", "vertex-colors"})]:
             scene, buffer = quad_scene(material={"alphaMode": mode, "extensions": {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]}}})
             buffer += struct.pack("<16f", *rgba * 4)
             scene["buffers"][0] = {"byteLength": len(buffer), "uri": data_uri(buffer)}
@@ -398,12 +401,12 @@ class Info(Case):
         for options in [("grid", "--grid-density", "27"), ("all", "--grid-density=27.0")]:
             self.assertEqual(grid(*options)["nodes"], default)
         self.assertEqual(grid("grid", "--grid-density", "0.01")["nodes"], 64)  # one block
-        # 40 960 small triangles; axes are rounded to blocks of four cells, here of 50 and 100.
+        # 40 960 small triangles. Axes are rounded up to blocks of four cells; there are 50 and 100 cells here.
         spheres = os.path.join(SOURCE, "scenes", "furnace", "spheres.gltf")
         for density in [3, 24]:
             cells = grid("grid", f"--grid-density={density}", scene=spheres)["nodes"]
             self.assertTrue(0.85 < cells / (40960 * density) < 1.15, (density, cells))
-        # No more than 64 entries a reference: made coarser until then.
+        # The grid is made coarser until it has no more than 64 entries a reference.
         bounded = grid("grid", "--grid-density=10000", scene=spheres)
         self.assertTrue(32 * 40960 < bounded["references"] <= 64 * 40960, bounded)
 
@@ -424,7 +427,7 @@ class Info(Case):
         self.assertEqual(self.assert_ok(eclat("info", "--quiet", write_gltf(self.path("bare.gltf"), scene))).stderr, "")
 
     def test_cameras_say_where_they_stand(self):
-        # A quarter turn about y, at (5, 6, 7): a node's matrix, by columns. 5e5 more recentres the scene: it must not show.
+        # A quarter turn about y, at (5, 6, 7), as a node's matrix, by columns. 5e5 more moves the scene's centre, which must not show.
         for x in [5, 5e5]:
             scene, _ = quad_scene()
             scene["nodes"][0]["translation"] = [x, 0, 0]
@@ -437,7 +440,7 @@ class Info(Case):
         self.assertEqual([camera["xmag"], camera["ymag"]], [3, 2])
 
     def test_what_only_looks_like_a_light(self):
-        """A cone without an opening, a lamp that vertex alpha hides, one with a black picture: as if there were none."""
+        """A cone without an opening, a lamp hidden by vertex alpha, and one with a black picture emit nothing: the report leaves them out."""
         black = {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}
         hidden = {"emissiveFactor": [1, 1, 1], "alphaMode": "BLEND"}
         spot = {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": 0}}]}}

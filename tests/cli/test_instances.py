@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Meshes that are kept once, from end to end: the same picture as written out, and what is said of them."""
+"""Meshes that are kept once, from end to end: the picture is that of copies written out, and reports count what is kept."""
 import copy
 import glob
 import json
@@ -12,11 +12,11 @@ import unittest
 from support import NARROW, SOURCE, Case, eclat, quad_scene, read_exr, write_gltf
 from tiers import full
 
-LAMPS = os.path.join(SOURCE, "scenes", "lamps")  # every effect of core glTF: textures, normal maps, alpha, vertex colours
+LAMPS = os.path.join(SOURCE, "scenes", "lamps")  # needs every effect of core glTF: textures, normal maps, alpha, vertex colours
 
 
 def multiplied(document, times):
-    """The scene with every mesh at `times` more places: turned, mirrored, sheared, flattened, small."""
+    """The scene with every mesh in `times` more places: turned, mirrored, sheared, flattened or small."""
     draw = random.Random(7)
     document = copy.deepcopy(document)
     nodes, roots = document["nodes"], document["scenes"][document.get("scene", 0)]["nodes"]
@@ -64,7 +64,8 @@ class Instances(Case):
                 self.assertEqual(other["instances"], 0 if "--accel" in change else kept["instances"])
         attributes = read_exr(self.path("kept.exr"))[0]
         self.assertIn(f'{kept["instances"]}', str(attributes["eclat.instances"]))
-        # Rounded otherwise, and numbered otherwise where meshes are not kept: another sample of the same picture. Four standard errors.
+        # Copies written out are rounded differently and have other numbers, which gives other samples of the same picture. Four standard
+        # errors.
         off = self.render("--instancing", "off", "--accel", "kdtree")
         self.assertEqual((off["instances"], off["triangles"]), (0, kept["triangles"]))
         self.assertNotEqual(off["image_sha256"], kept["image_sha256"])
@@ -73,7 +74,7 @@ class Instances(Case):
 
     @full
     def test_other_integrators(self):
-        """Without random light the picture is the same but for roundings: 3e-3 is a texel or a pixel at an edge here and there."""
+        """Without random light the pictures differ only by rounding: 3e-3 allows for a few texels or pixels at edges."""
         for integrator in ["whitted", "raster"]:
             with self.subTest(integrator=integrator):
                 kept, off = (self.render("--instancing", how, "--integrator", integrator) for how in ["on", "off"])
@@ -92,7 +93,7 @@ class Instances(Case):
 
 class InOnePlane(Case):
     def assert_the_first_is_met(self, accels):
-        """Of two meshes, each kept once and at two places, all in one plane, every ray meets the same one, in every accelerator."""
+        """Two meshes, each kept once and in two places, overlap in one plane: every ray meets the same one, in every accelerator."""
         scene, _ = quad_scene(material={"pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.1, 0.1, 1], "metallicFactor": 0}, "doubleSided": True})
         scene["materials"].append({"pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.1, 0.9, 1], "metallicFactor": 0}, "doubleSided": True})
         scene["meshes"].append({"primitives": [{**scene["meshes"][0]["primitives"][0], "material": 1}]})

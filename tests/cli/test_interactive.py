@@ -1,5 +1,5 @@
 # tier: quick
-"""What a person at a terminal sees: the progress line, and Ctrl-C."""
+"""Output on a terminal: the progress line, colours, and Ctrl-C."""
 import os
 import pty
 import re
@@ -12,15 +12,15 @@ from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, png_size
 
 
 def on_terminal(*arguments, **settings):
-    """Runs with stderr on a pseudo-terminal; (exit code, stdout, stderr)."""
+    """Runs with stderr on a pseudo-terminal; returns (exit code, stdout, stderr)."""
     master, slave = pty.openpty()
     process = subprocess.Popen([ECLAT, *arguments], stderr=slave, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, encoding="utf-8", **settings)
     os.close(slave)
     shown = b""
     while True:
         try:
-            piece = os.read(master, 4096)  # one read may give a part of what was written at once
-        except OSError:  # Linux's way to say that the other side is closed
+            piece = os.read(master, 4096)  # a read may return part of one write
+        except OSError:  # Linux reports the closed other side so
             break
         if not piece:
             break
@@ -39,7 +39,7 @@ class Progress(Case):
         self.assertRegex(shown, r"\r(\[=* *\] )?\d+ %.* left.* spp .* samples/s  error ")
         self.assertTrue(re.search(r"\r +\r\Z", shown), repr(shown[-200:]))
         self.assertNotIn("\r", out)
-        for line in re.findall(r"\r([^\r\n]*)(?=\r(?!\n))", shown): # what ends the line is a message
+        for line in re.findall(r"\r([^\r\n]*)(?=\r(?!\n))", shown):  # text before a line break is a message
             self.assertLess(len(line), 80)
 
     def test_quiet_on_a_terminal(self):
@@ -55,7 +55,7 @@ class Progress(Case):
 
 
 class Colour(Case):
-    """The words error, warning and note alone, and only where a terminal shows them."""
+    """Only the words error, warning and note are coloured, and only on a terminal."""
 
     def on_terminal(self, *arguments, **env):
         environment = {name: value for name, value in ENVIRONMENT.items() if name not in ("NO_COLOR", "TERM")}
@@ -73,7 +73,8 @@ class Colour(Case):
         self.assertNotIn("\033", plain)
         for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb"}):
             self.assertEqual(self.on_terminal("rendr", **env), (2, plain), env)
-        self.assertNotEqual(self.on_terminal("rendr", TERM="xterm", NO_COLOR="")[1], plain)  # as no-color.org has it: set and not empty
+        # no-color.org: only a value that is not empty counts
+        self.assertNotEqual(self.on_terminal("rendr", TERM="xterm", NO_COLOR="")[1], plain)
 
     def test_a_file_cannot_colour(self):
         shown = self.on_terminal("info", self.path("\033[32mgreen.gltf"), TERM="xterm")[1]
@@ -83,7 +84,7 @@ class Colour(Case):
 
 class Interrupt(Case):
     def start(self):
-        """A render that would take a minute, under way."""
+        """Starts a render that would take a minute."""
         process = subprocess.Popen(
             [ECLAT, "render", CORNELL, "--size", "64x64", "--time", "1m", "-o", "a.exr", "-o", "a.png"], cwd=self.folder,
             env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, encoding="utf-8")

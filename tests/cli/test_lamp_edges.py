@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Pixels that a lamp's edge goes through: what is seen of the lamp has rays of its own, and the picture's mean stays what it is."""
+"""Pixels at a lamp's edge: rays of their own find how much of the lamp each pixel sees, and the picture's mean does not change."""
 import math
 import os
 import sys
@@ -20,13 +20,13 @@ ENVIRONMENT = ["--env", "0.1,0.1,0.1"]
 
 
 def turned(half, angle, z):
-    """A square in the plane z, turned by so many radians: its corners; and two triangles that face +z."""
+    """A square in the plane z, turned by `angle` radians: its corners, and two triangles that face +z."""
     corners = [(half * math.sqrt(2) * math.cos(angle + k * math.pi / 2), half * math.sqrt(2) * math.sin(angle + k * math.pi / 2)) for k in range(4)]
     return corners, [c for k in (0, 1, 2, 0, 2, 3) for c in (*corners[k], z)]
 
 
 def clipped_area(corners, x0, y0, x1, y1):
-    """Area of what a convex polygon and a rectangle share (Sutherland and Hodgman 1974)."""
+    """Area of the intersection of a convex polygon and a rectangle (Sutherland and Hodgman 1974)."""
     for axis, bound, sign in ((0, x0, 1), (0, x1, -1), (1, y0, 1), (1, y1, -1)):
         kept = []
         for a, b in zip(corners, corners[1:] + corners[:1]):
@@ -40,7 +40,7 @@ def clipped_area(corners, x0, y0, x1, y1):
 
 
 def coverage(corners):
-    """Of each pixel, row by row from the top, of a picture of [-1, 1] x [-1, 1]."""
+    """Coverage of each pixel, row by row from the top, in a picture of [-1, 1] x [-1, 1]."""
     step = 2 / SIZE
     return [clipped_area(corners, x * step - 1, 1 - (y + 1) * step, (x + 1) * step - 1, 1 - y * step) / step ** 2 for y in range(SIZE) for x in range(SIZE)]
 
@@ -59,7 +59,7 @@ class LampEdges(OtherWay):
         return read_exr(self.path("a.exr"))[1][channel]
 
     def assert_covers(self, path, truth, most, *options):
-        """The error over the pixels that lamps cover in part, root mean square: of plain samples it is about 0.017."""
+        """Checks the root mean square error over the pixels that lamps cover in part; with plain samples it is about 0.017."""
         pixels = self.pixels([path, "--size", f"{SIZE}x{SIZE}"], "--spp", "64", *options)
         apart = [(p - t) ** 2 for p, t in zip(pixels, truth) if min(truth) + 1e-6 < t < max(truth) - 1e-6]
         self.assertGreater(len(apart), 50)
@@ -80,12 +80,12 @@ class LampEdges(OtherWay):
         self.assert_covers(self.lamp((triangles, 0), (hides, 1)), truth, 0.007)
 
     def lit(self):
-        """Lamps that reflect, over a floor that does not fill the picture."""
+        """Lamps that also reflect, above a floor that does not fill the picture."""
         floor = turned(0.8, 0, 0)[1]
         return self.lamp((floor, 1), (turned(0.3, 0.4, 0.2)[1], 0), ([-0.9, -0.5, 1, -0.3, -0.9, 1, -0.3, -0.9, 0.3], 0), materials=(GRAY_LAMP, GRAY))
 
     def assert_same_mean(self, *options):
-        """Of 32 x 32 pixels and of a single one, which has no neighbours that it could differ from."""
+        """Pictures of 32 x 32 pixels, and of one pixel, which has no neighbours to differ from."""
         path = self.lit()
         one = self.render(path, "--size", "1x1", "--spp", "65536", *ENVIRONMENT, *options)
         self.render(path, "--size", f"{SIZE}x{SIZE}", "--spp", "256", *ENVIRONMENT, *options)

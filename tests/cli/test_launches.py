@@ -1,5 +1,5 @@
 # tiers: quick, full, long
-"""Launches of kernels that are cut into pieces, so that none takes long: on cards, and where ECLAT_LAUNCH_SECONDS says so."""
+"""Kernel launches are cut into pieces, so that none takes long: on graphics cards, and where ECLAT_LAUNCH_SECONDS asks for it."""
 import json
 import os
 import unittest
@@ -16,7 +16,7 @@ class Launches(Case):
         return json.loads(run.stdout), read_exr(self.path(name))[1]
 
     def assert_cut(self, *arguments, **how):
-        """The same bits in many pieces of each launch as whole."""
+        """Many pieces of each launch give the bits of whole launches."""
         whole, picture = self.render("whole.exr", *arguments, ECLAT_LAUNCH_SECONDS="0", **how)
         cut, other = self.render("cut.exr", *arguments, **SHORT, **how)
         self.assertNotIn("launches", whole)
@@ -32,11 +32,11 @@ class Launches(Case):
         size = "--size", "24x24", "--spp", "8"
         self.assertNotIn("launches", self.render("a.exr", *size)[0])
         launches = self.render("a.exr", *size, ECLAT_DEVICE_TYPE="gpu")[0]["launches"]
-        self.assertEqual(launches["pieces"], launches["count"])  # there is little to do
+        self.assertEqual(launches["pieces"], launches["count"])  # each launch is short: one piece
         self.assertGreater(launches["longest_seconds"], 0)
 
     def assert_late_bounces(self, lanes):
-        """A card's launches have the parts of the queue as a second dimension, and go over as many entries of each as any still has."""
+        """On a card, a launch has the parts of a queue as its second dimension, and covers as many entries of each as the longest part has."""
         options = "--size", "32x32", "--spp", "32", "--lanes", lanes, "--rr", "1", "--max-depth", "20"
         whole, _ = self.render("whole.exr", *options)
         late, _ = self.render("late.exr", *options, ECLAT_DEVICE_TYPE="gpu")
@@ -50,7 +50,7 @@ class Launches(Case):
         self.assert_late_bounces("8")
 
     def test_the_host_waits_once_in_eight_bounces(self):
-        """Queues are counted on the device: three launches a bounce, and some before and after, for each time that the host asks."""
+        """Queues are counted on the device: for each wait of the host there are three launches a bounce, and a few before and after."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         counts = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_CALL": "none", "FAULT_COUNTS": self.path("counts"), "ECLAT_DEVICE_TYPE": "gpu"}
@@ -72,7 +72,7 @@ class Launches(Case):
         self.assert_cut("--size", "48x48", "--spp", "16", "--lanes", "1")
 
     def assert_every_integrator(self, scene):
-        """Pieces have 64 work-items of each of the 32 parts of a queue; late bounces have too few rays to cut."""
+        """A piece has 64 work-items of each of the 32 parts of a queue. Late bounces have too few rays to cut."""
         few = "--max-depth", "4"
         for more in (["--integrator", "whitted", *few], ["--integrator", "raster"], ["--light-paths", "1", *few], ["--guiding", *few], ["--denoise=atrous", *few]):
             with self.subTest(more=more):

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Layers of a picture: parts of its light that add up to it bit for bit, light groups, what lies at the first surface."""
+"""Layers of a picture: parts of its light that add up to it bit for bit, light groups, and data of the first surface."""
 import array
 import math
 import os
@@ -14,7 +14,7 @@ LIGHT = {**dict.fromkeys("RGB", FLOAT), **dict.fromkeys("stderr.R stderr.G stder
 
 
 def add_up(planes, layers, c):
-    """As 32-bit floats, one after the other."""
+    """Adds 32-bit floats in the order of the layers."""
     total = array.array("f", planes[f"{layers[0]}.{c}"])
     for layer in layers[1:]:
         total = array.array("f", [a + b for a, b in zip(total, planes[f"{layer}.{c}"])])
@@ -22,7 +22,7 @@ def add_up(planes, layers, c):
 
 
 def lit_quad(lamps, environment=False):
-    """A white quad before the camera, and point lights at (x, 0, 1) of these names."""
+    """A white quad before the camera, and point lights (name, x, colour) at (x, 0, 1)."""
     scene, _ = quad_scene(material={"pbrMetallicRoughness": {"metallicFactor": 0}})
     scene["extensionsUsed"] = ["KHR_lights_punctual"]
     scene["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "color": color, "intensity": 3} for _, _, color in lamps]}}
@@ -41,8 +41,8 @@ class Layers(Case):
 
 class Light(Layers):
     def test_direct_and_indirect_add_up_to_the_picture(self):
-        """Bit for bit; the picture has the bits that it has without them. Direct light is that of paths of two segments: rendered alone it is within what the
-        sum has moved it by."""
+        """The layers add up bit for bit, and do not change the picture. Direct light is light of paths of two segments: rendered alone, it
+        differs only by the correction that makes the sum exact."""
         channels, planes = self.render("a.exr", "--channels", "default,direct,indirect")
         self.assertEqual({name: kind for name, kind in channels.items() if "direct" in name}, {f"{layer}.{c}": kind for layer in ("direct", "indirect") for c, kind in LIGHT.items()})
         _, alone = self.render("b.exr")
@@ -58,7 +58,8 @@ class Light(Layers):
 
     @full
     def test_light_groups_add_up_to_the_picture(self):
-        """Lamps by the tree of lights and by paths that meet them; the same bits in any width, wave and structure, in any order of names, with other layers."""
+        """Lamps found by the light tree and by BSDF sampling. Bits do not depend on width, wave, structure, the order of names, or other
+        layers."""
         names = ["light.bulb-over-table", "light.ceiling", "light.rest"]
         groups = ["--light-groups", "ceiling=ceiling-panel+cove,bulb-over-table"]
         channels, planes = self.render("a.exr", *groups, scene=LAMPS)
@@ -95,8 +96,8 @@ class Light(Layers):
 
     @full
     def test_a_group_is_the_picture_by_its_light_alone(self):
-        """Point lights and an environment, each in a render of its own: the sum of pixels within 4 standard errors, their differences
-        within 3 of theirs in the mean square."""
+        """Point lights and an environment, each in a render of its own: sums of pixels agree within 4 standard errors, and the mean squared
+        difference is at most 3 times the squared errors."""
         lamps = [("left.lamp", -1, [1, 0, 0]), ("right", 1, [0, 1, 0])]
         sky = ["--env", "0.2,0.2,0.6"]
         path = write_gltf(self.path("all.gltf"), lit_quad(lamps))
@@ -143,7 +144,7 @@ class Kept(Layers):
 
     @full
     def test_merged_slices_have_the_bits_of_one_run(self):
-        """Slices keep 32-bit standard errors; a mix of what is merged knows its errors. Slices with other layers are no slices of the job."""
+        """Slices keep 32-bit standard errors, and a mix of a merged picture has errors. Slices with other layers belong to another job."""
         job = [LAMPS, "--size", "24x16", "--spp", "96", "-q"]
         self.assert_ok(eclat("render", *job, *self.LAYERS, "-o", "whole.exr", cwd=self.folder))
         for name, samples in (("a", "0:40"), ("b", "40:96")):
@@ -160,7 +161,7 @@ class Kept(Layers):
 
 
 def far_quad():
-    """The quad a kilometre from the world's origin, without a texture, u from left to right and v from top to bottom."""
+    """The quad a kilometre from the world's origin, without a texture; u from left to right and v from top to bottom."""
     scene, _ = quad_scene()
     uvs = struct.pack("<8f", 0, 1, 1, 1, 1, 0, 0, 0)
     scene["buffers"].append({"byteLength": len(uvs), "uri": data_uri(uvs)})
@@ -175,7 +176,8 @@ def far_quad():
 class FirstSurface(Layers):
     @full
     def test_position_and_texture_coordinates(self):
-        """Of pixels that see nothing but the quad: world coordinates within half a pixel of their middle, and coordinates that follow from them."""
+        """For pixels that see only the quad: world coordinates within half a pixel of the pixel's centre, and texture coordinates that
+        match them."""
         path, half = write_gltf(self.path("far.gltf"), far_quad()), math.tan(0.4) * 3
         for integrator in ("path", "whitted", "raster"):
             channels, planes = self.render("a.exr", "--integrator", integrator, "--channels", "A,position,uv", scene=path)
@@ -187,7 +189,7 @@ class FirstSurface(Layers):
                 self.assertLess(abs(x - ((i % 24 + 0.5) / 12 - 1) * 1.5 * half), half / 16)
                 self.assertLess(abs(y + ((i // 24 + 0.5) / 8 - 1) * half), half / 16)
                 self.assertAlmostEqual(planes["position.Z"][i], -20, 5)
-                self.assertAlmostEqual(planes["uv.U"][i], (1 + x) / 2, delta=2e-4)  # x comes in steps of 2^-14
+                self.assertAlmostEqual(planes["uv.U"][i], (1 + x) / 2, delta=2e-4)  # a float x of this size has steps of 2^-14
                 self.assertAlmostEqual(planes["uv.V"][i], (1 - y) / 2, delta=2e-6)
             self.assertEqual({planes[name][0] for name in planes}, {0})
 

@@ -1,5 +1,6 @@
 # tier: quick
-"""What is installed: the library as a stranger links it, by pkg-config and by CMake; the manual's example; the program with its modules."""
+"""The installed files: the library as another project links it, by pkg-config and by CMake; the manual's example; the program with its
+modules."""
 import os
 import re
 import shutil
@@ -66,7 +67,7 @@ class Installed(support.Case):
         self.write_example()
         self.run_tool("cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-o", "example", "example.c", *self.flags(), "-lm")
         self.check_example("./example", LD_LIBRARY_PATH=self.libraries)
-        # The program makes the same picture of the same options.
+        # The program with the same options makes the same picture.
         run = self.assert_ok(support.eclat("render", support.CORNELL, "--size", "160x120", "--error", "5%", "-o", self.path("b.exr"), "-q"))
         self.assertEqual(run.stderr, "")
         self.assertEqual(support.eclat("compare", self.path("example.exr"), self.path("b.exr"), "-q").returncode, 0)
@@ -79,7 +80,7 @@ class Installed(support.Case):
         self.run_tool("cc", "-Wall", "-Wextra", "-Werror", "-o", "live", "live.c", *self.flags())
         told = self.run_tool("./live", support.CORNELL, env={"LD_LIBRARY_PATH": self.libraries})
         self.assertIn("160 x 120 pixels", told)
-        self.assertEqual(told.count("16 samples a pixel, error"), 2)  # from both sides
+        self.assertEqual(told.count("16 samples a pixel, error"), 2)  # from both sides of the comparison
 
     def test_by_cmake(self):
         self.write_example()

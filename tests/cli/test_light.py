@@ -1,5 +1,5 @@
 # tier: quick
-"""--light: the built-in studio and sky, in place of a file."""
+"""--light: the built-in studio and sky, instead of a file."""
 import json
 import math
 import unittest
@@ -29,7 +29,7 @@ class Light(Case):
         self.assertNotIn("note: the scene has no light", told)
         self.assertEqual(report["image_sha256"], named["image_sha256"])
         planes = self.planes("a.exr")
-        middle = planes["G"][24 * 8 + 12]  # white, facing +z, where the irradiance is pi within a tenth
+        middle = planes["G"][24 * 8 + 12]  # white, facing +z, where the irradiance is pi to within a tenth
         self.assertEqual(planes["R"], planes["G"])
         self.assertTrue(0.8 < middle < 1.2, middle)
         run = self.assert_ok(eclat("info", self.scene))
@@ -49,7 +49,7 @@ class Light(Case):
             self.assertEqual(report["environment"], f"sky:{azimuth},{elevation}")
 
     def test_lights_are_of_the_job(self):
-        """Slices of one job under the sky are one picture; under other skies they are no one job's."""
+        """Slices of one job under the sky can be merged; slices under different skies cannot."""
         for name, light, samples in [("a", "sky:30,45", "0:8"), ("b", "sky:30,45", "8:16"), ("c", "sky:31,45", "8:16"), ("d", "studio", "8:16")]:
             self.render(name + ".exr", "--light", light, "--samples", samples, spp=16)
         whole, _ = self.render("whole.exr", "--light", "sky:30,45", spp=16)

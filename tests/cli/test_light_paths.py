@@ -1,6 +1,6 @@
 # tiers: quick, full, long
-"""--light-paths: the picture is the one that path tracing alone converges to, sooner; its bits are the same however a job is shared out; without
-anything that bends light nothing changes."""
+"""--light-paths: the picture converges to that of path tracing alone, sooner. Its bits do not depend on how a job is divided. Nothing
+changes in a scene where nothing reflects or refracts specularly."""
 import json
 import os
 import re
@@ -21,12 +21,12 @@ class LightPaths(OtherWay):
     WAY = ["--light-paths", "1"]
 
     def test_ring(self):
-        """A ring's caustic, which paths from the camera seldom find."""
+        """The ring's caustic, which camera paths seldom find."""
         self.assert_same_picture([RING, "--size", "32x32"], 128, fewer=3)
 
     @full
     def test_bits(self):
-        """Whatever order, width, structure or share; narrow kernels have one lane."""
+        """Bits do not depend on order, width, structure or slices. Narrow kernels have one lane."""
         self.assert_same_bits(JOB, [["--lanes", "8"], ["--wave", "4096"], ["--accel", "kdtree"]])
 
     @long
@@ -37,13 +37,14 @@ class LightPaths(OtherWay):
         self.assert_slices_and_resume(JOB)
 
     def test_nothing_to_aim_at(self):
-        """A box of diffuse walls: no light path, no other bit."""
+        """A box of diffuse walls: no light paths are traced, and no bit changes."""
         job = [CORNELL, "--size", "20x18", "--spp", "8", *QUICK]
         self.assertEqual(self.render(*job)["image_sha256"], self.render(*job, "--light-paths", "1")["image_sha256"])
 
     @full
     def test_direct_light(self):
-        """Direct light on a metal that mirrors the sun is found by every path, in the order of samples: more light paths do not spoil it."""
+        """Direct light on a metal that mirrors the sun: every camera path finds it, in the order of samples. More light paths must not add
+        noise."""
         job = [scene("spheres"), "--light", "sky:120,40", "--size", "96x96", "--spp", "64", "--seed", "3", "--light-paths"]
         few, many = (self.render(*job, number)["error"] for number in ("0.015625", "0.25"))
         self.assertLess(many, few)
@@ -54,7 +55,8 @@ class LightPaths(OtherWay):
         self.assertIn("0 to 16", self.assert_one_error(eclat("render", RING, "--light-paths", "17", "-o", self.path("a.exr")), 2))
 
     def test_auto(self):
-        """A caustic in a ring is most of the noise: light paths are traced, and said to be. Not where something else decides."""
+        """The ring's caustic is most of the noise: light paths are chosen, and a note says so. They are not where another option excludes
+        them."""
         job = [RING, "--size", "24x18", "--spp", "16"]
         run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
         chosen = json.loads(run.stdout)
@@ -67,7 +69,7 @@ class LightPaths(OtherWay):
 
     @full
     def test_auto_common(self):
-        """Caustics that paths from the camera meet, but as noise: light paths are traced, and nothing is guided."""
+        """Camera paths find these caustics, but noisily: light paths are chosen, without guiding."""
         job = [LADDER, "--size", "96x96", "--spp", "8"]
         run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
         chosen = json.loads(run.stdout)
@@ -77,7 +79,7 @@ class LightPaths(OtherWay):
 
     @full
     def test_auto_predicts(self):
-        """How much of the variance light paths take away is predicted about right."""
+        """The predicted reduction of the variance is about right."""
         job = [LADDER, "--size", "96x96", "--spp", "64"]
         run = self.assert_ok(eclat("render", *job, "--json", "-o", self.path("a.exr")))
         predicted = float(re.search(r"about (\d+) % of the variance", run.stderr)[1]) / 100
@@ -95,13 +97,13 @@ class LightPaths(OtherWay):
 
     @full
     def test_auto_does_not_pay(self):
-        """Light paths would find what paths from the camera find, too: the light of large lamps."""
+        """Light paths would only find light that camera paths find too, that of large lamps: none are chosen."""
         for of in (scene("brushed-metal"), scene("glass")):
             with self.subTest(scene=of):
                 self.assert_none(of)
 
     def test_auto_in_a_mirror(self):
-        """What is seen in a mirror no light path can be joined to: none is traced. The mirror hangs over the ring, and faces down."""
+        """Light paths cannot connect to a surface seen in a mirror: none are chosen. The mirror hangs over the ring, and faces down."""
         with open(RING, encoding="utf-8") as file:
             seen = json.load(file)
         corners = struct.pack("<18f", *(k for x, z in [(-9, -9), (9, -9), (9, 9), (-9, -9), (9, 9), (-9, 9)] for k in (x, 3.4, z)))
@@ -119,7 +121,7 @@ class LightPaths(OtherWay):
 
     @full
     def test_auto_error(self):
-        """A job with --error that goes on, or is shared out, chooses as the whole."""
+        """A job with --error makes the same choice when it is resumed or divided."""
         job = [RING, "--size", "24x18"]
         found = self.render(*job, "--error", "40%")
         self.assertEqual((found["adaptive"], found["light_paths"]), (True, 0.25))
@@ -131,7 +133,7 @@ class LightPaths(OtherWay):
 
     @full
     def test_adaptive(self):
-        """What light paths bring is a film of its own where pixels are due different numbers of samples; bits are the same on any way to it."""
+        """Light paths have a film of their own when pixels have different numbers of samples. Bits do not depend on how the job is run."""
         job = [scene("spheres"), "--light", "sky:120,40", "--size", "48x48", "--light-paths", "0.0625", "--adaptive"]
         whole = self.render(*job, "--spp", "80")
         self.assertLess(whole["allotment_gain"], 0.8)
@@ -144,7 +146,7 @@ class LightPaths(OtherWay):
 
     @full
     def test_adaptive_noise(self):
-        """It is one picture with less noise."""
+        """Light paths and adaptive sampling together give the picture, with less noise."""
         job = [scene("spheres"), "--light", "sky:120,40", "--size", "64x64", "--seed", "2", "--spp"]
         even = self.render(*job, "512", "--light-paths", "0", name="even.exr")
         found = self.render(*job, "128", "--light-paths", "0.0625", "--adaptive", name="found.exr")
@@ -153,7 +155,7 @@ class LightPaths(OtherWay):
         self.assert_ok(eclat("compare", self.path("found.exr"), self.path("even.exr")))
 
     def test_info(self):
-        """Which bodies they are aimed at is an effect like any other."""
+        """`eclat info` lists the bodies that light paths aim at, as an effect."""
         self.assert_info(r"light-paths +--light-paths 1, aimed at \d+ bodies")
 
     @full
@@ -170,7 +172,8 @@ class LightPaths(OtherWay):
 
     @long
     def test_looks(self):
-        """Lens, filter, light tree or none, a depth, rough surfaces that scatter again: light paths know them."""
+        """Light paths take into account the lens, the filter, the light tree or its absence, the depth limit, and rough surfaces with
+        multiple scattering."""
         for options in [["--fstop", "0.5", "--focus", "3"], ["--filter", "blackman-harris"], ["--max-depth", "4"], ["--light-choice", "power"],
                         ["--scattering", "multiple"], ["--sampler", "independent"], ["--screen-window", "-0.5,1,-0.3,0.8"], ["--rr", "0.7"]]:
             with self.subTest(options=options):
@@ -179,7 +182,7 @@ class LightPaths(OtherWay):
     @full
     @unittest.skipUnless(os.path.exists(SUN), "no map with a sun")
     def test_sun_through_a_vase(self):
-        """Path tracing alone meets that light so seldom that its noise is not known: means are compared no further than light paths' own."""
+        """Path tracing alone finds this light so seldom that its noise is unknown: errors are compared, not pictures."""
         job = [scene("vase"), "--env", SUN, "--size", "48x48", "--spp", "64"]
         without, by_light = self.render(*job, "--light-paths", "0")["error"], self.render(*job, "--light-paths", "0.25")["error"]
         self.assertLess(by_light ** 2 * 20, without ** 2)

@@ -1,6 +1,6 @@
 # tiers: quick, full, long
-"""--integrator light: paths from the lights alone make the path tracer's picture of what is matt, whatever shines; mirrors and glass stay black, and a
-note says so."""
+"""--integrator light: paths from the lights alone make the path tracer's picture of diffuse surfaces, for every kind of light. Mirrors and
+glass stay black, and a note says so."""
 import json
 import struct
 
@@ -19,7 +19,7 @@ def quad(*corners):
 
 
 def room(path, lamp=None, **material):
-    """A floor, a wall and a slanted plate of `material`, and a lamp over them that shines down. Two-sided lamps light the ceiling too."""
+    """A floor, a wall and a slanted plate of `material`, under a lamp that shines down. A two-sided lamp also lights the ceiling."""
     shapes = [("matt", quad((-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1))), ("matt", quad((-1, 0, -1), (1, 0, -1), (1, 1.5, -1), (-1, 1.5, -1))),
               ("matt", quad((-1, 1.5, -1), (1, 1.5, -1), (1, 1.5, 1), (-1, 1.5, 1))),
               ("plate", quad((-0.6, 0.3, 0.4), (0.1, 0.3, 0.6), (0.1, 0.6, 0), (-0.6, 0.6, -0.2)))]
@@ -61,7 +61,7 @@ class LightTracing(OtherWay):
 
     @full
     def test_range(self):
-        """What a window leaves of a light's reach counts at its first surface."""
+        """A window changes the light's range: it counts to the first surface."""
         self.assert_lit_alike("range")
 
     @full
@@ -74,7 +74,7 @@ class LightTracing(OtherWay):
 
     @long
     def test_looks(self):
-        """Lens, filter, a depth, roulette, another projection."""
+        """Lens, filter, depth limit, roulette, and another projection."""
         for options in (["--fstop", "0.5", "--focus", "3"], ["--filter", "blackman-harris"], ["--max-depth", "2"], ["--rr", "0.7"],
                         ["--screen-window", "-0.5,1,-0.3,0.8"], ["--sampler", "independent"]):
             with self.subTest(options=options):
@@ -82,7 +82,7 @@ class LightTracing(OtherWay):
 
     @full
     def test_plates(self):
-        """A pane between the camera and the wall, and light through it; a translucent plate."""
+        """A pane between the camera and the wall, with light through it; and a translucent plate."""
         for name, factor in (("KHR_materials_transmission", {"transmissionFactor": 0.9}), ("KHR_materials_diffuse_transmission", {"diffuseTransmissionFactor": 0.7})):
             with self.subTest(material=name):
                 smooth = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}} if "diffuse" not in name else {}
@@ -103,17 +103,18 @@ class LightTracing(OtherWay):
 
     @full
     def test_caustic_and_mirror(self):
-        """The ring itself is a mirror, which no light path can be joined to: black. The camera sees the caustic beside it."""
+        """The ring is a mirror, to which no light path can connect: black. The camera sees the caustic beside it."""
         run = self.assert_ok(eclat("render", scene("ring"), "--integrator", "light", "--size", "32x32", "--spp", "64", "--json", "-o", self.path("l.exr")))
         self.assertIn("mirrors and through glass is missing", run.stderr)
         self.assertEqual(json.loads(run.stdout)["light_paths"], 1)
         green = read_exr(self.path("l.exr"))[1]["G"]
-        self.assertEqual(green[6 * 32 + 16], 0)   # the ring's far side
-        self.assertGreater(green[15 * 32 + 20], 0)  # in the ring
+        self.assertEqual(green[6 * 32 + 16], 0)  # on the ring's far side
+        self.assertGreater(green[15 * 32 + 20], 0)  # inside the ring
 
     @full
     def test_bodies_that_scatter(self):
-        """No light path scatters inside, so no kernel does, not even one of all effects, and a note says what bodies do instead."""
+        """Light paths do not scatter in bodies. So no kernel has code for it, not even with all effects, and a note says what bodies do
+        instead."""
         for effects, options in (("called", []), ("all", ["--effects", "all"])):
             with self.subTest(effects=effects):
                 run = self.assert_ok(eclat("info", scene("wax"), "--integrator", "light", *options, "--json"))

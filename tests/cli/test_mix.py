@@ -1,5 +1,6 @@
 # tier: quick
-"""eclat mix: layers weighed anew. The mix is what a render with other lamps would be; its errors are bounds; with all gains 1 it is the picture."""
+"""eclat mix: layers with new weights. The mix is the picture that a render with such lamps gives; its errors are bounds; with all gains 1
+it is the old picture."""
 import json
 import math
 import os
@@ -21,7 +22,7 @@ class Mix(Case):
 
     def p_value(self, name):
         run = eclat("compare", "m.exr", name, "--json", cwd=self.folder)
-        self.assertIn(run.returncode, (0, 1), run.stderr)  # alike, or more than noise
+        self.assertIn(run.returncode, (0, 1), run.stderr)  # equal, or different beyond noise
         return json.loads(run.stdout)["noise_test"]["p"]
 
     def brighter(self):
@@ -34,7 +35,7 @@ class Mix(Case):
         return write_gltf(self.path("brighter.gltf"), scene)
 
     def test_gains_of_one_are_the_picture(self):
-        """Bit for bit, errors and all, by whatever names; and so is a mix of a mix that takes its gains back."""
+        """Bit for bit, errors included, under any names. A mix of a mix that undoes the gains too."""
         self.render("a.exr", *GROUPS, "--channels", "default,direct,indirect")
         _, planes = read_exr(self.path("a.exr"))
         for gains in ([], ["uplight-disc=1"], ["bulb-over-table=1,1,1"], ["direct=1"]):
@@ -49,8 +50,8 @@ class Mix(Case):
         self.assertTrue(all(mixed[c] == planes[c] for c in "RGB"))
 
     def test_a_mix_is_the_picture_with_another_lamp(self):
-        """A lamp of three times the light, rendered with other random numbers: no difference but noise, and with a gain of 1.5 more than that. The stated error is
-        not under the render's, within what eight replicates tell of each."""
+        """A lamp of three times the light, rendered with other random numbers, differs by noise only; with a gain of 1.5 it differs by
+        more. The stated error is at least the render's, to the precision that eight replicates allow."""
         self.render("a.exr", *GROUPS)
         self.render("b.exr", "--size", "24x16", "--spp", "64", "-q", "--seed", "2", scene=self.brighter())
         report = self.mix("a.exr", "bulb-over-table=3")
@@ -62,7 +63,7 @@ class Mix(Case):
         self.assertLess(self.p_value("b.exr"), 1e-6)
 
     def test_errors_are_the_least_bound(self):
-        """The bound of host/jobs/mix_job.c once more, pixel by pixel; and never more than the layers' errors added up."""
+        """Computes the bound of host/jobs/mix_job.c again, pixel by pixel. It never exceeds the sum of the layers' errors."""
         self.render("a.exr", *GROUPS)
         gains = {"bulb-over-table": 2, "rest": 1, "uplight-disc": 0.5}
         self.mix("a.exr", *(f"{name}={gain}" for name, gain in gains.items()))

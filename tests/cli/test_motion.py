@@ -1,9 +1,9 @@
 # tiers: quick, full, long
-"""Motion blur, from end to end: closed forms, means of stills, the same bits everywhere, refusals.
+"""Motion blur, from end to end: closed forms, means of stills, equal bits everywhere, refusals.
 
-A picture of all moments of the shutter is the mean of stills. The stills stand at the middles of M equal parts; what that leaves out
-shrinks as 1/M^2 where things are smooth, and edges are blurred over blocks of pixels, which is what is compared: 1 % of the brightest
-block is granted for it, and 5 standard errors for noise (by chance once in 2 million blocks)."""
+A picture over the whole shutter time is the mean of stills. The stills are at the middles of M equal intervals. Their mean has an error
+that falls as 1/M^2 where the motion is smooth. Edges are compared over blocks of pixels. The tolerance is 1 % of the brightest block, plus
+5 standard errors for noise (exceeded by chance once in 2 million blocks)."""
 import json
 import math
 import os
@@ -17,7 +17,7 @@ STILLS = 8
 
 
 class Builder:
-    """A glTF scene from meshes of one quad each, [-0.5, 0.5]^2 in the plane z = 0."""
+    """Builds a glTF scene from meshes of one quad each, [-0.5, 0.5]^2 in the plane z = 0."""
 
     def __init__(self):
         self.buffer = b""
@@ -75,8 +75,8 @@ def turn(axis, degrees):
 
 
 def room():
-    """A lamp over a floor, seen from behind and so not itself, that moves and shrinks; a slab that turns in its light; a spot that turns
-    and a camera that pans."""
+    """A lamp over a floor, moving and shrinking, seen from behind so that the camera does not see its light; a slab that turns in its
+    light; a spot light that turns; a camera that pans."""
     b = Builder()
     b.add(GREY, scale=[6, 6, 6], translation=[0, 0, -1])
     slab = b.add(GREY, translation=[0.3, 0, 0.2])
@@ -107,7 +107,7 @@ class Motion(Case):
         return self.render(scene, *options)[0]["image_sha256"]
 
     def blocks(self, planes, side, by):
-        """Mean and squared standard error of each block's G channel; pixels are independent of each other."""
+        """Mean and squared standard error of the G channel in each block. Pixels are independent of each other."""
         for y in range(0, side, by):
             for x in range(0, side, by):
                 at = [(y + j) * side + x + i for j in range(by) for i in range(by)]
@@ -133,7 +133,8 @@ class Motion(Case):
         self.assertGreater(moved, 0, "nothing to see")
 
     def with_camera(self, path, half):
-        """A copy that is looked at from above and from the side, so that stills are not framed each by itself; all grey, for the same kernels."""
+        """A copy with cameras above and at the side, since stills without cameras are framed one by one; all grey, so that all use the same
+        kernels."""
         with open(path, encoding="utf-8") as file:
             scene = json.load(file)
         for buffer in scene["buffers"]:
@@ -147,7 +148,7 @@ class Motion(Case):
         return write_gltf(self.path("model.gltf"), scene)
 
     def test_a_sliding_quad_is_covered_as_long_as_it_is_there(self):
-        """Its centre is anywhere in [-1, 1]: a pixel sees it for |[x - 0.5, x + 0.5] ∩ [-1, 1]| / 2 of the time."""
+        """The quad's centre is uniform in [-1, 1]: a pixel sees the quad for |[x - 0.5, x + 0.5] ∩ [-1, 1]| / 2 of the time."""
         b = Builder()
         b.animate(b.add(GLOW), "translation", [(-1, 0, 0), (1, 0, 0)])
         b.camera(2)
@@ -163,7 +164,7 @@ class Motion(Case):
 
     @full
     def test_a_turning_quad_keeps_its_corners(self):
-        """At radius r between 0.5 and its corner's a square is seen for 1 - 4 / pi acos(0.5 / r) of a quarter turn."""
+        """At a radius r between 0.5 and that of its corner, a square is seen for 1 - 4 / pi acos(0.5 / r) of a quarter turn."""
         b = Builder()
         b.animate(b.add(GLOW), "rotation", [turn(2, 0), turn(2, 90)])
         b.camera(0.75)
@@ -251,7 +252,7 @@ class Motion(Case):
 
     @full
     def test_what_appears_from_nothing(self):
-        """Without area at the first moments, and in the middle of the shutter for one of the two."""
+        """Quads without area at the start, and for one of them also in the middle of the shutter time."""
         b = Builder()
         b.animate(b.add(GLOW), "scale", [(0, 0, 0), (1, 1, 1)])
         b.animate(b.add(GREY, translation=[0, .5, .5]), "scale", [(1, 1, 1), (0, 0, 0), (1, 1, 1)], times=(0.0, 0.5, 1.0))

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""--channels motion: by how many pixels things go through the picture while the shutter is open, against closed forms."""
+"""--channels motion: how many pixels things move by in the picture while the shutter is open, against closed forms."""
 import math
 import unittest
 
@@ -11,7 +11,8 @@ WIDE, HIGH = 24, 16
 
 
 def square(node=None, **camera):
-    """A square of 1 x 1 in the plane z = 0 that goes as `node` says, and a perspective camera at (0, 0, 5), the tangent of half its field 0.4."""
+    """A square of 1 x 1 in the plane z = 0, animated as `node` says, and a perspective camera at (0, 0, 5); the tangent of half its field
+    is 0.4."""
     b = Builder()
     b.scene["cameras"] = [{"type": "perspective", "perspective": {"yfov": 2 * math.atan(0.4), "znear": 0.1, "aspectRatio": WIDE / HIGH}}]
     b.node(camera=0, translation=[0, 0, 5])
@@ -22,7 +23,7 @@ def square(node=None, **camera):
 
 
 def pixels_at(depth):
-    """Pixels that a metre takes."""
+    """Pixels a metre."""
     return HIGH / (2 * 0.4 * depth)
 
 
@@ -35,7 +36,8 @@ class Vectors(Case):
         return planes
 
     def test_a_square_that_moves(self):
-        """Of pixels that it covers all the time exactly its way, downwards as it sinks; where nothing is met 0; elsewhere as many times as A says."""
+        """The vector is exactly the square's motion in pixels that it covers all the time, and points down as it sinks. It is 0 where rays
+        hit nothing, and elsewhere the motion times A."""
         planes = self.render(square(("translation", [(0, 0, 0), (.25, -.5, 0)])), spp="8")
         x, y = .25 * pixels_at(5), .5 * pixels_at(5)
         for i, alpha in enumerate(planes["A"]):
@@ -46,7 +48,7 @@ class Vectors(Case):
 
     @full
     def test_a_camera_that_moves(self):
-        """What stands still goes the other way, as far as its depth says; what is infinitely far away stays."""
+        """A still object moves the other way, by an amount that depends on its depth. At infinity nothing moves."""
         planes = self.render(square(camera=("translation", [(0, 0, 5), (.1, .05, 5)])))
         inside, corner = HIGH // 2 * WIDE + WIDE // 2, 0
         self.assertAlmostEqual(planes["motion.X"][inside], -.1 * pixels_at(5), 4)
@@ -55,21 +57,21 @@ class Vectors(Case):
 
     @full
     def test_a_camera_that_turns(self):
-        """All goes along, near or far: the middle of the view is at the tangent of the angle once the camera has turned by that."""
+        """The whole picture moves alike at all depths. The middle of the view moves to the tangent of the angle by which the camera turns."""
         degrees = 2
         planes = self.render(square(camera=("rotation", [turn(1, -degrees), turn(1, degrees)])), "--env", "1,1,1", spp="256")
-        unit = HIGH / (2 * 0.4)  # pixels of the tangent
+        unit = HIGH / (2 * 0.4)  # pixels for a tangent of 1
         for i in (HIGH // 2 * WIDE + WIDE // 2, HIGH // 2 * WIDE + 2):  # on the square, and beside it
-            angle = math.atan((i % WIDE + .5 - WIDE / 2) / unit)  # as seen in the middle of the exposure
+            angle = math.atan((i % WIDE + .5 - WIDE / 2) / unit)  # in the middle of the exposure
             before, after = (angle + sign * math.radians(degrees) for sign in (-1, 1))
             way = unit * (math.tan(after) - math.tan(before))
             self.assertAlmostEqual(planes["motion.X"][i], way, delta=0.02 * way)
-            down = .5 * math.cos(angle) * (1 / math.cos(after) - 1 / math.cos(before))  # the row's middle is half a pixel below the view's
+            down = .5 * math.cos(angle) * (1 / math.cos(after) - 1 / math.cos(before))  # the row's centre is half a pixel below the view's
             self.assertAlmostEqual(planes["motion.Y"][i], down, delta=0.003)
 
     @full
     def test_same_bits_everywhere(self):
-        """And the picture has the bits that it has without."""
+        """And the channels do not change the picture."""
         b = square(("rotation", [turn(2, 0), turn(2, 80)]))
         planes = self.render(b)
         self.assert_ok(eclat("render", self.path("scene.gltf"), "--size", f"{WIDE}x{HIGH}", "--spp", "64", "-q", "--shutter", "0:1", "-o", "b.exr", cwd=self.folder))

@@ -1,5 +1,6 @@
 # tier: quick
-"""The rooms of host/: each includes and links only those that host/rooms.cmake gives it, and these come before it. The preview window stands outside."""
+"""The rooms of host/: each includes and links only those that host/rooms.cmake gives it, which come before it in that file. The preview
+window uses none."""
 import collections
 import functools
 import glob
@@ -12,17 +13,17 @@ from support import ECLAT, SOURCE
 
 BUILD = os.path.dirname(os.path.abspath(ECLAT))
 HOST = os.path.join(SOURCE, "host")
-COMPILE = {"base", "cl"}  # what eclat-compile, a program of its own, may use
+COMPILE = {"base", "cl"}  # the rooms of eclat-compile, a program of its own
 
 
 def permitted():
-    """{room: the rooms it may use}, in the order of the list."""
+    """Returns {room: rooms that it may use}, in the order of the list."""
     with open(os.path.join(HOST, "rooms.cmake"), encoding="utf-8") as file:
         return {name: set(rest.split()) for name, rest in re.findall(r"^eclat_room\((\w+)(.*)\)$", file.read(), re.M)}
 
 
 def included():
-    """(room, room, where) of each include from one room to another."""
+    """Returns (room, room, where) for each include from one room in another."""
     for path in glob.glob(os.path.join(HOST, "*", "**", "*.*"), recursive=True):
         room = os.path.relpath(path, HOST).split(os.sep)[0]
         if not path.endswith((".c", ".h", ".cpp")):
@@ -34,7 +35,7 @@ def included():
 
 @functools.lru_cache(maxsize=None)
 def symbols(room):
-    """What the room's archive defines, and what it needs, its module included."""
+    """Symbols that the room's archive, with its module, defines, and those that it needs."""
     module = {"ranks": "eclat_mpi"}.get(room, "none")
     objects = glob.glob(os.path.join(BUILD, "CMakeFiles", f"{module}.dir", "host", room, "*.o"))
     return symbols_of(os.path.join(BUILD, f"libroom_{room}.a"), *objects)
@@ -77,7 +78,7 @@ class Rooms(unittest.TestCase):
             self.assertEqual({name for name in needs if name.startswith("ec_")}, set())
 
     def test_the_program_knows_the_public_header_alone(self):
-        """And the linker sees to it: it is given libeclat.so and no other library of ours, which has no symbol but those of the header."""
+        """The linker enforces this too: it gets libeclat.so and no other library of ours, and that exports only the symbols of the header."""
         for path in [*glob.glob(os.path.join(HOST, "cli", "*")), os.path.join(HOST, "main.c")]:
             with open(path, encoding="utf-8") as file:
                 for name in re.findall(r'^#include (?:"([^"]+)"|<eclat/(?!eclat\.h>).*>)', file.read(), re.M):

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""A scene whose light may be missing states no error bound: every output says so and why, however the samples were taken."""
+"""A scene whose light may be missing states no bound of its error. Every output says so and why, however the samples were taken."""
 import json
 import os
 import re
@@ -10,7 +10,7 @@ from tiers import full
 
 PINLAMP = os.path.join(SOURCE, "scenes", "pinlamp", "pinlamp.gltf")
 SIZE = ["--size", "24x20"]
-ALONE = ["--light-paths", "0"]  # they would find it
+ALONE = ["--light-paths", "0"]  # light paths would find the light
 
 
 class NoBound(Case):
@@ -56,7 +56,7 @@ class NoBound(Case):
 
     @full
     def test_any_wave_width_and_structure_say_the_same(self):
-        """Strips do too: test_strips.py."""
+        """test_strips.py has the test for strips."""
         _, (attributes, whole) = self.render("--spp", "16", "--size", "96x300")
         for options in (["--wave", "4096"], ["--lanes", "1"], ["--accel", "kdtree"]):
             with self.subTest(options=options):
@@ -80,7 +80,7 @@ class NoBound(Case):
         self.assertNotIn("eclat.errorBoundWhy", attributes)
 
     def test_only_paths_are_looked_at(self):
-        """Ray trees and rasterised pictures take the same ways whatever the sample."""
+        """Ray trees and rasterised pictures have no random paths."""
         for integrator in ("whitted", "raster"):
             run, _ = self.render("--spp", "16", "--json", "--integrator", integrator)
             self.assertIsNone(json.loads(run.stdout)["error_bound_why"])

@@ -1,5 +1,6 @@
 # tiers: quick, full
-"""--ocio: pictures for the screen by views of OpenColorIO's, against closed forms of a config of our own, and against its library where that is there."""
+"""--ocio: pictures for the screen by OpenColorIO's views, against closed forms of a config of our own, and against OpenColorIO's library
+where it is installed."""
 import os
 import random
 import sys
@@ -39,7 +40,7 @@ class Ocio(Case):
             self.skipTest("built without OpenColorIO")
 
     def render(self, *options):
-        """Colours from 2^-9 to 2^4 all around: radiance and what the screen shows of it, 16 bits."""
+        """Returns colours from 2^-9 to 2^4 from all around: their radiance, and what the screen shows, in 16 bits."""
         dice = random.Random(26)
         colors = [[2 ** dice.uniform(-9, 4) for _ in range(32 * 16)] for _ in "RGB"]
         sky = write_exr(self.path("sky.exr"), 32, 16, dict(zip("RGB", colors)))
@@ -61,7 +62,7 @@ class Ocio(Case):
 
     @full
     def test_a_config_of_aces(self):
-        """As PyOpenColorIO shows the same floats; linear Rec. 709 is found by its name in that config."""
+        """Compares with PyOpenColorIO for the same floats. This config knows linear Rec. 709 by its name."""
         sys.path.append(pypi.fetch("opencolorio", "opencolorio==2.6.0"))
         import PyOpenColorIO as ocio  # pylint: disable=import-outside-toplevel
         config = ocio.Config.CreateFromBuiltinConfig("cg-config-v1.0.0_aces-v1.3_ocio-v2.1")

@@ -1,5 +1,5 @@
 # tier: quick
-"""A lamp that lets light pass does not shine on itself: alone in the dark, a flat one shows what it emits and nothing else."""
+"""A lamp that transmits light does not light itself: alone in the dark, a flat one shows only what it emits."""
 import math
 import os
 import sys
@@ -8,7 +8,7 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "robust"))
 from hard_scene import QUAD, HardCase, Scene
 
-TILT = {"rotation": [math.sin(0.2), 0, 0, math.cos(0.2)], "scale": [2, 2, 2]}  # no hit lies in the lamp's plane but for rounding
+TILT = {"rotation": [math.sin(0.2), 0, 0, math.cos(0.2)], "scale": [2, 2, 2]}  # hits leave the lamp's plane only by rounding
 PASSING = {"diffuse_transmission": {"diffuseTransmissionFactor": 0.5}, "transmission": {"transmissionFactor": 0.8}}
 
 

@@ -1,5 +1,6 @@
 # tiers: quick, full
-"""What cpack makes of this build, and the files that tell others how to install eclat. tests/packages installs the packages on other systems."""
+"""The packages that cpack makes of this build, and the files that describe how to install eclat. tests/packages installs the packages on
+other systems."""
 import glob
 import os
 import re

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Points and lines are drawn as wide as --point-size says, with the same bits by every structure, alone and as frames."""
+"""Points and lines are as wide as --point-size says; bits do not depend on the structure, nor on whether frames are rendered alone."""
 import json
 import math
 import struct
@@ -8,12 +8,12 @@ import unittest
 from support import QUICK, Case, data_uri, eclat, move_node, quad_scene, read_exr, write_gltf
 from tiers import full
 
-SQUARE = 512  # pixels of the picture in which a point of one pixel is one wide
+SQUARE = 512  # pixels of a picture in which a point of width 1 covers one pixel
 
 
 class Points(Case):
     def scene(self, mode, change=lambda scene: None):
-        """The corners of the quad, 2 x 2, as points or lines that emit; the camera 3 before it."""
+        """The corners of the quad, 2 x 2, as points or lines that emit. The camera is 3 before it."""
         scene, _ = quad_scene()
         del scene["meshes"][0]["primitives"][0]["indices"]
         scene["meshes"][0]["primitives"][0]["mode"] = mode
@@ -27,13 +27,13 @@ class Points(Case):
         return json.loads(run.stdout)["image_sha256"], read_exr(out)[1]
 
     def test_widths(self):
-        """Across an upright line of a loop: the share of the picture that it takes."""
+        """The share of the picture that an upright line of a loop covers."""
         for size, window in [(4, 0.2), (24, 0.5)]:
-            left = 1 / (3 * math.tan(0.4))  # the line's middle, in half heights of the picture
+            left = 1 / (3 * math.tan(0.4))  # the middle of the line, in half heights of the picture
             part = [left - window, left + window, -0.05, 0.05]
             _, planes = self.render(self.scene(2), "--point-size", str(size), "--size", "64x8", "--spp", "64", "--screen-window", ",".join(map(str, part)))
             share = sum(planes["A"]) / len(planes["A"])
-            self.assertAlmostEqual(share * 2 * window * SQUARE / 2 / size, math.hypot(1, 1 / 3), delta=0.06)  # wider beside the axis
+            self.assertAlmostEqual(share * 2 * window * SQUARE / 2 / size, math.hypot(1, 1 / 3), delta=0.06)  # wider away from the axis
 
     @full
     def test_all_structures_have_the_same_bits(self):
@@ -45,7 +45,7 @@ class Points(Case):
         self.assertNotEqual(self.render(scene, *options, "--accel", "bvh8", "--point-size", "8")[0], pictures["bvh8"][0])
 
     def test_what_there_is_beside_them(self):
-        """Triangles of the same mesh stay; without points and lines the option changes nothing."""
+        """Triangles of the same mesh stay. Without points and lines the option changes nothing."""
         def both(scene):
             scene["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "indices": 1, "material": 0})
         info = json.loads(self.assert_ok(eclat("info", self.scene(0, both), "--json")).stdout)
@@ -55,7 +55,7 @@ class Points(Case):
         self.assertEqual(self.render(plain, *options)[0], self.render(plain, *options, "--point-size", "9")[0])
 
     def test_frames_of_a_camera_that_comes_nearer(self):
-        """Each is what it is alone: as wide a point, however near the camera."""
+        """Each frame is what it is alone: points keep their width in pixels, however near the camera is."""
         scene = self.scene(0, lambda scene: move_node(scene, 1, (0, 0, 6), (0, 0, 3)))
         options = ["--size", "32x32", "--spp", "4", "--env", "0,0,0", "--point-size", "40", *QUICK, "-q"]
         self.assert_ok(eclat("render", scene, *options, "--frames", "0:2", "--fps", "2", "-o", self.path("f%d.exr")))
@@ -108,7 +108,7 @@ class Points(Case):
                 self.assertLess(sum(abs(a - b) for a, b in zip(as_written, self.moved(how))), 0.01 * sum(as_written))
 
     def test_they_move_while_the_shutter_is_open(self):
-        """By half of what they are apart, along x: each leaves a trail with as much light as it has where it stands still."""
+        """Points move by half of their distance along x. Each leaves a trail with as much light as a point that stands still."""
         scene = self.scene(0, lambda scene: move_node(scene, 0, (0, 0, 0), (1, 0, 0)))
         options = ["--size", "96x64", "--spp", "16", "--point-size", "30"]
         still, trail = (self.render(scene, *options, *when)[1]["A"] for when in (["--at", "0.5"], ["--shutter", "0:1"]))

@@ -1,5 +1,5 @@
 # tier: quick
-"""Kernels that were compiled when eclat was built: a first render begins with them, to the same bits, and never with damaged ones."""
+"""Kernels that were compiled when eclat was built: a first render begins with them and gets the same bits. Damaged ones are never used."""
 import json
 import os
 import shutil
@@ -12,7 +12,7 @@ PREPARED = os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "eclat-kernels"
 
 @unittest.skipUnless(os.path.isdir(PREPARED), "no kernels were compiled when this was built: there was no device, or it compiles in time")
 class Prepared(Case):
-    picture = None  # that of whichever kernels were used first
+    picture = None  # the picture with the first kernels, whichever those were
 
     def setUp(self):
         super().setUp()
@@ -38,7 +38,7 @@ class Prepared(Case):
         self.assert_begun("universal", self.render("with", PREPARED))
         copied = [os.path.relpath(path, self.path("with", "pocl")) for path in self.files(self.path("with", "pocl"))]
         kept = [os.path.relpath(path, os.path.join(PREPARED, "files")) for path in self.files(PREPARED)]
-        self.assertTrue(copied and set(copied) < set(kept), copied)  # none was compiled, and none is there of what was not asked for
+        self.assertTrue(copied and set(copied) < set(kept), copied)  # no kernel was compiled, and only those in use were copied
 
     def test_damaged_ones_are_left_alone(self):
         for kind in (".so", ".bc"):
@@ -52,7 +52,7 @@ class Prepared(Case):
                 self.assert_begun("narrow", self.render("with" + kind, folder))
 
     def test_a_cache_that_cannot_be_written(self):
-        """Nor are there kernels that were compiled before: these are compiled for the scene."""
+        """Then the prepared kernels cannot be used either: the scene's own are compiled."""
         os.makedirs(self.path("with", "pocl"))
         os.symlink("/proc/none", self.path("with", "eclat"))
         self.assert_begun("narrow", self.render("with", PREPARED))

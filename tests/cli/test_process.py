@@ -1,5 +1,5 @@
 # tier: quick
-"""What the system does to a process: signals, small stacks, drivers that cannot load, names that a terminal would act on."""
+"""Effects of the system on a process: signals, small stacks, drivers that cannot be loaded, names that a terminal would interpret."""
 import os
 import resource
 import signal
@@ -18,7 +18,7 @@ class Process(Case):
         self.scene = write_gltf(self.path("scene.gltf"), quad_scene()[0])
 
     def test_signals_end_it_as_the_system_has_it(self):
-        """Also once a driver's compiler has handlers of its own, which swallow them."""
+        """Signals also work once a driver's compiler has installed handlers that swallow them."""
         for number in [signal.SIGQUIT, signal.SIGUSR1, signal.SIGUSR2]:
             with self.subTest(number):
                 kept = self.path(f"{number}.exr")
@@ -38,8 +38,8 @@ class Process(Case):
         self.assert_ok(run)
 
     def test_a_small_stack_will_do(self):
-        """A driver's compiler takes more than 128 KiB, and overruns it without a word."""
-        cache = self.path("cache")  # so that there is something to compile
+        """A driver's compiler needs more than 128 KiB of stack, and overruns it without a message."""
+        cache = self.path("cache")  # an empty cache, so that kernels are compiled
         os.mkdir(cache)
 
         def shrink():
@@ -60,7 +60,7 @@ class Process(Case):
             self.assertIn("broken.icd' cannot be used: /nonexistent/libdriver.so: ", line)
 
     def test_names_reach_a_terminal_safely(self):
-        """Escape sequences, line breaks and what turns the direction of writing."""
+        """Escape sequences, line breaks, and characters that change the direction of writing."""
         bad = "x\x1b[31m\n\u202ey"
         scene = write_gltf(self.path(bad + ".gltf"), quad_scene()[0])
         exr = write_exr(self.path(bad + ".exr"), 2, 2, {name: [1.0] * 4 for name in "RGB"})

@@ -1,5 +1,6 @@
 # tier: full
-"""The wheel of tools/python as a stranger gets it: what is in it, what it loads, its command, its types, and by tests/python its functions."""
+"""The wheel of tools/python as others get it: its contents, the libraries that it loads, its command, its types; tests/python tests its
+functions."""
 import importlib.util
 import json
 import os
@@ -15,7 +16,7 @@ import support
 import wheel
 from support import CORNELL, SOURCE
 
-# What every Linux of the wheel's tag has: PEP 600, and auditwheel's list.
+# Libraries that every Linux of the wheel's tag has: PEP 600, and auditwheel's list.
 EVERYWHERE = r"(ld-linux-x86-64|libc|libm|libdl|libpthread|librt|libgcc_s|libstdc\+\+|libz)\.so[.\d]*"
 
 TYPED = """import eclat
@@ -32,7 +33,7 @@ print((picture.bound or 1) + eclat.compare(picture, "b.png", fit_exposure=True).
 
 
 def debian():
-    """Its version, "12.5"; empty: another system."""
+    """Debian's version, "12.5"; empty on another system."""
     try:
         with open("/etc/debian_version", encoding="utf-8") as file:
             return file.read()
@@ -44,7 +45,7 @@ C_TYPES = {"double": "c_double", "int": "c_int", "uint32_t": "c_uint", "size_t":
 
 
 class Declarations(unittest.TestCase):
-    """What the package says of eclat.h to ctypes."""
+    """The package's ctypes declarations match eclat.h."""
 
     @classmethod
     def setUpClass(cls):
@@ -58,7 +59,7 @@ class Declarations(unittest.TestCase):
             spec.loader.exec_module(cls.library)
 
     def fields(self, struct):
-        """[(name, its type)] of the header's; other types by their last word."""
+        """Returns [(name, type)] of the header's struct; other types by their last word."""
         found = []
         for declaration in re.search(rf"typedef struct {struct} {{(.*?)}} {struct};", self.header, re.DOTALL)[1].split(";"):
             if pointer := re.search(r"\(\*(\w+)\)\(", declaration):
@@ -109,10 +110,10 @@ class Wheel(unittest.TestCase):
 
     @unittest.skipUnless(debian().startswith("12."), "not built on Debian 12")
     def test_it_asks_for_no_newer_glibc_than_it_has_to(self):
-        self.assertIn("manylinux_2_34_", self.wheel)  # the manual says so
+        self.assertIn("manylinux_2_34_", self.wheel)  # the manual states this
 
     def test_everything_is_inside(self):
-        """The linker finds what the programs and the library need in the environment, but for what every Linux has."""
+        """The linker finds everything that the programs and the library need in the environment, or in what every Linux has."""
         for file in ("libeclat.so.0", "eclat", "eclat-compile"):
             needs = self.run_here("ldd", os.path.join(self.package, file)).stdout
             self.assertNotIn("not found", needs, file)
@@ -136,7 +137,7 @@ class Wheel(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         files = {line.split(None, 5)[5] for line in done.stdout.splitlines() if line.count(" /")}
         self.assertTrue([name for name in files if name.endswith("eclat/libeclat.so.0")])
-        kernels = support.ENVIRONMENT["XDG_CACHE_HOME"]  # the driver maps them
+        kernels = support.ENVIRONMENT["XDG_CACHE_HOME"]  # the driver maps these files
         build = os.path.realpath(wheel.BUILD) + os.sep
         self.assertEqual([name for name in files if name.startswith(build) and not name.startswith(os.path.realpath(kernels))], [])
 
@@ -149,7 +150,7 @@ class Wheel(unittest.TestCase):
         self.assertEqual((refused.returncode, refused.stderr.count("\n")), (1, 1), refused.stderr)
 
     def test_the_command_compiles_beside_as_well(self):
-        """eclat-compile lies where the library looks."""
+        """eclat-compile is where the library looks for it."""
         self.assertTrue(os.access(os.path.join(self.package, "eclat-compile"), os.X_OK))
         cache = os.path.join(self.venv.folder, "cache")
         done = self.run_here(self.venv.program("eclat"), "render", CORNELL, "--size", "16x16", "--spp", "8", "--json", "-o", "a.exr", XDG_CACHE_HOME=cache,
@@ -179,7 +180,7 @@ class Wheel(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_importing_it_does_nothing_yet(self):
-        """No library, no driver, no variable, as in a program that only may render."""
+        """Importing loads no library and no driver, and sets no variable."""
         code = "import eclat, os\nprint(eclat.__version__, 'libeclat' in open('/proc/self/maps').read(), os.environ.get('OCL_ICD_VENDORS'))\n" \
                "eclat.devices()\nprint(os.environ.get('OCL_ICD_VENDORS'))"
         version = re.search(r"eclat-([\d.]+)-", self.wheel)[1]

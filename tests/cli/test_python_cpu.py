@@ -1,5 +1,5 @@
 # tier: full
-"""eclat[cpu]: the wheel with Intel's runtime by pip, without root, without a variable and without another driver: the same bits."""
+"""eclat[cpu]: the wheel with Intel's runtime from pip, without root, without a variable and without another driver, gives the same bits."""
 import json
 import os
 import shlex
@@ -11,7 +11,7 @@ import wheel
 from support import CORNELL, SOURCE
 
 SIZE = ("--size", "24x16", "--spp", "16")
-# Nothing but what pip has brought: as on a machine that has no driver.
+# Leaves only the drivers that pip has installed, as on a machine that has none.
 ALONE = "import sys, pathlib, eclat._drivers as drivers\ndrivers.SYSTEM = pathlib.Path('/nonexistent')\n"
 RENDER = f"import eclat, os\nprint([device.platform for device in eclat.devices()])\n" \
          f"picture = eclat.load({CORNELL!r}).render(spp=16, size=(24, 16), device='Intel' if len(eclat.devices()) > 1 else 0)\n" \
@@ -36,14 +36,14 @@ class Processor(support.Case):
         attributes, planes = support.read_exr(self.path("a.exr"))
         platforms, digest = self.python(ALONE + RENDER)
         self.assertEqual((platforms, digest), ("['Intel(R) OpenCL']", attributes["eclat.imageSha256"]))
-        # The command finds the same one.
+        # The command finds the same driver.
         self.python(ALONE + COMMAND)
         mine = support.read_exr(self.path("c.exr"))
         self.assertIn("Intel", mine[0]["eclat.device.platform"])
         self.assertEqual(mine[1], planes)
 
     def test_with_nothing_else_in_reach(self):
-        """In a namespace whose source, build and drivers are empty folders."""
+        """In a namespace where source, build and drivers are empty folders."""
         folders = [path for path in (wheel.BUILD, os.path.abspath(SOURCE), "/etc/OpenCL/vendors") if os.path.isdir(path)]
         hide = " && ".join(f"mount -t tmpfs none {shlex.quote(path)}" for path in folders)
         if wheel.run("unshare", "-m", "sh", "-c", hide).returncode:

@@ -1,6 +1,6 @@
 # tier: full
-"""Only sums travel: where batches come fast, ranks send the sum of 128 or 2048 batches in place of each of them, to the same bits. Skipped where there
-is no mpirun, or eclat was built without MPI."""
+"""Where batches are short, ranks send the sum of 128 or 2048 batches instead of each batch; the bits stay the same. Skips without mpirun,
+or where eclat was built without MPI."""
 import json
 import os
 import signal
@@ -11,15 +11,15 @@ from polling import GUARD, poll_writes
 from support import CORNELL, Case, eclat, read_exr
 
 SIZE = ["--size", "8x8"]
-# Quick, and long: a block, of 8192 samples from the 6144th on, has to be over within 3 s for ranks to take it, and two pieces of it, which here are
-# as large, have to be over before the rest is.
+# Batches are quick and the job is long: a block of 8192 samples, from the 6144th on, must be done within 3 s for ranks to take it, and two
+# of its pieces, which are as large here, must be done before the rest.
 JOB = [CORNELL, *SIZE, "--max-depth", "1"]
 MANY = [*JOB, "--spp", "300000"]  # the last batch is cut
 PIXELS = 8 * 8
 
 
 def bytes_of_each(report):
-    """That reached rank 0, for a pixel of 64 samples that another rank took: of a batch, as most are."""
+    """Bytes that reached rank 0 for a pixel of 64 samples that another rank took; most batches have 64."""
     return 64 * report["received_bytes"] / (PIXELS * report["other_ranks_samples_per_pixel"])
 
 
@@ -43,9 +43,9 @@ class RankBlocks(Case):
         self.assertEqual(one[1], other[1])
 
     def test_traffic(self):
-        """Batches by themselves would be 24 bytes a pixel each, the sums of 128 are 108 / 128. By themselves come the first, the last, and all until
-        the ranks know their pace."""
-        job = [*MANY[:-1], "1200000"]  # goes on for long after the last rank has begun
+        """A batch sent alone has 24 bytes a pixel; a sum of 128 batches has 108 / 128 for each. The first and the last batches are sent
+        alone, and all others until the ranks know their pace."""
+        job = [*MANY[:-1], "1200000"]  # long enough to go on after the last rank has begun
         whole = self.render(*job)
         report, planes = self.render_on(5, *job, env={"ECLAT_RANK_FANOUT": "2"})
         self.assert_same(whole, (report, planes))
@@ -53,7 +53,7 @@ class RankBlocks(Case):
         self.assertLess(bytes_of_each(report), 24 / 1.5)
 
     def test_first_hits(self):
-        """A denoiser goes by those of all samples, which are 32 bytes a pixel more of a batch, and twice that of sums."""
+        """A denoiser needs first hits of all samples: 32 more bytes a pixel for each batch, and twice that for each sum."""
         job = [*MANY[:-1], "1200000", "--denoise=atrous", "--channels", "all"]
         whole = self.render(*job)
         report, planes = self.render_on(3, *job)
@@ -61,8 +61,8 @@ class RankBlocks(Case):
         self.assertLess(bytes_of_each(report), 56 / 1.5)
 
     def test_until_an_error(self):
-        """The same batch ends it, wherever they were rendered: it is looked at where all replicates have a quarter of a power of two, and no block
-        goes beyond that. From 32768 samples on 128 batches and more lie between two looks."""
+        """The same batch ends the job, wherever batches were rendered. The error is looked at when all replicates have a quarter of a power
+        of two, and no block goes beyond such a point. From 32768 samples on, 128 batches or more lie between two looks."""
         past = self.render(*JOB, "--spp", "49152")[0]["error_bound"]
         job = [*JOB, "--adaptive=off", "--error", f"{100 * past}%"]
         whole = self.render(*job)
@@ -75,7 +75,7 @@ class RankBlocks(Case):
         self.assertEqual(whole[0]["image_sha256"], self.render_on(2, "--resume", kept, "--error", f"{100 * past}%", "--spp", "4000000")[0]["image_sha256"])
 
     def test_going_on(self):
-        """A job that is stopped again and again, at any batch, on other ranks each time."""
+        """A job is stopped again and again, at any batch, and resumed on other numbers of ranks."""
         job, kept = [*MANY[:-1], "600000"], self.path("kept.exr")
         whole = self.render(*job)
         now, stops = job, 0
@@ -96,15 +96,16 @@ class RankBlocks(Case):
         self.assert_same(whole, self.render_on(2, *job, env=env))
 
     def test_a_device_that_fails(self):
-        """In the middle of a block: others take its piece."""
+        """A device fails in the middle of a block: others take over its piece."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clEnqueueNDRangeKernel FAULT_AT=2500 FAULT_LOST=1"
-        run = self.render_with(fault, MANY, {"ECLAT_RANK_FANOUT": "1"})  # it goes on with what the last rank does
+        run = self.render_with(fault, MANY, {"ECLAT_RANK_FANOUT": "1"})  # the render continues with the last rank
         self.assertRegex(run.stderr, "warning: from rank 1: .* has failed, and the others take over its work: .*CL_OUT_OF_RESOURCES")
 
     def test_a_rank_that_is_killed(self):
-        """Where the launcher lets the others live they see at once that it has ended, even from behind it in a chain, and take its piece over."""
+        """With a launcher that keeps the others alive, they see at once that the rank has ended, even those behind it in a chain, and take
+        over its piece."""
         job = [*MANY[:-1], "600000"]
         whole = self.render(*job)
         process = self.start(3, *job, "--checkpoint", self.path("kept.exr"), "--every", "0.3s", "--json", "-o", self.path("b.exr"),
@@ -122,7 +123,8 @@ class RankBlocks(Case):
         self.assertEqual(whole["image_sha256"], report["image_sha256"])
 
     def test_a_plan(self):
-        """The model knows blocks: not at the beginning and the end, and not where a block takes long, as one does of a picture that is one row of tiles."""
+        """The model includes blocks, except at the beginning and the end, and where a block takes long, as it does for a picture of one row
+        of tiles."""
         plan = json.loads(self.assert_ok(eclat("render", CORNELL, "--size", "20x18", "--wave", "4096", "--spp", "16000000", "--plan", "1000", "--json", "-q")).stdout)
         rows = {row["ranks"]: row for row in plan["plan"]}
         self.assertEqual(rows[1]["received_bytes"], 0)

@@ -1,6 +1,8 @@
 # tiers: quick, full
-"""Processes of an MPI job make the picture that one makes, bit for bit, however many they are and wherever; and end well where something fails.
-Skipped where there is no mpirun, or eclat was built without MPI."""
+"""The processes of an MPI job make the picture of one process, bit for bit, however many there are and wherever. They end properly when
+something fails.
+
+Skips without mpirun, or where eclat was built without MPI."""
 import json
 import os
 import re
@@ -14,14 +16,14 @@ from polling import GUARD, poll_until
 from support import CORNELL, ECLAT, ENVIRONMENT, Case, eclat, quad_scene, read_exr, write_gltf
 from tiers import full
 
-# As root, and more processes than processors: only here. Two threads a process are enough for pictures of 300 pixels. Without gl hwloc
-# does not ask every X server it finds for its cards, and end with those that other tests close meanwhile.
+# Runs as root and oversubscribed, which only tests should. Two threads a process are enough for pictures of 300 pixels. Without gl, hwloc
+# does not query every X server for its cards, and does not end with servers that other tests close meanwhile.
 MPI = dict(ENVIRONMENT, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", PRTE_ALLOW_RUN_AS_ROOT="1", PRTE_ALLOW_RUN_AS_ROOT_CONFIRM="1",
            POCL_MAX_PTHREAD_COUNT="2", HWLOC_COMPONENTS="-gl")
 RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates", "invalid_samples", "allotment_gain"]
 JOB = [CORNELL, "--size", "20x18"]
-LAUNCHER = 60  # seconds to end in
-NEVER_LOST = {"ECLAT_RANK_LOST": "1000000"}  # where one rank waits for another in vain, the job hangs
+LAUNCHER = 60  # seconds for the launcher to end
+NEVER_LOST = {"ECLAT_RANK_LOST": "1000000"}  # a rank that waits for another in vain makes the test hang
 
 
 def mpirun(ranks, *arguments, env=None):
@@ -30,19 +32,19 @@ def mpirun(ranks, *arguments, env=None):
 
 
 def without_mpi():
-    """Why there is nothing to test; None: there is."""
+    """Returns why there is nothing to test, or None."""
     if not shutil.which("mpirun"):
         return "no mpirun here"
     return "this eclat has no MPI" if "has no MPI" in mpirun(2, "--version").stderr else None
 
 
 def own_lines(run):
-    """What eclat says, without the launcher's words."""
+    """eclat's lines, without the launcher's."""
     return [line for line in run.stderr.splitlines() if "eclat: " in line]
 
 
 def has_ended(number):
-    """Gone, or not waited for: a launcher that waits for itself waits for no process."""
+    """True if the process is gone, or a zombie: a launcher that waits for itself reaps no process."""
     try:
         with open(f"/proc/{number}/stat", encoding="utf-8") as file:
             return file.read().rpartition(") ")[2].startswith("Z")
@@ -59,7 +61,7 @@ class Ranks(Case):
     rendered = {}
 
     def render(self, *options):
-        """One process's report and planes; what several tests ask for is rendered once."""
+        """The report and planes of one process. Each render is made once for all tests."""
         if options not in self.rendered:
             run = self.assert_ok(eclat("render", *options, "--json", "-q", "-o", self.path("a.exr")))
             self.rendered[options] = json.loads(run.stdout), read_exr(self.path("a.exr"))[1]
@@ -75,7 +77,7 @@ class Ranks(Case):
 
     def test_a_number_of_samples(self):
         for ranks in 2, 3, 5:
-            self.assert_same([*JOB, "--spp", "131"], ranks)  # 128:132 is a batch
+            self.assert_same([*JOB, "--spp", "131"], ranks)  # the last batch, 128:132, is cut
 
     @full
     def test_all_take_part(self):
@@ -86,13 +88,13 @@ class Ranks(Case):
 
     @full
     def test_trees(self):
-        """A chain of five, and two levels of two: nobody but neighbours exchanges letters."""
+        """A chain of five ranks, and two levels of two: only neighbours exchange messages."""
         self.assert_same([*JOB, "--adaptive", "--spp", "80"], 5, {"ECLAT_RANK_FANOUT": "1"})
         self.assert_same([*JOB, "--spp", "131"], 5, {"ECLAT_RANK_FANOUT": "2"})
 
     @full
     def test_a_series(self):
-        """Each picture of several scenes, and of a turntable, by all ranks: the bits of one process."""
+        """All ranks render each picture of several scenes, and of a turntable: the bits of one process."""
         scenes = [self.path(f"{name}.gltf") for name in "ab"]
         for k, scene in enumerate(scenes):
             write_gltf(scene, quad_scene(material={"emissiveFactor": [1, 0.5, k], "doubleSided": True})[0])
@@ -141,7 +143,7 @@ class Ranks(Case):
 
     @full
     def test_going_on_with_other_ranks(self):
-        """With more samples where they tell; test_rank_blocks goes on without."""
+        """With adaptive sampling; test_rank_blocks tests without."""
         job = [*JOB, "--adaptive"]
         whole, planes = self.render(*job, "--spp", "90")
         kept = self.path("kept.exr")
@@ -174,7 +176,7 @@ class Ranks(Case):
 
     @full
     def test_another_launcher(self):
-        """MPI finds one process where that of another MPI started three: each would render all of the picture."""
+        """The MPI library of the launcher is another one: each of three processes would find itself alone, and render the whole picture."""
         for number, lines in [("0", 1), ("1", 0)]:
             run = eclat("render", *JOB, "--spp", "4", "-o", self.path("a.exr"), env=dict(MPI, PMI_SIZE="3", PMI_RANK=number))
             self.assertEqual(run.returncode, 1)
@@ -182,7 +184,7 @@ class Ranks(Case):
         self.assertFalse(os.path.exists(self.path("a.exr")))
 
     def test_srun_without_mpi(self):
-        """Only the first process says so; a slice, which may be one of many, is no matter."""
+        """Only the first process warns. A slice gets no warning, since it may be one of many."""
         for number, more, says in [("0", [], 1), ("1", [], 0), ("0", ["--samples", "0:8"], 0)]:
             env = {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": number}
             run = eclat("render", *JOB, "--spp", "16", *more, "-o", self.path("a.exr"), env=env)
@@ -201,7 +203,7 @@ class Ranks(Case):
         self.assertTrue(poll_until(lambda: os.path.exists(path), process), "no checkpoint")
 
     def ranks_of(self, process):
-        """Process numbers by rank."""
+        """Returns process numbers by rank."""
         found = {}
         for entry in os.listdir("/proc"):
             try:
@@ -216,10 +218,11 @@ class Ranks(Case):
         return found
 
     def outcome(self, process, ranks, lost):
-        """What it printed. Open MPI's launcher may wait for itself in PMIx_server_finalize after MPI_Abort: it is ended once its ranks have."""
+        """Returns the process's output. Open MPI's launcher may wait for itself in PMIx_server_finalize after MPI_Abort: it is ended once
+        its ranks have ended."""
         others = [number for rank, number in ranks.items() if rank != lost]
         poll_until(lambda: all(map(has_ended, others)), process)
-        if os.path.exists(f"/proc/{ranks[lost]}"):  # it may only have been stopped
+        if os.path.exists(f"/proc/{ranks[lost]}"):  # it may only be stopped
             os.kill(ranks[lost], signal.SIGKILL)
         try:
             return process.communicate(timeout=LAUNCHER)
@@ -229,7 +232,7 @@ class Ranks(Case):
 
     @full
     def test_a_rank_that_is_killed(self):
-        """The checkpoint survives and can be gone on with; a line says how; the job fails."""
+        """The checkpoint survives and can be resumed; a line says how; the job fails."""
         job = [*JOB]
         for victim in [2, 0]:
             kept = self.path("kept.exr")
@@ -239,7 +242,8 @@ class Ranks(Case):
             os.kill(ranks[victim], signal.SIGKILL)
             _, error = self.outcome(process, ranks, victim)
             self.assertNotEqual(process.returncode, 0, error)
-            goes_on = f"{ECLAT} render --resume {kept}\n"  # to be typed as it is; said before, and where there is a rank 0 to say it, again
+            # a command ready to be typed: stated when the render begins, and again by rank 0 if it is left
+            goes_on = f"{ECLAT} render --resume {kept}\n"
             self.assertEqual((error.count("from the last checkpoint with: " + goes_on), error.count("under mpirun, with: " + goes_on)),
                              (1, 1 if victim else 0), error)
             run = self.assert_ok(eclat("render", "--resume", kept, "--spp", "1", "--json", "-q", "-o", self.path("b.exr")))
@@ -251,8 +255,8 @@ class Ranks(Case):
 
     @full
     def test_ranks_that_are_lost(self):
-        """Where the launcher lets the others live: one below another, whose loss is told all the same; and one that hangs, for which the launcher
-        says that not all ended as they should."""
+        """The launcher keeps the other ranks alive. One lost rank is below another, and its loss is reported too; another hangs, and the
+        launcher reports the abnormal end."""
         job = [*JOB, "--spp", "12000"]
         whole, planes = self.render(*job)
         for victim, number, env, launcher in [(5, signal.SIGKILL, {"ECLAT_RANK_FANOUT": "2"}, ["--enable-recovery"]), (2, signal.SIGSTOP, {}, [])]:
@@ -273,7 +277,7 @@ class Ranks(Case):
 
     @full
     def test_a_rank_that_is_lost_before_the_scene_comes(self):
-        """It dies as it looks for devices: the others neither wait for it nor go without the scene."""
+        """Rank 1 dies while it looks for devices: the others do not wait for it, and take over the scene that it would have passed on."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clGetDeviceInfo FAULT_SIGNAL=9"
@@ -283,7 +287,7 @@ class Ranks(Case):
 
     @full
     def test_devices_of_ranks_that_round_otherwise(self):
-        """Rank 1's driver is another one, and says last how it rounds; where it is that of rank 0, there is nothing to warn of."""
+        """Rank 1 has another driver, and reports last how it rounds. No warning where it has rank 0's driver."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         counts, shim = self.path("counts"), f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']}"
@@ -298,7 +302,7 @@ class Ranks(Case):
 
     @full
     def test_a_device_of_a_rank_that_does_not_open(self):
-        """It is told of, and the rank goes on with the other one."""
+        """A warning names the device, and the rank goes on with its other one."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         job = [CORNELL, "--size", "64x48", "--spp", "512"]
@@ -308,7 +312,7 @@ class Ranks(Case):
         self.assertEqual(json.loads(run.stdout)["ranks"], 3)
 
     def render_with(self, on_rank_1, job, env=None, more=(), launcher=()):
-        """With three ranks, one of which has other variables."""
+        """Renders with three ranks, one of which has other variables."""
         script = f'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then export {on_rank_1}; fi; exec "$@"'
         run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", "none", *launcher, "-n", "3", "sh", "-c", script, "sh", ECLAT, "render", *job, *more,
                               "--json", "-o", self.path("b.exr")], env=dict(MPI, **(env or {})), stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
@@ -320,7 +324,7 @@ class Ranks(Case):
         return run
 
     def test_a_rank_without_a_device(self):
-        """It says so and the others do its work, and in a chain it is still who the last one is reached by."""
+        """The rank warns and the others do its work. In a chain it still passes messages to the last rank."""
         run = self.render_with("OCL_ICD_VENDORS=/nonexistent", [*JOB, "--spp", "40"], {"ECLAT_RANK_FANOUT": "1"})
         self.assertRegex(run.stderr, "warning: rank 1 on .*; the others go on without it")
         self.assertEqual(json.loads(run.stdout)["ranks"], 2)
@@ -335,7 +339,7 @@ class Ranks(Case):
 
     @full
     def test_cores(self):
-        """What a launcher binds to a core, as Open MPI does, is told of it."""
+        """eclat warns if a launcher binds it to a core, as Open MPI does."""
         for binding, says in [("core", 1), ("none", 0)]:
             run = subprocess.run(["mpirun", "--oversubscribe", "--bind-to", binding, "--mca", "hwloc_base_binding_policy",
                                   f"{binding}:overload-allowed", "-n", "2", ECLAT, "render", *JOB, "--spp", "4", "-o", self.path("b.exr")], env=MPI, stdin=subprocess.DEVNULL, capture_output=True,
@@ -344,7 +348,7 @@ class Ranks(Case):
 
     @full
     def test_hosts(self):
-        """Only the first one has the scene, and the folder that the picture goes to."""
+        """Only the first host has the scene, and the folder of the picture."""
         here = self.path("only-here")
         shutil.copytree(os.path.dirname(CORNELL), here)
         scene = os.path.join(here, os.path.basename(CORNELL))

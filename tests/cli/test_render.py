@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""eclat render from end to end: files, reports, and the same bits."""
+"""eclat render from end to end: files, reports, and equal bits."""
 import hashlib
 import json
 import math
@@ -38,7 +38,7 @@ class Files(Render):
         self.assertIn("no -o given", run.stderr)
         for name in ["quad.exr", "quad.png"]:
             self.assertIn(os.path.join(os.path.realpath(self.folder), name), run.stdout)
-        self.assertEqual(png_size(self.path("quad.png")), (768, 512))  # aspect ratio 1.5
+        self.assertEqual(png_size(self.path("quad.png")), (768, 512))  # the aspect ratio is 1.5
         self.assertRegex(run.stdout, r"error .* at 2 samples a pixel in .* samples/s")
         self.assertRegex(run.stdout, r"(?m)^set-up   kernels [\d.]+ m?s( \(\d+ compiled, \d+ from the cache\))?, acceleration structure .*; first pixel after [\d.]+ m?s$")
         self.assertRegex(run.stdout, r"(?m)^invalid  0 samples$")
@@ -67,7 +67,7 @@ class Files(Render):
         self.assertEqual(left_out, ["emission", "sheen"])
         self.assertLessEqual({"emission; left out", "sheen; left out"}, set(read_exr(self.path("a.exr"))[0]["eclat.effects.built"].splitlines()))
         self.assertEqual(report["effects"], ["back-face-culling", "sobol-sampler"])
-        self.assertEqual(report["mean_luminance"], 0)  # the lamp was all its light
+        self.assertEqual(report["mean_luminance"], 0)  # the lamp gave all the light
         run = self.assert_ok(eclat("render", CORNELL, *SMALL, "-v", "-o", "a.exr", "--without", "emission", "--without", "sheen", cwd=self.folder))
         self.assertRegex(run.stdout, r"(?m)^  emission +left out: --without$")
         self.assertIn("--without: the scene does not call for sheen\n", run.stderr)
@@ -100,7 +100,7 @@ class Files(Render):
         rgb = {name: CHANNELS[name] for name in "RGB"}
         for asked, found in [("default", CHANNELS), ("R", rgb), ("depth.Z,stderr.Y", {**rgb, "depth.Z": FLOAT, "stderr.Y": HALF}),
                              ("default,low95,high95", {**CHANNELS, **INTERVALS}), ("default,albedo,normal,depth", {**CHANNELS, **FEATURES}),
-                             ("clamped", rgb)]:  # of no render without --clamp
+                             ("clamped", rgb)]:  # channels that only --clamp makes
             self.render(*SMALL, "-o", "a.exr", "--channels", asked, scene=CORNELL)
             attributes, planes = read_exr(self.path("a.exr"))
             self.assertEqual(dict(attributes["channels"]), found, asked)
@@ -116,7 +116,7 @@ class Files(Render):
         self.assertEqual(os.listdir(self.folder), ["quad.gltf"])
 
     def test_errors_that_halves_do_not_hold_are_floats(self):
-        """Such as those of a scene that is lit by almost nothing, or by 10^8 times the usual."""
+        """Errors of a scene lit by almost nothing, or by 10^8 times the usual light."""
         for strength, kind in [("1e-7", FLOAT), ("0.1", HALF), ("1", HALF), ("1e8", FLOAT)]:
             report = self.render("--size", "24x16", "--spp", "16", "-o", "a.exr", "--env", "1,1,1", "--env-strength", strength, scene=self.lit())
             attributes, planes = read_exr(self.path("a.exr"))
@@ -125,7 +125,7 @@ class Files(Render):
             self.assertTrue(math.isclose(report["error"], math.sqrt(square) / report["mean_luminance"], rel_tol=1e-3))
 
     def lit(self):
-        """A mirror's worth of noise: a rough metal quad, which takes its light from an environment."""
+        """A rough metal quad lit by an environment, which has as much noise as a mirror."""
         return write_gltf(self.path("lit.gltf"), quad_scene(material={"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0}})[0])
 
     def test_without_two_replicates_no_channel_claims_an_error(self):
@@ -148,7 +148,8 @@ class Files(Render):
         self.assertRegex(run.stdout, rf"(?m)^pixels +{heavy} \(.* %\) need more samples for an error of their own")
 
     def test_the_errors_channels_are_those_of_the_stated_error(self):
-        report = self.render("--size", "96x64", "--spp", "16", "-o", "a.exr", scene=CORNELL)  # pixels enough for half floats to be off evenly
+        # enough pixels for the rounding of halves to average out
+        report = self.render("--size", "96x64", "--spp", "16", "-o", "a.exr", scene=CORNELL)
         _, planes = read_exr(self.path("a.exr"))
         square = sum(error * error for error in planes["stderr.Y"]) / len(planes["R"])
         self.assertTrue(math.isclose(report["error"], math.sqrt(square) / report["mean_luminance"], rel_tol=1e-4))
@@ -291,7 +292,7 @@ class Pieces(Render):
 
 class SameBits(Render):
     def test_limits_only_say_how_many_samples(self):
-        """Whichever of them ends a render of N samples a pixel, its bits are those of --spp N."""
+        """Whichever limit ends a render of N samples a pixel, its bits are those of --spp N."""
         job = ["--size", "33x17", "--max-depth", "5"]
         for limit, stopped_by in [(["--error", "30%", "--adaptive=off"], "error"), (["--time", "0.5s"], "time"), (["--time", "0.5s", "--spp", "100000"], "time"),
                                   (["--spp", "77", "--time", "10m", "--error", "0.1%", "--adaptive=off"], "spp")]:
@@ -309,7 +310,7 @@ class SameBits(Render):
             self.assertEqual((report["samples"], report["samples_per_pixel"], report["replicates"], set(planes["samples"])), (64 * spp, spp, min(spp, 4), {float(spp)}))
 
     def test_an_error_asks_for_samples_where_they_tell(self):
-        """Unless it is said that it does not, or there is nothing to gain."""
+        """--error turns --adaptive on, unless it is turned off, or there is nothing to gain."""
         for options, told, spends in [(["--error", "20%"], True, True), (["--error", "20%", "--adaptive=auto"], True, True), (["--error", "20%", "--adaptive=off"], False, False),
                                       (["--spp", "96"], False, False), (["--spp", "96", "--adaptive"], True, True), (["--spp", "96", "--adaptive=on"], True, True)]:
             with self.subTest(options=options):
@@ -330,7 +331,7 @@ class SameBits(Render):
         with self.subTest("density"):
             grids = [self.render(*options, "--accel", "grid", "--grid-density", density, scene=CORNELL) for density in ("0.01", "10000")]
             self.assertEqual([grid["image_sha256"] for grid in grids], [first, first])
-            self.assertLess(grids[0]["device_bytes"], grids[1]["device_bytes"])  # and they are different grids
+            self.assertLess(grids[0]["device_bytes"], grids[1]["device_bytes"])  # the two grids differ
         with self.subTest("threads"):
             one = self.render(*options, scene=CORNELL, env={"POCL_MAX_PTHREAD_COUNT": "1"})
             self.assertEqual(one["image_sha256"], first)

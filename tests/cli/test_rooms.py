@@ -1,5 +1,5 @@
 # tier: quick
-"""No circle of files inside a folder of host/: each can be read, and tested, after those that it calls."""
+"""No cycles among the files of a folder of host/: each file can be read and tested after those that it calls."""
 import collections
 import os
 import re
@@ -17,7 +17,7 @@ OBJECT = re.compile(r"CMakeFiles/(?:room_\w+|eclat|eclat_view|eclat_mpi)\.dir/(h
 
 
 def objects():
-    """{folder: {file: object}} of what is built, but for files that are gone."""
+    """Returns {folder: {file: object}} of the build, without objects of deleted files."""
     rooms = collections.defaultdict(dict)
     for folder, _, names in os.walk(os.path.join(BUILD, "CMakeFiles")):
         for name in names:
@@ -29,7 +29,7 @@ def objects():
 
 
 def calls(files):
-    """{file: files of the same folder that define what it uses}"""
+    """Returns {file: files of the same folder that define symbols that it uses}."""
     defined, used = {}, collections.defaultdict(set)
     by_object = {path: name for name, path in files.items()}
     symbols = subprocess.run(["nm", "-A", "-P", *by_object], capture_output=True, text=True, check=True).stdout
@@ -43,7 +43,7 @@ def calls(files):
 
 
 def circle(graph):
-    """The files that are left once those that call none of them are taken away, again and again, and those that none calls."""
+    """Removes files that call no others, and files that none calls, until nothing changes; the rest are cycles."""
     left = set(graph)
     while True:
         called = set().union(*(graph[name] & left for name in left)) if left else set()

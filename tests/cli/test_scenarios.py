@@ -1,5 +1,5 @@
 # tier: quick
-"""eclat render --scenarios: each scenario is the command that it stands for; a page has all of them with their errors."""
+"""eclat render --scenarios: each scenario gives the picture of its command; a page shows all of them with their errors."""
 import html.parser
 import json
 import math
@@ -12,7 +12,7 @@ SMALL = ["--spp", "4", *QUICK]
 
 
 class Page(html.parser.HTMLParser):
-    """The text of each figure, and what it links to."""
+    """Collects the text of each figure, and its links."""
 
     def __init__(self, path):
         super().__init__()

@@ -1,5 +1,5 @@
 # tier: quick
-"""--scene, --variant, --animation and --at, as every command that reads a scene takes them."""
+"""--scene, --variant, --animation and --at, in every command that reads a scene."""
 import json
 import struct
 import unittest
@@ -8,7 +8,7 @@ from support import Case, data_uri, eclat, quad_scene, read_exr, write_gltf
 
 
 def moving_quad():
-    """The emitting quad stands before the camera until 1 s and is far beside it from 3 s on; the second scene has it, small, alone."""
+    """The emitting quad is in view until 1 s, and far outside it from 3 s on. The second scene has the quad alone, small."""
     scene, _ = quad_scene()
     keys = struct.pack("<8f", 1, 3, 0, 0, 0, 100, 0, 0)
     scene["buffers"].append({"byteLength": len(keys), "uri": data_uri(keys)})
@@ -41,7 +41,7 @@ class SceneChoice(Case):
         self.assertEqual(self.brightness("--at", "3"), 0)
         self.assertEqual(self.brightness("--animation", "leave"), stored)
         small = self.brightness("--scene", "small")
-        # a quarter of the area; its edge is sampled at 4 places a pixel, of which there are 40 along it
+        # a quarter of the area; 4 samples a pixel along an edge of 40 pixels
         self.assertAlmostEqual(small / stored, 0.25, delta=0.05)
         self.assertEqual(self.brightness("--scene", "1"), small)
 

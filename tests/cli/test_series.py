@@ -1,5 +1,6 @@
 # tier: quick
-"""Several pictures in one run: each as a command alone renders it, skipped where it is done; what fails leaves the others."""
+"""Several pictures in one run: each is that of a command of its own, is skipped where it is done, and does not stop the others when it
+fails."""
 import json
 import os
 import struct
@@ -16,7 +17,7 @@ def glowing(strength):
 
 
 def read_png(path):
-    """(width, height, rows of RGB) of an 8-bit PNG that is not interlaced, by its up to five filters."""
+    """Returns (width, height, rows of RGB) of an 8-bit PNG that is not interlaced, with any of the five filters."""
     with open(path, "rb") as file:
         data = file.read()
     width, height = png_size(path)
@@ -101,7 +102,7 @@ class Series(Case):
         self.assertEqual(states("--exposure", "1"), ["rendered", "skipped"])
 
     def test_environments_are_each_picture_s_own(self):
-        """A map of all is read once; a white sky that one scene needs is not the next one's."""
+        """A map for all scenes is read once. A white sky for a scene without light does not stay for the next scene."""
         scene = glowing(0)
         scene["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0}}]
         write_gltf(self.path("dark.gltf"), scene)
@@ -142,7 +143,8 @@ class Series(Case):
             self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.png", "c.png"] if i == 1 else ["a.png", "b.png", "c.png"])
 
     def test_a_contact_sheet(self):
-        """Three pictures of 24 x 16, white, grey and dark grey in their middle, with gaps of 8: from the top left. Below each its name, in a line of 12."""
+        """Three pictures of 24 x 16 whose middles are white, grey and dark grey, 8 apart, from the top left. Below each is its name, in a
+        line of 12."""
         self.assert_ok(self.render("a.gltf", "b.gltf", "c.gltf", "-q", "-o", "out/{name}.exr", "--tonemap", "none", "--sheet", "sheet.png"))
         width, height, rows = read_png(self.path("sheet.png"))
         line = height - (2 * 24 + 8)
@@ -157,7 +159,7 @@ class Series(Case):
         ink = [{(x - min(i for row in rows for i, v in enumerate(row) if v > 32), y) for y, row in enumerate(rows) for x, v in enumerate(row) if v > 32}
                if any(v > 32 for row in rows for v in row) else set() for rows in letters]
         self.assertEqual(ink[3], set())  # there is no fourth picture
-        self.assertEqual(len({frozenset(i) for i in ink}), 4)  # a, b and c
+        self.assertEqual(len({frozenset(i) for i in ink}), 4)  # three names, a, b and c, and one empty place
         self.assertTrue(all(5 <= len(i) <= 30 for i in ink[:3]), ink)
 
     def test_long_names_are_cut_on_a_sheet(self):
@@ -166,11 +168,11 @@ class Series(Case):
         self.assert_ok(self.render("a.gltf", name + "\u00e9.gltf", "-q", "-o", "out/{name}.png", "--sheet", "sheet.png"))
         width, height, rows = read_png(self.path("sheet.png"))
         self.assertEqual(width, 2 * 32 + 8)
-        for y in range(24, height):  # nothing leaves its cell
+        for y in range(24, height):  # all ink is within the cells
             self.assertEqual({rows[y][3 * x] for x in (*range(8), *range(32, 40), *range(64, 72))}, {32})
 
     def test_a_sheet_shrinks_light_not_codes(self):
-        """An edge in the middle of a cell: the mean light of both sides is 0.5, as a code 188."""
+        """An edge in the middle of a cell: the mean light of both sides is 0.5, which is the code 188."""
         scene = glowing(1)
         scene["nodes"][0]["translation"] = [-1 + 1 / 192, 0, 0]
         scene["nodes"][0]["scale"] = [1, 4, 1]
@@ -196,7 +198,7 @@ class Series(Case):
         self.assertGreater(sum(read_exr(self.path("out", "back.exr"))[1]["A"]), 0)
 
     def test_a_turntable(self):
-        """A quad that glows on one side, off the scene's centre: from the other side it is not seen. A frame is what --eye sees from there."""
+        """A quad that glows on one side, off the scene's centre, is not seen from the other side. A frame is what --eye sees from there."""
         scene = glowing(1)
         scene["nodes"] += [{"mesh": 0, "translation": [0, 0, -2], "rotation": [0, 1, 0, 0], "scale": [0.5, 0.5, 0.5]}]
         scene["scenes"][0]["nodes"].append(2)

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Slices of a job, rendered apart and merged: the bits of one render, in any order; and what cannot be merged."""
+"""Slices of a job, rendered apart and merged: the bits of one render, in any order; and refusals of slices that cannot be merged."""
 import itertools
 import json
 import os
@@ -27,18 +27,18 @@ class Slices(Case):
         return eclat("merge", *arguments, "-q", "-o", self.path("all.exr"))
 
     def assert_same_picture(self, a, b):
-        """Every channel of it."""
+        """Compares every channel."""
         left, right = read_alike(a, b)
         self.assertEqual(sorted(left), sorted(right))
         for name in left:
             self.assertEqual(left[name], right[name], name)
 
     def cut(self, job, cuts):
-        """The slices between these numbers of samples."""
+        """Renders the slices between these numbers of samples."""
         return [self.render(f"s{a}-{b}.exr", *job, "--samples", f"{a}:{b}") for a, b in zip(cuts, cuts[1:])]
 
     def test_any_order_gives_the_bits_of_one_render(self):
-        """Also where a slice is less than a stride of all replicates, and where the job ends within a batch: sample 900 is in 896:928."""
+        """Includes a slice shorter than a stride of all replicates, and a job that ends within a batch: sample 900 is in 896:928."""
         small = ["--size", "12x10"]
         for job, cuts in [(["--spp", "600", *small], [0, 8, 28, 512, 600]), (["--spp", "901", *small], [0, 92, 512, 896, 901]),
                           (["--spp", "50", "--replicates", "3"], [0, 12, 16, 46, 50])]:
@@ -49,7 +49,7 @@ class Slices(Case):
                 self.assert_same_picture(whole, self.path("all.exr"))
 
     def test_by_way_of_other_merges(self):
-        job = ["--spp", "75", "--integrator", "whitted"]  # 72:76 is a batch
+        job = ["--spp", "75", "--integrator", "whitted"]  # the last batch, 72:76, is cut
         whole = self.render("whole.exr", *job)
         dice = random.Random(3)
         for _ in range(2):
@@ -62,7 +62,7 @@ class Slices(Case):
             self.assert_same_picture(whole, self.path("all.exr"))
 
     def test_any_limits_are_of_one_job(self):
-        """Which samples a batch has does not depend on them."""
+        """The samples of a batch do not depend on the limits."""
         whole = self.render("whole.exr", "--spp", "64")
         slices = self.cut(["--spp", "64", "--time", "10m"], [0, 28]) + self.cut([], [28, 36]) + self.cut(["--spp", "700"], [36, 64])
         self.assertIn("samples 64:700 are missing; ", self.assert_one_error(self.merge(*slices), 1))
@@ -76,7 +76,7 @@ class Slices(Case):
         self.assert_same_picture(whole, self.path("all.exr"))
 
     def test_a_checkpoint_is_a_slice(self):
-        """Of the job's beginning, for another machine to add the rest."""
+        """A checkpoint holds the job's beginning; another machine can render the rest."""
         whole = self.render("whole.exr", "--spp", "101")
         for done in [12, 41]:  # the last batch of the second, 40:42, is not in it
             self.render("begun.exr", "--spp", str(done), "--checkpoint", self.path("kept.exr"))
@@ -93,7 +93,7 @@ class Slices(Case):
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_jobs_without_an_end_grow(self):
-        slices = self.cut([], [0, 8, 21])  # 20:24 is a batch
+        slices = self.cut([], [0, 8, 21])  # the last batch, 20:24, is cut
         whole = self.render("whole.exr", "--spp", "21")
         self.assert_ok(self.merge(*slices))
         self.assert_same_picture(whole, self.path("all.exr"))
@@ -112,7 +112,7 @@ class Slices(Case):
 
     @full
     def test_memory_does_not_go_by_the_order(self):
-        """Batches whose left neighbours come later would wait, 24 of them here, 4 MB each."""
+        """Batches would wait for their left neighbours, which come later here: 24 of 4 MB each."""
         cuts = [0, 8, 16, 32, 64, 80, 96]
         slices = [self.render(f"s{a}.exr", "--size", "400x400", "--spp", "96", "--samples", f"{a}:{b}", "--integrator", "raster") for a, b in zip(cuts, cuts[1:])]
         self.assertLess(self.peak(*slices[1::2], *slices[::2]), 1.1 * self.peak(*slices))
@@ -145,7 +145,7 @@ class Slices(Case):
         self.assertIn("are the same slice; ", self.assert_one_error(self.merge(a, a), 1))
 
     def test_nothing_behind_the_end_within_a_batch(self):
-        """A job that ends there is over."""
+        """A job that ends within a batch cannot go on."""
         a, b, c = self.render("a.exr", "--samples", "0:8"), self.render("b.exr", "--spp", "19", "--samples", "16:19"), self.render("c.exr", "--samples", "20:24")
         self.assert_ok(self.merge(a, c, "--partial"))
         shutil.copy(self.path("all.exr"), self.path("ac.exr"))
@@ -155,7 +155,7 @@ class Slices(Case):
         self.assertEqual(set(read_exr(self.path("all.exr"))[1]["samples"]), {11.0})
 
     def refuse_others(self, job, others, alike):
-        """others: options, and what the merge says of them; alike: options that change no bit."""
+        """others: pairs of options and words of the merge's message; alike: options that change no bit."""
         job = [*job, "--spp", "32", "--samples"]
         a = self.render("a.exr", *job, "0:16")
         for options, says in others:
@@ -169,7 +169,7 @@ class Slices(Case):
         self.assert_ok(self.merge(a, c))
 
     def test_other_jobs_are_refused_with_the_difference(self):
-        """By the rasteriser, whose kernels compile soonest."""
+        """Uses the rasteriser, whose kernels compile soonest."""
         self.refuse_others(["--integrator", "raster"], [
             (["--seed", "2"], "--seed is 0 there and 2 here"), (["--size", "20x17"], "--size is 20x18 there and 20x17 here"),
             (["--replicates", "8"], "--replicates is 4 there and 8 here"), (["--sampler", "independent"], "--sampler is sobol there"),
@@ -219,7 +219,7 @@ class Slices(Case):
         refuse("here as 64:101; ", "--spp", "101", "--samples", "65:101")
         refuse("here as 896:901; ", "--spp", "901", "--samples", "900:901")
         for samples in ["4:16", "7:16", "1:16"]:
-            refuse("here as 0:16; ", "--spp", "64", "--samples", samples)  # first-hit features are of the first 8 samples
+            refuse("here as 0:16; ", "--spp", "64", "--samples", samples)  # first-hit features come from the first 8 samples
         refuse("here as 0:8; ", "--spp", "64", "--samples", "0:7")
         refuse("here as 0:16; ", "--spp", "64", "--replicates", "16", "--samples", "0:8")
         refuse("reaches beyond the job's 64 samples", "--spp", "64", "--samples", "0:68")

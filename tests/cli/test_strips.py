@@ -1,5 +1,5 @@
 # tiers: quick, full, long
-"""Pictures larger than memory, in strips of rows: the bits of the whole, and what strips cannot do."""
+"""Pictures larger than memory, in strips of rows: the bits of the whole picture, and options that strips exclude."""
 import json
 import os
 import re
@@ -19,15 +19,15 @@ class Strips(Case):
         return json.loads(self.assert_ok(self.run_to(name, *options, **more)).stdout)
 
     def least(self, *options, scene=CORNELL):
-        """Megabytes that the program asks for where there are too few."""
+        """Returns the megabytes that the program asks for when memory is too small."""
         run = eclat("render", scene, "-q", *options, "--memory", "1M", "-o", self.path("none.exr"))
         line = self.assert_one_error(run, 1)
         self.assertFalse(os.path.exists(self.path("none.exr")))
         return int(re.search(r"give (\d+)M or more", line).group(1))
 
     def in_strips(self, name, *options, scene=CORNELL):
-        """The least memory differs from run to run, by a few MB or by a compiler that has run: again where that made it too little, or enough for
-        the whole."""
+        """Renders in strips. The least memory varies between runs by a few MB, or by a compiler that has run: tries again where it was too
+        little, or enough for the whole picture."""
         for _ in range(4):
             run = self.run_to(name, *options, "--memory", f"{self.least(*options, scene=scene) + 2}M", scene=scene)
             if run.returncode == 0 and json.loads(run.stdout)["strips"] > 1:
@@ -39,7 +39,7 @@ class Strips(Case):
         (attributes, left), (others, right) = read_exr(a), read_exr(b)
         self.assertEqual(sorted(left), sorted(right))
         for name in left:
-            self.assertTrue(left[name] == right[name], name)  # not assertEqual: it would tell how they differ, for hours
+            self.assertTrue(left[name] == right[name], name)  # assertEqual would take hours to describe the difference
         for name in ["error", "errorBound", "errorBoundWhy", "relMSE", "heavyPixels", "imageSha256", "replicates", "samplesPerPixel", "stoppedBy", "invalid", "wave", "kernels", "clamp.luminance", "clamp.missing",
                      "clamp.missingStderr", "clamp.noise", "clamp.bias", "clamp.error"]:
             self.assertEqual(attributes.get("eclat." + name), others.get("eclat." + name), name)
@@ -47,12 +47,12 @@ class Strips(Case):
             self.assertEqual(one.read(), other.read())
 
     def test_the_bits_of_the_whole(self):
-        """Odd sizes: tiles and blocks of an EXR end where they will. One batch, and several."""
+        """Odd sizes: tiles and blocks of an EXR end anywhere. One batch, and several."""
         self.assert_bits_of_the_whole(["--size", "301x355", "--spp", "1"], ["--size", "97x450", "--spp", "19"])
 
     @full
     def test_the_bits_of_other_wholes(self):
-        """A batch that is cut; what else adds up; other integrators."""
+        """A batch that is cut; sums of other kinds; other integrators."""
         self.assert_bits_of_the_whole(["--size", "90x403", "--spp", "41", "--filter", "blackman-harris"], ["--size", "150x420", "--spp", "9", "--clamp", "0.5"],
                                       ["--size", "120x403", "--spp", "17", "--channels", "default,direct,indirect,uv", "--light-groups", "all"],
                                       ["--size", "200x420", "--spp", "2", "--integrator", "whitted"], ["--size", "200x420", "--spp", "2", "--integrator", "raster"])
@@ -69,7 +69,7 @@ class Strips(Case):
 
     @full
     def test_light_that_may_be_missing(self):
-        """What is predicted of it goes by tiles of the whole picture, and so do its flags."""
+        """The prediction of missing light uses tiles of the whole picture, and so do its flags."""
         options = ["--size", "200x500", "--spp", "9", "--light-paths", "0"]
         self.assertIn("mirror", self.render("whole", *options, scene=PINLAMP)["error_bound_why"])
         self.in_strips("strips", *options, scene=PINLAMP)
@@ -77,7 +77,7 @@ class Strips(Case):
 
     @full
     def test_light_paths(self):
-        """Each strip takes its own of what falls on the whole picture."""
+        """Each strip takes its rows of the light that light paths add to the whole picture."""
         options = ["--size", "97x450", "--spp", "9", "--light-paths", "0.25"]
         self.render("whole", *options, scene=RING)
         self.in_strips("strips", *options, scene=RING)
@@ -85,7 +85,7 @@ class Strips(Case):
 
     @full
     def test_guiding(self):
-        """What guides directions is of the whole picture."""
+        """The guide is that of the whole picture."""
         options = ["--size", "97x450", "--spp", "9", "--guiding"]
         self.render("whole", *options, scene=RING)
         self.in_strips("strips", *options, scene=RING)
@@ -123,10 +123,10 @@ class Strips(Case):
 
     @full
     def test_slices_whose_sums_wait(self):
-        """74 batches, whose left neighbours are in other slices, 24 bytes a pixel each: more than the picture from its beginning."""
+        """74 batches wait for left neighbours in other slices, 24 bytes a pixel each: more than the picture itself."""
         job = ["--size", "256x256", "--spp", "256", "--replicates", "8", "--integrator", "raster"]
         path = self.path("s.exr")
-        self.assert_ok(eclat("render", CORNELL, "-q", *job, "--samples", "0:16", "-o", path))  # compiles
+        self.assert_ok(eclat("render", CORNELL, "-q", *job, "--samples", "0:16", "-o", path))  # compiles the kernels
         least = [float(re.search(r"need ([\d.]+) MB", self.assert_one_error(eclat("render", CORNELL, "-q", *job, "--samples", samples, "--memory", "1M", "-o", path), 1)).group(1))
                  for samples in ["0:224", "16:240"]]
         self.assertGreater(least[1] - least[0], 70 * 24 * 65536 / 1e6)

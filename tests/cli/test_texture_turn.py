@@ -1,7 +1,6 @@
 # tier: full
-"""KHR_texture_transform turns and mirrors a picture on the surface, and what its texels call right and up goes with it: a normal map and a
-direction of brushing look the same as where the mesh's own coordinates are turned. A sun lights a plate directly, so pictures are free of
-noise."""
+"""KHR_texture_transform turns and mirrors a picture on the surface, and with it the directions in a normal map or an anisotropy texture.
+Both must look as if the mesh's own coordinates were turned. A sun lights a plate directly, so pictures have no noise."""
 import math
 import os
 import sys
@@ -13,7 +12,7 @@ from support import Case, eclat, read_exr
 
 LIGHTS, TRANSFORM = "KHR_lights_punctual", "KHR_texture_transform"
 METAL = {"roughnessFactor": 0.4}
-MATERIALS = {  # of a texture
+MATERIALS = {  # textures of each kind
     "normal": lambda t: {"pbrMetallicRoughness": METAL, "normalTexture": t},
     "coat": lambda t: {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}, "extensions": {"KHR_materials_clearcoat": {
         "clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.4, "clearcoatNormalTexture": t}}},
@@ -21,25 +20,26 @@ MATERIALS = {  # of a texture
         "anisotropyStrength": 0.8, "anisotropyTexture": t}}},
 }
 TEXEL = (170, 140, 240)
-# A turn, a mirrored picture, one that stands on its head, both with unequal scales
+# a turn; upside down; two mirrored pictures; a mirrored, turned one with unequal scales
 TURNS = [(0.7, 1, 1), (math.pi, 1, 1), (0, -1, 1), (0, 1, -1), (-2.1, 3, -0.5)]
 
 
 def rows(rotation, x, y):
-    """The linear part of what KHR_texture_transform says."""
+    """The linear part of a KHR_texture_transform."""
     c, s = math.cos(rotation), math.sin(rotation)
     return (c * x, s * y), (-s * x, c * y)
 
 
 def coordinates(turn=(0, 1, 1), skew=0.0):
-    """Of the plate, v down: u goes along x, and by `skew` along y."""
+    """Coordinates of the plate: v points down, and u goes along x, and by `skew` along y."""
     points = [(x + skew * y, -y) for x, y, _ in zip(*[iter(QUAD)] * 3)]
     return "TEXCOORD_0", 2, [row[0] * u + row[1] * v for u, v in points for row in rows(*turn)]
 
 
 class Turned(Case):
     def colours(self, plates):
-        """Red of each (kind, coordinates, turn or None, tangent or None), side by side in one picture: one set of kernels, and the same eye."""
+        """Red of each plate (kind, coordinates, turn or None, tangent or None), side by side in one picture: one set of kernels, and the
+        same eye."""
         scene = Scene(*(MATERIALS[kind](self.texture(turn)) for kind, _, turn, _ in plates)).texture(one_pixel_png(TEXEL))
         scene.extend(LIGHTS, {"lights": [{"type": "directional", "intensity": 3}]})
         scene.node(rotation=[-0.3, 0.35, 0, math.sqrt(1 - 0.3 ** 2 - 0.35 ** 2)], extensions={LIGHTS: {"light": 0}})
@@ -65,7 +65,7 @@ class Turned(Case):
                            [(kind, coordinates(skew=skew), None, None) for kind, _, skew, _ in cases])
         for case, turned, baked, as_is in zip(cases, *(red[k * len(cases):(k + 1) * len(cases)] for k in range(3))):
             kind, turn = case[:2]
-            if kind != "brushed" or abs(turn[0]) % math.pi:  # brushed back to front is brushed alike
+            if kind != "brushed" or abs(turn[0]) % math.pi:  # half a turn leaves the direction of brushing as it is
                 self.assertGreater(abs(baked - as_is), 0.05 * max(baked, as_is), f"{case}: the test cannot see it")
             self.assertLess(abs(turned - baked), 1e-4 * baked, case)
 

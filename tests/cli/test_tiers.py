@@ -1,6 +1,6 @@
 # tier: quick
-"""Rules for all tests: each file names its tier, and no test reads a clock or sleeps, since verdicts must not depend on how busy a machine is.
-What measures time is in tools/bench; what waits, waits for an event by polling.py."""
+"""Rules for all tests: each file names its tier, and no test reads a clock or sleeps, since verdicts must not depend on how busy a machine
+is. Measurements of time are in tools/bench; polling.py waits for events."""
 import glob
 import os
 import re
@@ -14,7 +14,8 @@ CLOCKS = {
     "a sleep": r"sleep\(|\bsleep (?:\d|infinity)|\"sleep\"",
     "a limit on seconds": r"assert(?:Less|LessEqual|Greater|GreaterEqual)\([^,]*seconds[^,]*, [\d.]*[1-9][\d.]*\)|CHECK\w*\([^,]*seconds\)? *[<>]=? *[1-9]",
 }
-WIDTHS = re.compile(r"\bkernel_widths\(|\bchi2_build\(|\bopen_tracers\(true")  # two of them where the tier is quick: tests/kernel/kernel_run.h
+# two widths where the tier is quick: tests/kernel/kernel_run.h
+WIDTHS = re.compile(r"\bkernel_widths\(|\bchi2_build\(|\bopen_tracers\(true")
 ALLOWED = {
     "cli/polling.py": "the one place that waits",
     "cli/test_tiers.py": "has the words themselves",
@@ -31,7 +32,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(without, [], "the first line names no tier: '# tier: quick' or '/* tier: quick */'; quick, full, long, 'tiers: quick, full', 'tiers: quick, long' or 'tiers: full, long'")
 
     def test_parts_are_named_where_there_are_some(self):
-        """What is marked and never run, or run twice, is a file whose first line does not tell of it."""
+        """A marked test in a file whose first line does not name that tier would never run, or run twice."""
         for path in glob.glob(os.path.join(TESTS, "*", "test_*.[cp]*")):
             with open(path, encoding="utf-8") as file:
                 text = file.read()

@@ -1,5 +1,5 @@
 # tier: quick
-"""Tone curves, equal to the published shaders within a step of 1/255."""
+"""Tone curves equal the published shaders to a step of 1/255."""
 import json
 import math
 import os
@@ -13,7 +13,7 @@ from support import QUICK, SOURCE, Case, eclat, quad_scene, read_exr, write_exr,
 
 class ToneCurves(Case):
     def slice(self):
-        """A picture of a map of colours, from 2^-9 to 2^6 and from grey to pure ones, which other curves can be laid over."""
+        """A map of colours from 2^-9 to 2^6, from grey to saturated. Curves are applied to its rendered picture."""
         dice = random.Random(26)
         colors = [[2 ** dice.uniform(-9, 6) * dice.choice([1, dice.random(), dice.random() ** 4, 0]) for _ in range(32 * 16)] for _ in "RGB"]
         sky = write_exr(self.path("sky.exr"), 32, 16, dict(zip("RGB", colors)))
@@ -36,10 +36,10 @@ class ToneCurves(Case):
             for i, rgb in enumerate(pixels):
                 there = rows[i // 40][i % 40 * 3:i % 40 * 3 + 3]
                 for a, b in zip(there, shown(curve, rgb, exposure)):
-                    self.assertLessEqual(abs(a - 255 * b), 0.51, (curve, rgb))  # rounded, and the EXR's floats
+                    self.assertLessEqual(abs(a - 255 * b), 0.51, (curve, rgb))  # rounding of the code and of the EXR's floats
 
     def test_help_and_manual_know_them_all(self):
-        """One table has their names: help is made of it, and so is the choice that the window steps through."""
+        """One table has the names: help and the window's choice are made from it."""
         text = self.assert_ok(eclat("help", "render")).stdout
         words = " ".join(re.search(r"--tonemap CURVE(.*?)\n +(-\S, )?--", text, re.S)[1].split())
         with open(os.path.join(SOURCE, "docs", "looks.md"), encoding="utf-8") as file:
@@ -49,7 +49,8 @@ class ToneCurves(Case):
             self.assertIn(f"| `{name}` |", manual)
 
     def test_auto_shows_the_log_average_as_middle_grey(self):
-        """Reinhard et al. 2002, equations 1 and 2, over what is not black; said in the report and as good as the number it says."""
+        """Reinhard et al. 2002, equations 1 and 2, over all pixels that are not black. The report states the exposure; giving that number
+        has the same result."""
         self.slice()
         planes = read_exr(self.path("slice.exr"))[1]
         logs = [math.log2(y) for r, g, b in zip(planes["R"], planes["G"], planes["B"]) if (y := 0.2126 * r + 0.7152 * g + 0.0722 * b) > 0]

@@ -58,7 +58,7 @@ class Help(Case):
             self.assertEqual(names, sorted(names))
 
     def test_every_option_of_the_help_is_known(self):
-        for command in set(COMMANDS) - {"selftest"}: # which needs no operand and would run
+        for command in set(COMMANDS) - {"selftest"}:  # selftest needs no operand and would run
             text = eclat(command, "--help").stdout
             for name in re.findall(r"^ {2,6}(?:-\w, )?--([a-z-]+)", text, re.M):
                 if name in ("help", "version"):
@@ -88,7 +88,7 @@ class Help(Case):
 
 
 class Shells(Case):
-    """The man page and the completion scripts are written from the table of options."""
+    """The man page and the completion scripts are made from the table of options."""
 
     def script(self, *arguments):
         path = self.path("script")

@@ -1,5 +1,5 @@
 # tier: quick
-"""The version stands in eclat.h. Whatever else names it says the same, and the files that describe a release can be read by others."""
+"""eclat.h has the version. All other files that state it agree, and other programs can read the files that describe a release."""
 import os
 import re
 import unittest
@@ -44,7 +44,7 @@ class Version(Case):
         day = re.search(rf"^## {re.escape(VERSION)} - (.*)$", read("CHANGELOG.md"), re.M)[1]
         self.assertIn(f"\ndate-released: {day}\n", text)
         self.assertIn("\nlicense: Apache-2.0\n", text)
-        for key in ("cff-version: 1.2.0", "message:", "title:", "authors:"):  # those that the format requires
+        for key in ("cff-version: 1.2.0", "message:", "title:", "authors:"):  # keys that the format requires
             self.assertRegex(text, rf"(?m)^{key}")
 
     def test_there_is_a_rule_for_versions(self):

@@ -11,7 +11,7 @@ SMALL = ["--size", "36x24", "--spp", "4", "--integrator", "raster", "-q"]
 
 
 def corner_scene():
-    """The emitting quad [-1, 1]^2 in z = 0, moved to (10, 20, 30); its camera 3 m before it is turned a quarter about its axis."""
+    """The emitting quad [-1, 1]^2 in z = 0, moved to (10, 20, 30). Its camera, 3 m before it, is turned a quarter about its axis."""
     scene, _ = quad_scene()
     scene["nodes"][0]["translation"] = [10, 20, 30]
     scene["nodes"][1]["translation"] = [10, 20, 33]
@@ -30,22 +30,22 @@ class Viewpoint(Case):
         return read_exr(out)
 
     def lit(self, *options):
-        """The box of pixels that see light: left, top, right, bottom."""
+        """Returns the box of pixels that see light: left, top, right, bottom."""
         values = self.render(*options)[1]["G"]
         xs = [i % 36 for i, v in enumerate(values) if v > 0.5]
         ys = [i // 36 for i, v in enumerate(values) if v > 0.5]
         return min(xs), min(ys), max(xs) + 1, max(ys) + 1
 
     def test_looks_where_it_is_told(self):
-        # Half a picture is 12 pixels = tan 45 degrees: from 2 m a metre is 6 pixels.
+        # Half a picture is 12 pixels = tan 45 degrees: at 2 m a metre is 6 pixels.
         self.assertEqual(self.lit("--eye", "10,20,32", "--look-at=10,20,30", "--fov", "90"), (12, 6, 24, 18))
-        # A metre to the right of it, looking straight on: all moves 6 pixels to the left.
+        # The eye is a metre to the right and looks straight on: everything moves 6 pixels to the left.
         self.assertEqual(self.lit("--eye=11,20,32", "--look-at=11,20,30", "--fov=90"), (6, 6, 18, 18))
-        # With +x up what was right is below.
+        # With +x up, what was right is below.
         self.assertEqual(self.lit("--eye=11,20,32", "--look-at=11,20,30", "--fov=90", "--up=1,0,0"), (12, 12, 24, 24))
 
     def test_parallel_rays(self):
-        # 8 m are 24 pixels, from however far.
+        # 8 m are 24 pixels, at any distance.
         for eye in ["10,20,32", "10,20,90"]:
             self.assertEqual(self.lit("--eye", eye, "--look-at", "10,20,30", "--parallel", "8"), (15, 9, 21, 15))
 
@@ -67,7 +67,7 @@ class Viewpoint(Case):
                  for option, name in [("eye", "eye"), ("look-at", "lookAt"), ("up", "up"), ("fov", "fov")]]
         second = self.render(*again)[1]
         worst = max(abs(a - b) for a, b in zip(first["G"], second["G"]))
-        self.assertLess(worst, 0.26)  # one of a pixel's four samples at an edge, at most
+        self.assertLess(worst, 0.26)  # at an edge, at most one of a pixel's four samples differs
 
     def test_nonsense_is_refused(self):
         for options, says in {("--eye", "1,2"): "not three numbers", ("--eye", "1,2,nan"): "not three numbers",
@@ -78,18 +78,20 @@ class Viewpoint(Case):
         self.assertIn("two different points", self.assert_one_error(run, 1))
 
     def test_a_screen_window_shows_another_part(self):
-        """From 2 m at 90 degrees the image plane's unit, half a height, is 2 m. Every integrator: tiles, rays and the file's own camera."""
+        """At 2 m and 90 degrees, half a height, which is the unit of the image plane, is 2 m. Every integrator: tiles, rays, and the file's
+        own camera."""
         at = ["--eye", "10,20,32", "--look-at=10,20,30", "--fov", "90"]
         for integrator in ("raster", "whitted", "path"):
             with self.subTest(integrator):
                 view = [*at, "--integrator", integrator]
                 self.assertEqual(self.lit(*view, "--screen-window=-1.5,1.5,-1,1"), (12, 6, 24, 18))
-                self.assertEqual(self.lit(*view, "--screen-window=-1,2,-1.5,0.5"), (6, 0, 18, 12))  # the lens is shifted to the right, and down
+                # the lens is shifted to the right and down
+                self.assertEqual(self.lit(*view, "--screen-window=-1,2,-1.5,0.5"), (6, 0, 18, 12))
                 self.assertEqual(self.lit(*view, "--screen-window=-0.5,1,-0.5,0.5"), (0, 0, 24, 24))  # a crop, twice as large
                 self.assertEqual(self.lit(*view, "--screen-window=-3,3,-1,1"), (15, 6, 21, 18))  # pixels twice as wide as high
 
     def test_a_screen_window_of_parallel_rays_and_of_no_size(self):
-        """Here half a height is 2 m too. Without --size, pixels are square."""
+        """With parallel rays, half a height is 2 m too. Without --size, pixels are square."""
         view = ["--eye", "10,20,32", "--look-at=10,20,30", "--parallel", "4"]
         self.assertEqual(self.lit(*view, "--screen-window=0,3,-1,1"), (0, 6, 6, 18))
         out = self.path("out.exr")

@@ -1,6 +1,7 @@
 # tiers: quick, full, long
-"""Light scattered inside bodies (KHR_materials_volume_scatter) against closed forms: a white body loses nothing, a half-space returns what Chandrasekhar's
-H function says, a slab what is scattered once, of the sky's light and of a sun's that shadow rays find through its wall; and the same bits whatever traces it."""
+"""Light scattered inside bodies (KHR_materials_volume_scatter) against closed forms. A white body loses nothing. A half-space returns what
+Chandrasekhar's H function says. A slab scatters once the light of the sky, and that of a sun which shadow rays reach through its wall. Bits
+do not depend on what traces rays."""
 import json
 import math
 import os
@@ -15,7 +16,7 @@ from tiers import full, long
 
 
 def gauss(n):
-    """Points and weights of Gauss and Legendre on [0, 1], by Newton's method."""
+    """Points and weights of Gauss-Legendre quadrature on [0, 1], by Newton's method."""
     points = []
     for i in range(n):
         x = math.cos(math.pi * (i + 0.75) / (n + 0.5))
@@ -30,7 +31,7 @@ def gauss(n):
 
 
 def returned(albedo, cosine):
-    """Of uniform white light, by a half-space that scatters alike in all directions (Chandrasekhar 1960, chapter 5)."""
+    """Part of uniform white light that a half-space with isotropic scattering returns (Chandrasekhar 1960, chapter 5)."""
     points, root = gauss(24), math.sqrt(1 - albedo)
     h = [1] * len(points)
     for _ in range(400):
@@ -39,7 +40,7 @@ def returned(albedo, cosine):
 
 
 def once(albedo, g):
-    """Seen head-on in uniform white light: a slab one mean free path thick, scattered at most once."""
+    """Radiance of a slab seen head-on in uniform white light: one mean free path thick, at most one scattering."""
     total, directions = math.exp(-1), gauss(100)
     for t, weight in gauss(40):
         inner = 0
@@ -52,7 +53,7 @@ def once(albedo, g):
 
 
 def colour(albedo, g):
-    """The colour that a file has for a single-scattering albedo."""
+    """The colour in a file for a single-scattering albedo."""
     low, high = 0, 1
     for _ in range(60):
         c = (low + high) / 2
@@ -133,7 +134,7 @@ class VolumeScatter(Case):
                              "--size", "16x16", "--spp", "4096", accuracy=1e-4)
 
     def assert_sun_scattered_once(self, g, *options, spp):
-        """By a slab one mean free path thick and seen head-on: the sun's way in has a cosine of 0.8. In a segment less there is none."""
+        """A slab one mean free path thick, seen head-on; the cosine of the sun's direction is 0.8. With one segment less there is no light."""
         cosine, gain = 0.8, 1 + 1 / 0.8
         phase = (1 - g * g) / (4 * math.pi * (1 + g * g + 2 * g * cosine) ** 1.5)
         light = math.pi * phase * (1 - math.exp(-gain)) / gain
@@ -154,7 +155,7 @@ class VolumeScatter(Case):
 
     @long
     def test_shadow_rays_through_walls_and_paths_agree(self):
-        """A lamp over clouds in one another and walls half clear: with shadow rays and without them."""
+        """A lamp over nested clouds with half clear walls: with and without shadow rays."""
         outer, inner = body([1, 0.9, 0.6], [4, 6, 10], 0.5), body([0.9, 0.3, 0.9], [3, 9, 3], roughness=0.6)
         inner["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.5
         lamp = {**MATT, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [1, 1, 1]}
@@ -187,7 +188,7 @@ class VolumeScatter(Case):
 
     @long
     def test_white_fog_in_white_light(self):
-        """Around a white ball and one of glass, which the fog is not in."""
+        """Around a white ball, and around one of glass, which contains no fog."""
         positions, normals, indices = ball(24, 0, 0.5)
         scene = self.scene_of(body([1, 1, 1], [0, 0, 0], ior=1.5))
         scene.json["materials"].append({"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}})
@@ -197,7 +198,7 @@ class VolumeScatter(Case):
 
     @full
     def test_lamp_in_fog(self):
-        """What fog scatters once of a lamp's light to a camera that looks past it, and what it leaves of the sky behind."""
+        """Light of a lamp that fog scatters once to a camera that looks past the lamp, and the sky behind, attenuated."""
         density, albedo, g, flux, corner, steps = 0.1, 0.8, 0.6, 10, 5, 20000
         radius = 1.001 * math.sqrt(3) * corner
         light = density * albedo * (1 - g * g) / (4 * math.pi) * flux * radius / steps
@@ -211,7 +212,7 @@ class VolumeScatter(Case):
             self.assert_seen(path, [expected] * 3, *look, "--env", sky, "--max-depth", depth, "--spp", "4096", accuracy=1e-4 * seen)
 
     def test_no_light_paths_in_fog(self):
-        """Light paths do not scatter on their way: with fog none are sent, and the picture is that without them."""
+        """Light paths do not scatter in fog: none are traced there, and the picture is that without them."""
         job = [os.path.join(SOURCE, "scenes", "ring", "ring.gltf"), *QUICK, "--fog", "0.3,0.9,0", "--size", "16x16", "--spp", "4", "--json"]
         reports = []
         for paths in "0", "1":
@@ -237,7 +238,7 @@ class VolumeScatter(Case):
             self.assertNotIn("light-paths  ", run.stderr)
 
     def test_a_texture_of_the_colour_is_left_out(self):
-        """No silence about it; eclat info loads as render does."""
+        """A warning says so; eclat info prints it too."""
         jade = body(ALBEDO, [9, 4, 2], ior=1.4)
         jade["extensions"]["KHR_materials_volume_scatter"]["multiscatterColorTexture"] = {"index": 0}
         path = self.scene_of(jade).add(block(1, 0, -1)).write(self.path("a.gltf"))

@@ -1,5 +1,5 @@
 # tier: full
-"""The manual's page for makers of renderers, as its reader runs it: wrong pictures are found, and noisy right ones pass."""
+"""The manual's page for authors of renderers, as a reader runs it: wrong pictures fail, and noisy right ones pass."""
 import os
 import re
 import shutil
@@ -9,7 +9,7 @@ from support import ECLAT, ENVIRONMENT, SOURCE, Case, eclat, png_size, stand_in_
 
 
 def recipe():
-    """The reference, and what is done with a picture that has little noise or much."""
+    """Returns the manual's commands: one makes the reference, others test a picture with little noise or much."""
     with open(os.path.join(SOURCE, "docs", "test-your-renderer.md"), encoding="utf-8") as page:
         return re.findall(r"```sh\n(.*?)```", page.read(), re.DOTALL)
 
@@ -22,12 +22,12 @@ class YourRenderer(Case):
         return eclat("-ec", script, program="/bin/sh", cwd=self.folder, env={"PATH": path, "HOW": how})
 
     def test_the_page(self):
-        stand_in_renderer(self.folder, "-q $HOW")  # HOW is what it does, wrong or right
+        stand_in_renderer(self.folder, "-q $HOW")  # HOW: options that make it right or wrong
         reference, quiet, noisy, many = recipe()
         self.assert_ok(self.sh(reference))
         right = "--spp 64 --seed 1"
         for script, how, found in (
-                # The same samples, so that no noise of its own is in the picture.
+                # The samples are the reference's, so that the picture has no noise of its own.
                 (quiet, "--spp 1024 --seed 100", False), (quiet, "--spp 1024 --seed 100 --tonemap none", True),
                 (quiet, "--spp 1024 --seed 100 --fov 39", True), (quiet, right, True),
                 (noisy, right, False), (noisy, f"{right} --max-depth 4", True), (noisy, f"{right} --exposure 0.05", True)):

@@ -1,6 +1,7 @@
-"""Tiers of tests: the first line of a test file names its own, '# tier: quick'. With '# tiers: quick, full' it has parts of both, and @full
-and @long say which classes or tests are not quick; a C file asks test_tier() of support/test.h.
-usage: python3 -m tiers TIER MODULE   Runs the tests of MODULE that are of TIER."""
+"""Tiers of tests. The first line of a test file names its tier, '# tier: quick'. A file with '# tiers: quick, full' has parts of both
+tiers: @full and @long mark classes or tests that are not quick. A C file asks test_tier() of support/test.h.
+
+usage: python3 -m tiers TIER MODULE   Runs the tests of MODULE that belong to TIER."""
 import os
 import re
 import sys
@@ -22,14 +23,14 @@ def long(marked):
 
 
 def of_file(path):
-    """[] where the first line names none that there is."""
+    """Returns a file's tiers; [] where the first line names none."""
     with open(path, encoding="utf-8") as file:
         found = FIRST_LINE.fullmatch(file.readline())
     return KINDS.get(found and (found[1] or found[2]), [])
 
 
 def of_test(test, tiers):
-    """Marks count in files of several tiers; others may take tests from such files."""
+    """Marks count only in files of several tiers, since others may import tests from such files."""
     method = getattr(test, getattr(test, "_testMethodName"))
     return tiers[0] if len(tiers) == 1 else getattr(method, "tier", None) or getattr(test, "tier", None) or tiers[0]
 

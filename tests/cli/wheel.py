@@ -1,4 +1,4 @@
-"""Makes eclat's wheel of this build, and virtual environments that have it and nothing of the build or the source."""
+"""Makes a wheel of this build, and virtual environments that have the wheel but nothing of the build or the source."""
 import fcntl
 import glob
 import hashlib
@@ -26,7 +26,7 @@ def run(*words, env=None, cwd=None):
 
 
 def outside(**more):
-    """The environment of somebody who has neither the build nor the source, nor chosen a driver."""
+    """Environment variables of a user who has neither the build nor the source, and has chosen no driver."""
     names = ("PYTHONPATH", "LD_LIBRARY_PATH", "OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH", "ECLAT", "ECLAT_SOURCE_DIR", "ECLAT_DEVICE")
     kept = {name: value for name, value in ENVIRONMENT.items() if name not in names}
     return dict(kept, PYTHONNOUSERSITE="1", PIP_DISABLE_PIP_VERSION_CHECK="1", **more)
@@ -47,19 +47,19 @@ class Environment:
         return os.path.join(self.folder, "bin", name)
 
     def pip(self, *words):
-        """Skips where the packages cannot be had: that is nobody's fault here. tools/python fails by itself."""
+        """Skips where the packages cannot be downloaded. tools/python must not fail for another reason."""
         done = run(self.program("pip"), *words, env=outside(ECLAT_BUILD=BUILD))
         if done.returncode and "tools/python:" not in done.stdout + done.stderr:
             raise unittest.SkipTest(f"pip {words[0]}: {last_line(done)}")
         assert done.returncode == 0, done.stdout + done.stderr
 
     def packages(self):
-        """The folder that has the installed packages."""
+        """Returns the folder of the installed packages."""
         return run(self.python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", env=outside()).stdout.strip()
 
 
 def inputs():
-    """Files of which the wheel is made."""
+    """Files from which the wheel is made."""
     yield from (os.path.join(BUILD, name) for name in ("libeclat.so", "eclat", "eclat-compile"))
     yield from (os.path.join(SOURCE, name) for name in ("CMakeLists.txt", "host/lib/install.cmake", "host/include/eclat/eclat.h"))
     for folder, _, names in sorted(os.walk(PROJECT)):
@@ -75,7 +75,7 @@ def digest():
 
 
 def make(environment):
-    """The path of a wheel, which serves every test of this build."""
+    """Returns the path of a wheel, made once for all tests of this build."""
     wheels = os.path.join(BUILD, "tests", "wheels")
     os.makedirs(wheels, exist_ok=True)
     with open(os.path.join(wheels, "lock"), "w", encoding="utf-8") as lock:
@@ -88,7 +88,7 @@ def make(environment):
 
 
 def run_tests(case, environment, file, **env):
-    """tests/python/FILE by the Python of an environment; its program is the one to compare with."""
+    """Runs tests/python/FILE with the Python of an environment; its eclat command is compared with the library."""
     path = os.path.join(SOURCE, "tests", "python", file)
     helpers = os.path.join(SOURCE, "tests", "cli")
     done = run(environment.python, path, "-v", cwd=environment.folder,
