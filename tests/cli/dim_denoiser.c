@@ -1,6 +1,6 @@
 /* A stand-in for Open Image Denoise, for test_denoise.py. It makes colours 0.9 as bright, so that the test can predict the report. With
-   DIM_SHOWS_ALBEDO in the environment it returns the albedo instead. It does not change a guide that is filtered alone. It declares only
-   the functions that host/denoise/oidn.c calls. */
+ * DIM_SHOWS_ALBEDO in the environment it returns the albedo instead. It does not change a guide that is filtered alone. It declares only
+ * the functions that host/denoise/oidn.c calls. */
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Cases as those of `eclat selftest` are written (selftest/cases.h), each run to its full length: what they prove is a formula or an algorithm,
- * rather than a device. Every row has to pass. */
+/* Runs cases that are written as those of `eclat selftest` are (selftest/cases.h), each to its full length. They prove a formula or an
+ * algorithm rather than a device. Every row must pass. */
 #ifndef EC_TESTS_ROBUST_CASES_H
 #define EC_TESTS_ROBUST_CASES_H
 

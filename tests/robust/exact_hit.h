@@ -1,4 +1,4 @@
-/* Where a ray meets a triangle in double precision, and how far off a float ray may be. */
+/* Intersection of a ray and a triangle in double precision, and error bounds for a float ray. */
 #ifndef EC_TESTS_ROBUST_EXACT_HIT_H
 #define EC_TESTS_ROBUST_EXACT_HIT_H
 
@@ -6,16 +6,16 @@
 
 #include "robust/soups.h"
 
-/* The larger; NaN once there is one, which fmax would pass over. */
+/* The larger of both; NaN if one is NaN, which fmax would ignore. */
 static inline double ec_worse(double worst, double value) { return value <= worst || worst != worst ? worst : value; }
 
-/* The line o + t d and a triangle's plane, on the float numbers (Moeller and Trumbore 1997). */
+/* Intersects the line o + t d and a triangle's plane, from the float numbers (Moeller and Trumbore 1997). */
 typedef struct exact_hit {
     double t, b1, b2;
-    double inside;         /* the least barycentric: < 0 outside */
-    double cosine;         /* between line and normal, >= 0; 0: parallel, and nothing else is set */
-    double reach;          /* from o to the farthest vertex */
-    double least_height;   /* of the triangle */
+    double inside;         /* the smallest barycentric coordinate: < 0 outside */
+    double cosine;         /* between the line and the normal, >= 0; 0: parallel, and nothing else is set */
+    double reach;          /* distance from o to the farthest vertex */
+    double least_height;   /* the triangle's normal */
 } exact_hit;
 
 static inline exact_hit exact_meet(const float o[3], const float d[3], const float v[9])
@@ -45,12 +45,12 @@ static inline exact_hit exact_meet(const float o[3], const float d[3], const flo
     return h;
 }
 
-/* What a float ray may be off. A vertex in its frame is a difference and a product of the shear, which itself has two roundings, in
- * two axes, and a depth: 8 u of the reach, twice that with divisions of 2.5 ulp, as OpenCL allows. Along the ray it counts
- * 1 / cosine times, and what the weights are off as much again. */
-#define EXACT_T_BOUND (32 * 0x1p-24) /* of reach / cosine */
+/* Error bound of a float hit. A vertex in the ray's frame is a difference and a product with the shear, which has two roundings itself, in
+ * two axes, and a depth: 8 u of the reach. Divisions of 2.5 ulp, which OpenCL allows, double that. Along the ray the error counts 1 /
+ * cosine times, and the error of the weights adds as much again. */
+#define EXACT_T_BOUND (32 * 0x1p-24) /* times reach / cosine */
 static inline double exact_t_bound(const exact_hit *h) { return EXACT_T_BOUND * h->reach / h->cosine; }
-/* For barycentrics: how far that is on the triangle, over its least height. */
+/* Error bound of barycentrics: the error on the triangle over its smallest height. */
 static inline double exact_weight_bound(const exact_hit *h) { return exact_t_bound(h) / h->least_height + EXACT_T_BOUND; }
 
 #endif

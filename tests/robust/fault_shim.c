@@ -1,21 +1,20 @@
-/* LD_PRELOADed into eclat: lets one OpenCL or file call, or one allocation of eclat's own, fail, and counts them. By environment
- * variables:
- *   FAULT_CALL=clCreateBuffer   which call; FAULT_AT=3: the third one (1 if not given)
- *   FAULT_CODE=-5               what it answers: an OpenCL code, or an errno for calls on files; default CL_OUT_OF_RESOURCES, ENOSPC
- *   FAULT_SIGNAL=9              instead: the process is sent this signal there, and the call goes on when it has been taken
- *   FAULT_HANG=FILE             instead: the call never ends, as with a device that hangs; FILE is there from then on
- *   FAULT_PAUSE=5               instead: from that call on each takes so many milliseconds more, as with a slow device
- *   FAULT_DEVICE=1              only calls on the second context that was created count
- *   FAULT_LOST=1                from then on every OpenCL call answers so, as with a device that was lost
- *   FAULT_STATUS=-5             of clGetEventInfo: the call succeeds, and tells that the command did not
- *   FAULT_MEMORY=BYTES          of all buffers; above it FAULT_CALL fails every time (creation, or the first use)
- *   FAULT_GROUP=N               a work-group holds no more work-items of any kernel
- *   FAULT_ROUNDS=0              the device does not say that it rounds division and square root correctly
- *   FAULT_LOG=TEXT              what the compiler says
- *   FAULT_PLATFORM=TEXT         the platform's version; one without PoCL's name gets eclat's own kernel cache
- *   FAULT_FOLDER=PATH           calls on files count below it only
- *   FAULT_NO_TMPFILE=1          files must have names there
- *   FAULT_COUNTS=FILE           gets a line "call count" for each call that was met
+/* LD_PRELOADed into eclat: makes one OpenCL call, file call or allocation of eclat's own fail, and counts all calls. Environment variables:
+ *   FAULT_CALL=clCreateBuffer   the call; FAULT_AT=3: its third use (1 if not given)
+ *   FAULT_CODE=-5               the result: an OpenCL code, or an errno for file calls; default CL_OUT_OF_RESOURCES, ENOSPC
+ *   FAULT_SIGNAL=9              instead: the process gets this signal, and the call goes on once the signal is delivered
+ *   FAULT_HANG=FILE             instead: the call never returns, as with a device that hangs; FILE is made first
+ *   FAULT_PAUSE=5               instead: from that call on, each call takes so many milliseconds longer, as with a slow device
+ *   FAULT_DEVICE=1              counts only calls on the second context that was made
+ *   FAULT_LOST=1                from then on every OpenCL call fails, as with a lost device
+ *   FAULT_STATUS=-5             for clGetEventInfo: the call succeeds and reports that the command failed
+ *   FAULT_MEMORY=BYTES          limit of all buffers; above it FAULT_CALL (creation, or the first use) always fails
+ *   FAULT_GROUP=N               largest work-group, for every kernel
+ *   FAULT_ROUNDS=0              the device does not claim to round division and square root correctly
+ *   FAULT_LOG=TEXT              the compiler's log
+ *   FAULT_PLATFORM=TEXT         the platform's version; without PoCL's name in it, eclat uses a kernel cache of its own
+ *   FAULT_FOLDER=PATH           counts only file calls below this folder
+ *   FAULT_NO_TMPFILE=1          files without names cannot be made there
+ *   FAULT_COUNTS=FILE           gets a line "call count" for each call that was made
  *   FAULT_LAUNCHES=FILE         gets a line "program kernel work-items" for each launch */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
@@ -39,7 +38,7 @@
     X(clGetProgramInfo) X(clCreateKernel) X(clSetKernelArg) X(clEnqueueNDRangeKernel) X(clEnqueueReadBuffer)                       \
     X(clEnqueueWriteBuffer) X(clEnqueueFillBuffer) X(clEnqueueMapBuffer) X(clEnqueueUnmapMemObject) X(clFinish) X(clWaitForEvents) X(clGetEventInfo)                                \
     X(write) X(pwrite) X(fsync) X(linkat) X(rename) X(open) X(close)                                                               \
-    X(malloc) /* and its like */
+    X(malloc) /* and calloc, realloc, ... */
 enum call {
 #define NAME(name) CALL_##name,
     CALLS(NAME)
@@ -53,7 +52,7 @@ static unsigned counts[CALL_COUNT];
 static size_t allocated;
 static bool lost;
 
-/* Which context, by number, a thread's last call was on: several devices are worked by a thread each. */
+/* The number of the context of a thread's last call: each device is used by a thread of its own. */
 static cl_context contexts[16];
 static unsigned context_count;
 static __thread unsigned here;
@@ -95,7 +94,7 @@ static void send_signal(int which)
 {
     sigset_t pending;
     kill(getpid(), which);
-    while (sigpending(&pending) == 0 && sigismember(&pending, which) > 0) sched_yield(); /* it is another thread that waits for it */
+    while (sigpending(&pending) == 0 && sigismember(&pending, which) > 0) sched_yield(); /* another thread takes the signal */
 }
 
 static void hang(const char *path)
@@ -105,7 +104,7 @@ static void hang(const char *path)
     for (;;) pause();
 }
 
-/* Is it this call's turn? */
+/* Counts the call; returns whether it is the one to fail. */
 static bool is_due(enum call call)
 {
     const char *chosen = getenv("FAULT_CALL");
@@ -216,7 +215,7 @@ cl_int clGetEventInfo(cl_event event, cl_event_info what, size_t size, void *val
     return CL_SUCCESS;
 }
 
-/* A card that holds few work-items of a kernel at once. */
+/* Limits the work-group size, as some graphics cards do. */
 cl_int clEnqueueNDRangeKernel(cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint n, const cl_event *w, cl_event *e)
 {
     const size_t most = (size_t)number("FAULT_GROUP", 0);
@@ -244,7 +243,7 @@ cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, vo
     return code;
 }
 
-/* A text in place of the driver's. */
+/* Returns a text in place of the driver's. */
 static cl_int say(const char *text, size_t size, void *value, size_t *length)
 {
     if (length) *length = strlen(text) + 1;
@@ -309,7 +308,7 @@ int fsync(int fd)
     return file_fault(is_open_below(fd), CALL_fsync) ? -1 : REAL(fsync)(fd);
 }
 
-int close(int fd) /* closes all the same, as Linux does */
+int close(int fd) /* closes the file in any case, as Linux does */
 {
     bool fails = file_fault(is_open_below(fd), CALL_close);
     int saved = errno, result = REAL(close)(fd);
@@ -340,7 +339,7 @@ int open(const char *path, int flags, ...)
     return file_fault(is_below(path), CALL_open) ? -1 : REAL(open)(path, flags, mode);
 }
 
-/* Memory that libeclat asks for itself; other libraries are not ours to judge. */
+/* Allocations by libeclat itself; those of other libraries are not tested. */
 static const char *ours, *ours_end;
 
 static int find_ours(struct dl_phdr_info *info, size_t size, void *user)

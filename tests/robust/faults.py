@@ -1,4 +1,4 @@
-"""Runs eclat with one fault injected, by fault_shim.c, and looks at what it leaves behind."""
+"""Runs eclat with one fault injected by fault_shim.c, and checks the files that it leaves."""
 import concurrent.futures
 import os
 import shutil
@@ -14,14 +14,14 @@ OPTIONS = ["--size", "8x8", "--max-depth", "3"]  # batches of one sample each, u
 
 
 def spread(count, most):
-    """1 … count, or `most` of them, both ends among them."""
+    """Numbers 1 … count; if there are more than `most`, that many of them, first and last included."""
     if count <= most:
         return list(range(1, count + 1))
     return sorted({1 + round(i * (count - 1) / (most - 1)) for i in range(most)})
 
 
 def at_once(function, jobs):
-    """Two at a time: most of a tiny render is one thread that starts up. Raises what one of them raised."""
+    """Runs two at a time, since a tiny render mostly waits for a thread to start. Raises the first exception."""
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return list(pool.map(lambda job: function(*job), jobs))
 
@@ -42,7 +42,7 @@ def check_png(path):
 class FaultCase(Case):
     def setUp(self):
         super().setUp()
-        if os.access("/dev/shm", os.W_OK):  # every file is flushed to disk, which on a busy one takes longer than the renders
+        if os.access("/dev/shm", os.W_OK):  # files are flushed to disk, which may take longer than the renders
             self.folder = tempfile.mkdtemp(prefix="eclat-robust-", dir="/dev/shm")
             self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
         self.scene = write_gltf(self.path("quad.gltf"), quad_scene()[0])
@@ -60,7 +60,7 @@ class FaultCase(Case):
         return folder
 
     def prepare(self, name, *options, spp=4, old=True, quiet=True, env=None, **faults):
-        """Of a render into a folder of its own, which may hold files of the outputs' names before: (arguments, environment, folder)."""
+        """Returns (arguments, environment, folder) of a render into a folder of its own. old: the folder has files with the outputs' names."""
         folder = self.new_folder(name, old)
         environment = dict({"LD_PRELOAD": SHIM, "FAULT_FOLDER": folder + "/", "FAULT_COUNTS": folder + ".counts"}, **(env or {}))
         environment.update({"FAULT_" + key.upper(): str(value) for key, value in faults.items()})
@@ -68,35 +68,35 @@ class FaultCase(Case):
         return ["render", self.scene, *OPTIONS, *["--quiet"] * quiet, "--spp", str(spp), *outputs, *options], environment, folder
 
     def run_with(self, name, *options, **more):
-        """(result, folder) of such a render."""
+        """Runs such a render; returns (result, folder)."""
         arguments, environment, folder = self.prepare(name, *options, **more)
         return eclat(*arguments, env=environment, timeout=600), folder
 
     def start(self, name, *options, **more):
-        """(process, folder): the same under way, as the first of a process group."""
+        """Starts such a render as the leader of a process group; returns (process, folder)."""
         arguments, environment, folder = self.prepare(name, *options, **more)
         process = subprocess.Popen([ECLAT, *arguments], env=dict(ENVIRONMENT, **environment), stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True)
         return process, folder
 
     def no_cache(self):
-        """Environment in which no kernel has been compiled yet."""
+        """Environment without any compiled kernels."""
         return {"XDG_CACHE_HOME": self.path("nothing-compiled")}
 
     def count_calls(self, *options, **more):
-        """How often each call is met in a render without a fault."""
+        """Counts the calls of a render without a fault."""
         run, folder = self.run_with("counted", *options, **more)
         self.assertEqual(self.check_files(folder), {"a.exr": "new", "a.png": "new"}, run.stderr)
         return self.counts(folder)
 
     @staticmethod
     def counts(folder):
-        """How often each call was met in the render into the folder."""
+        """Counts the calls of the render into this folder."""
         with open(folder + ".counts", encoding="utf-8") as file:
             return {call: int(count) for call, count in (line.split() for line in file)}
 
     def check_files(self, folder):
-        """{name: "old" or "new"}; fails if a file is neither that of before nor whole, or if there is any other."""
+        """Returns {name: "old" or "new"}. Fails if a file is neither the old one nor complete, or if there is another file."""
         found = {}
         for name in sorted(os.listdir(folder)):
             path = os.path.join(folder, name)
@@ -110,7 +110,7 @@ class FaultCase(Case):
         return found
 
     def check_error(self, run):
-        """Exit code 1, and one line that says what to do; the lines of a compiler's log may follow it."""
+        """Checks exit code 1 and one line that tells what to do; lines of a compiler's log may follow it."""
         self.assertEqual(run.returncode, 1, run.stderr)
         lines = [line for line in run.stderr.splitlines() if not line.startswith("  ")]
         self.assertEqual(len(lines), 1, run.stderr)

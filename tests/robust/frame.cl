@@ -1,8 +1,8 @@
-/* Frames around normals, as the shading stages make them, for test_rays_normals.c. */
+/* Builds frames around normals, as the shading stages do, for test_rays_normals.c. */
 #include "lib/math.h"
 #include "lib/queue.h"
 
-/* s and t around n: three fields each. */
+/* Writes s and t for n: three fields each. */
 kernel void frame(uint wave, global const float *normals, global float *frames)
 {
     uint i = get_global_id(0) * LANES;

@@ -1,6 +1,6 @@
-/* What the fuzzers share. Each file fuzz_NAME.c defines libFuzzer's entry point, which judges one input: whatever the bytes, it
- * is read or refused in one line, and what was read keeps its promises. The sanitizers judge the rest. Linked with libFuzzer by
- * clang (-DECLAT_FUZZ=ON), or with fuzz_corpus.c, which goes over stored inputs: that is the test. */
+/* Shared by the fuzzers. Each fuzz_NAME.c defines libFuzzer's entry point, which tests one input: it must be read, or refused in one line,
+ * and the result must keep its promises. The sanitizers check the rest. Linked with libFuzzer by clang (-DECLAT_FUZZ=ON), or with
+ * fuzz_corpus.c, which runs over stored inputs as a test. */
 #ifndef EC_TESTS_ROBUST_FUZZ_H
 #define EC_TESTS_ROBUST_FUZZ_H
 
@@ -33,7 +33,7 @@ static inline void fuzz_judge_result(ec_result result, const ec_error *err)
     PROMISE(!strchr(err->text, '\n'), "more than a line: %s", err->text);
 }
 
-/* The bytes as a file, always the same one, without a name on the disk that could outlive a crash. Readers open files by name. */
+/* Writes the bytes to a file, always the same, that has no name on the disk and so cannot outlive a crash. Readers open files by name. */
 static inline const char *fuzz_file(const uint8_t *data, size_t size)
 {
     static char path[64];

@@ -1,5 +1,5 @@
-/* Checkpoints and slices by their bytes, without the seal, which is put on here: behind one that fits any reader has to get along with what is
- * there. What begins with a brace is the JSON object alone, which mutants of whole files seldom reach. */
+/* Fuzzes checkpoints and slices. The input has no seal: the fuzzer adds one that fits, so that the reader gets as far as the contents. An
+ * input that begins with a brace is the JSON object alone, which mutants of whole files seldom reach. */
 #include <fcntl.h>
 #include <math.h>
 
@@ -8,7 +8,7 @@
 #include "store/layout.h"
 #include "store/merge.h"
 
-enum { PIXELS_MOST = 1 << 12 }; /* more teaches nothing and costs executions */
+enum { PIXELS_MOST = 1 << 12 }; /* larger pictures find nothing more and are slower */
 
 static void judge_job(const ec_stored *s)
 {
@@ -39,7 +39,7 @@ static void read_state(const uint8_t *data, size_t size)
     free(text);
 }
 
-/* No two parts have a batch in common, and what the picture's errors are made of is there. */
+/* Checks that no two parts share a batch, and that the data of the picture's errors exist. */
 static void judge_film(const ec_film *film)
 {
     uint64_t end = 0, batches = 0;
@@ -52,11 +52,11 @@ static void judge_film(const ec_film *film)
     PROMISE(!film->counts || film->part_count == 1, "%u parts of an adaptive render", film->part_count);
     PROMISE(!film->cut || film->cut < ec_schedule_batch(film->replicates, ec_film_end(film) - 1).samples, "%u samples short", film->cut);
     PROMISE(batches == film->batch_count, "parts of %llu batches, not %u", (unsigned long long)batches, film->batch_count);
-    ec_film_error error = ec_film_estimate_error(film); /* of any bits: the sanitizers judge */
+    ec_film_error error = ec_film_estimate_error(film); /* with any bits: the sanitizers check the arithmetic */
     PROMISE(!isnan(error.error), "an error that is no number");
 }
 
-/* A file beside itself has every batch twice. */
+/* Merging a file with itself must fail, since every batch would be there twice. */
 static void merge_twice(const char *path)
 {
     ec_merge merge = {0};

@@ -1,4 +1,4 @@
-/* A .gltf or .glb, from its bytes to the buffers that kernels read: loaded, checked, packed, built in every structure. */
+/* Fuzzes .gltf and .glb files, from bytes to the buffers of kernels: loading, checking, packing, building every structure. */
 #include <math.h>
 
 #include "accel/accel.h"
@@ -8,7 +8,7 @@
 #include "scene/validate.h"
 #include "gltf/reader.h"
 
-enum { TRIANGLES_MOST = 4000 }; /* more teaches nothing and costs executions */
+enum { TRIANGLES_MOST = 4000 }; /* larger pictures find nothing more and are slower */
 
 static void keep_one_line(void *user, ec_severity severity, const char *text)
 {
@@ -69,7 +69,7 @@ static void build(const ec_scene *scene)
     ec_accel_input_free(&input);
 }
 
-/* How many animations it has; 0 where it is refused. */
+/* Returns the number of animations; 0 for a refused file. */
 static uint32_t judge(const char *path, const ec_scene_choice *choice)
 {
     ec_scene *scene = NULL;

@@ -1,5 +1,4 @@
-/* Pictures by their bytes: an OpenEXR or Radiance file as an environment map, down to its table; what else there is (PNG, JPEG, WebP, AVIF, KTX2)
- * as a texture. */
+/* Fuzzes pictures: OpenEXR and Radiance files as environment maps, including the table; others (PNG, JPEG, WebP, AVIF, KTX2) as textures. */
 #include <math.h>
 
 #include "fuzz.h"
@@ -7,7 +6,7 @@
 #include "pack/pack.h"
 #include "gltf/image_decode.h"
 
-enum { PIXELS_MOST = 1 << 16 }; /* more teaches nothing and costs executions */
+enum { PIXELS_MOST = 1 << 16 }; /* larger pictures find nothing more and are slower */
 
 static void judge_environment(ec_scene *scene)
 {

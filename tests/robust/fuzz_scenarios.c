@@ -1,8 +1,8 @@
-/* A scenario file by its bytes, to the requests that its pictures make. */
+/* Fuzzes scenario files, from bytes to the render requests of their pictures. */
 #include "fuzz.h"
 #include "jobs/scenarios.h"
 
-/* What it is rendered with was tried as it was read, one by one. */
+/* Applies all options of an entry together; reading has tried each of them alone. */
 static void judge_entry(const ec_entry *entry)
 {
     PROMISE(entry->name && *entry->name && !strchr(entry->name, '/') && entry->scene, "a picture without a name or a scene");

@@ -1,4 +1,5 @@
-"""Scenes for tests of hard inputs, on top of cli/support.py: any vertices, any streams, as one .gltf or .glb. Standard library only."""
+"""Scenes for tests of hard inputs, on top of cli/support.py: any vertices and vertex data, written as one .gltf or .glb. Standard library
+only."""
 import json
 import math
 import os
@@ -15,7 +16,7 @@ WHITE = {"pbrMetallicRoughness": {"metallicFactor": 0}}
 
 
 class Scene:
-    """add() meshes, then write(). A camera at (0, 0, 3) looks along -z."""
+    """A scene: add() meshes, then write(). Its camera at (0, 0, 3) looks along -z."""
 
     def __init__(self, *materials):
         self.buffer = bytearray()
@@ -29,7 +30,7 @@ class Scene:
         return self.json["nodes"][0]
 
     def extend(self, name, extension=None):
-        """Uses an extension; of the document where one is given."""
+        """Adds a name to extensionsUsed; with `extension`, also the extension's object in the document."""
         self.json.setdefault("extensionsUsed", []).append(name)
         if extension is not None:
             self.json.setdefault("extensions", {})[name] = extension
@@ -59,7 +60,7 @@ class Scene:
         return self
 
     def nest(self, node, scale, depth):
-        """Puts `depth` scaling nodes above one."""
+        """Puts `depth` nodes that scale above one node."""
         roots, nodes = self.json["scenes"][0]["nodes"], self.json["nodes"]
         for _ in range(depth):
             nodes.append({"scale": [scale] * 3, "children": [node]})
@@ -77,7 +78,7 @@ class Scene:
 
 
 def row_png(*texels):
-    """A picture of one row."""
+    """A PNG of one row of texels."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(texels), 1, 8, 2, 0, 0, 0)) +
@@ -89,7 +90,7 @@ def one_pixel_png(rgb):
 
 
 def write_exr(path, width, height, rgb):
-    """32-bit float scan lines as they are; rgb has 3 values a pixel, NaN and infinity too."""
+    """Writes scan lines of 32-bit floats, uncompressed. rgb has 3 values a pixel, which may be NaN or infinite."""
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
     box = struct.pack("<4i", 0, 0, width - 1, height - 1)
@@ -114,12 +115,13 @@ class Picture:
     def __init__(self, stats, channels, messages):
         self.stats, self.channels, self.messages = stats, channels, messages
         self.mean = stats["mean_luminance"]
-        self.se = self.mean * (stats["error"] or 0) / math.sqrt(stats["width"] * stats["height"])  # of the mean: pixels are independent
+        # standard error of the mean: pixels are independent
+        self.se = self.mean * (stats["error"] or 0) / math.sqrt(stats["width"] * stats["height"])
 
 
 class HardCase(Case):
-    """One set of kernels for all scenes (--effects all), compiled once; narrow ones, which Intel's compiler does in 10 s of processor
-    time. With four lanes it takes 82 s. The bits are the same."""
+    """Renders all scenes with one set of kernels (--effects all), compiled once. They are narrow: Intel's compiler needs 10 s of processor
+    time for those, 82 s for four lanes. The bits are the same."""
 
     def render(self, scene, *options, invalid=0, size="16x16", spp="16", kernels=QUICK):
         path = scene if isinstance(scene, str) else scene.write(self.path("scene.gltf"))

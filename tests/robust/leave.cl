@@ -1,10 +1,10 @@
-/* Rays that leave surfaces, as the shading stages make them, for leave.h. */
+/* Makes rays that leave surfaces, as the shading stages do, for leave.h. */
 #include "lib/queue.h"
 #include "lib/ray.h"
 #include "lib/surface.h"
 #include "leave_fields.h"
 
-/* From hits and the paths' directions: the paths' origins, and EC_LEAVE_FIELDS of where that is. */
+/* Reads hits and the paths' directions; writes the paths' origins, and EC_LEAVE_FIELDS about the points of departure. */
 kernel void leave(uint wave, float scene_max, global const float *prims, global const float *hits, global float *paths,
                               global float *left)
 {
@@ -20,7 +20,7 @@ kernel void leave(uint wave, float scene_max, global const float *prims, global 
     ray r = ray_make(o, d, scene_max);
     edges e;
     lane_f inverse, t;
-    lane_i again = ray_meets(&r, h.p0, h.p1, h.p2, &e, &inverse, &t); /* no box, no skipped triangle */
+    lane_i again = ray_meets(&r, h.p0, h.p1, h.p2, &e, &inverse, &t); /* no bounding box, no skipped triangle */
     queue_store_v3(paths, wave, EC_PATH_OX, i, o);
     queue_store_v3(left, wave, EC_LEAVE_P, i, s.p);
     queue_store_v3(left, wave, EC_LEAVE_ERROR, i, s.p_error);

@@ -1,4 +1,4 @@
-/* Rays that leave a tracer's hits in the paths' directions, as the shading stages make them. */
+/* Makes rays that leave a tracer's hits in the paths' directions, as the shading stages do. */
 #ifndef EC_TESTS_ROBUST_LEAVE_H
 #define EC_TESTS_ROBUST_LEAVE_H
 
@@ -9,7 +9,7 @@
 #include "selftest/tracer.h"
 #include "shared/scene_buffers.h"
 
-static float leave_results[EC_LEAVE_FIELDS * EC_TRACER_RAYS]; /* ec_leave_field */
+static float leave_results[EC_LEAVE_FIELDS * EC_TRACER_RAYS]; /* indexed by ec_leave_field */
 
 static inline float left(int field, uint32_t i) { return leave_results[(size_t)field * EC_TRACER_RAYS + i]; }
 
@@ -20,7 +20,7 @@ static inline void set_hit(ec_tracer *r, uint32_t i, uint32_t prim, double b1, d
     r->hits[EC_HIT_B2 * EC_TRACER_RAYS + i] = (float)b2;
 }
 
-/* One build for all calls, which ends with the process. */
+/* Builds the program once; it stays until the process ends. */
 static inline ec_result leave_program(ec_tracer *r, cl_program *program, ec_error *err)
 {
     static cl_program built;
@@ -33,13 +33,13 @@ static inline ec_result leave_program(ec_tracer *r, cl_program *program, ec_erro
     return result;
 }
 
-/* Gives paths that leave the hits in their directions their origins. */
+/* Sets the origins of paths that leave the hits in their directions. */
 static inline ec_result leave_hits(ec_tracer *r, ec_error *err)
 {
     const uint32_t wave = EC_TRACER_RAYS, count = r->soup->count;
     cl_program program;
     EC_TRY(leave_program(r, &program, err));
-    float *prims = calloc((size_t)EC_PRIM_WORDS * count + 1, sizeof *prims); /* as the shading kernels read them */
+    float *prims = calloc((size_t)EC_PRIM_WORDS * count + 1, sizeof *prims); /* in the layout of the shading kernels */
     if (!prims) return ec_fail(err, "out of memory for %u triangles", count);
     for (size_t i = 0; i < 3 * (size_t)count; i++) memcpy(prims + 4 * i, r->soup->vertices + 3 * i, 3 * sizeof *prims);
     const ec_array arrays[] = {EC_SCALAR(wave), EC_SCALAR(r->largest), EC_IN(prims, EC_PRIM_WORDS * (size_t)count),

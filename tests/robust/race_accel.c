@@ -1,5 +1,5 @@
-/* Every acceleration structure built by several threads at once, for ThreadSanitizer to watch: see test_races.py. With an argument it
- * commits a race of its own, which must be found. */
+/* Builds every acceleration structure with several threads under ThreadSanitizer (test_races.py). With an argument it makes a race of its
+ * own, which must be found. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,8 +8,7 @@
 
 enum { SIDE = 200, THREADS = 4, TRIANGLES = 2 * SIDE * SIDE };
 
-/* A rough field of quads, every tenth one a long sliver: enough of each kind that builders split ranges into tasks and cut
- * triangles into references. */
+/* A rough field of quads, every tenth one a long sliver: enough that builders split ranges into tasks and cut triangles into references. */
 static void make_field(float *positions, uint32_t *indices)
 {
     uint32_t noise = 1;
@@ -33,7 +32,7 @@ static int build_all(const float *positions, const uint32_t *indices)
     ec_error err = {0};
     int built = 0;
     for (uint32_t which = 0; which < EC_ACCEL_COUNT; which++) {
-        if (which == ec_accel_find("none")) continue; /* nothing to build, and no threads */
+        if (which == ec_accel_find("none")) continue; /* nothing to build: no threads */
         ec_accel accel;
         if (ec_accel_build(which, &input, &accel, &err) == EC_OK) built++;
         else fprintf(stderr, "%s: %s\n", ec_accels[which].name, err.text);
@@ -43,7 +42,7 @@ static int build_all(const float *positions, const uint32_t *indices)
     return built;
 }
 
-/* Whole triangles, whose trees follow them. */
+/* Builds with whole triangles, for trees that are refitted. */
 static int refit_all(float *positions, const uint32_t *indices)
 {
     ec_error err = {0};

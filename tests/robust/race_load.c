@@ -1,5 +1,5 @@
-/* Pictures decoded and an environment map weighed by several threads, for ThreadSanitizer to watch: see test_races.py. With an argument it
- * commits a race of its own, which must be found. */
+/* Decodes pictures and computes an environment map's table with several threads under ThreadSanitizer (test_races.py). With an argument it
+ * makes a race of its own, which must be found. */
 #include <omp.h>
 #include <png.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 enum { PICTURES = 16, THREADS = 4, SIDE = 256, WIDTH = 300, HEIGHT = 150 };
 
-/* Large enough that no thread decodes them all before the others wake: every byte another than its neighbours. */
+/* Large enough that no thread decodes all pictures before the others wake. Neighbouring bytes differ. */
 static unsigned char *make_png(png_size_t *size)
 {
     static unsigned char rgb[3 * SIDE * SIDE], file[sizeof rgb + 65536];
@@ -30,7 +30,7 @@ static void count_warning(void *user, ec_severity severity, const char *text)
     warnings += severity == EC_WARNING;
 }
 
-/* A material each; every fourth picture is cut short. */
+/* Gives each picture a material. Every fourth picture is truncated. */
 static uint32_t load(void)
 {
     png_size_t size;
@@ -68,7 +68,7 @@ static uint32_t load(void)
     return loaded;
 }
 
-/* The sum of the densities that a map is sampled by. */
+/* Adds up the densities by which a map is sampled. */
 static double weigh(void)
 {
     static float rgb[3 * WIDTH * HEIGHT];

@@ -1,6 +1,6 @@
-/* A team of sources under ThreadSanitizer (test_races.py): batches that sources of different speed make up, one of which fails on the way and
- * one at once; what comes out is checked to the last position, in order, with and without pixel lists, and with blocks of batches. With an argument
- * the sources commit a race of their own, which must be found. */
+/* Runs a team of sources under ThreadSanitizer (test_races.py). Sources of different speed work on batches; one fails on the way and one at
+ * once. Every position of the result is checked, in order, with and without pixel lists, and with blocks of batches. With an argument the
+ * sources make a race of their own, which must be found. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,13 +23,13 @@ typedef struct fake {
 
 static float value(uint32_t batch, uint32_t pixel) { return (float)(batch * 4096 + pixel); }
 
-/* What the batch tells of a pixel: value() in every field of it, as one sample would. */
+/* Fills a pixel's fields of a batch with value(), as one sample would. */
 static void fill(float *batch, uint32_t index, uint32_t pixel)
 {
     for (uint32_t k = 0; k < FIELDS; k++) batch[k] = k <= EC_BATCH_LARGEST ? value(index, pixel) : 1;
 }
 
-/* Its features there. */
+/* Fills the pixel's features. */
 static void fill_features(float *features, uint32_t index, uint32_t pixel)
 {
     for (uint32_t k = 0; k < EC_AOV_FIELDS; k++) features[k] = value(index, pixel) + (float)k;
@@ -91,14 +91,14 @@ static bool go_on(void *user, uint32_t done)
     return true;
 }
 
-/* Says no while there are gaps. */
+/* Asks to stop while the batch has gaps. */
 static bool stop_early(void *user, uint32_t done)
 {
     (void)done;
     return ++*(uint32_t *)user < 3;
 }
 
-/* A first batch that is given up: what is not right is marked. */
+/* Checks an interrupted first batch: wrong pixels are marked. */
 static int check_marked(const ec_team_candidate *candidates)
 {
     uint32_t asked = 0, reached = 0, wrong = 0;
@@ -126,15 +126,15 @@ static uint32_t whole(const void *user, uint32_t index)
 
 enum { MOST = EC_BLOCK_MOST + 3 * EC_FILM_FIRST + 40 };
 
-/* As a rank is ordered to take them. */
+/* The number of batches in an order, as a rank gets it. */
 static uint32_t ordered(uint32_t b)
 {
     if (b % EC_BLOCK_MOST == 0 && b + EC_BLOCK_MOST <= MOST) return EC_BLOCK_MOST;
     return b % EC_FILM_FIRST == 0 && b + EC_FILM_FIRST <= MOST ? EC_FILM_FIRST : 1;
 }
 
-/* A film of what a team takes, in blocks as it is told, of positions from the second row of tiles on, or where it likes, of which one member fails in the
- * middle, has the bits of one batch by batch. */
+/* Checks that a film of a team's blocks has the bits of one made batch by batch, though one member fails in the middle. is_told: the order
+ * gives the blocks, and covers the rows from the second row of tiles on; otherwise the team chooses. */
 static int check_blocks(ec_team_candidate *candidates, bool is_told)
 {
     static float batch[FIELDS * PIXELS], features[EC_AOV_FIELDS * PIXELS];
@@ -213,7 +213,7 @@ int main(int argc, char **argv)
     for (uint32_t b = 3; b < BATCHES; b++) {
         const bool is_pass = b % 20 == 0;
         const uint32_t samples = ec_schedule_batch(REPLICATES, b).samples, cut = b == BATCHES - 1 ? samples / 2 : 0;
-        const uint32_t next_pass = b / 20 * 20 + 20, end = next_pass < BATCHES || cut ? next_pass : BATCHES - 1; /* what is cut is not begun ahead */
+        const uint32_t next_pass = b / 20 * 20 + 20, end = next_pass < BATCHES || cut ? next_pass : BATCHES - 1; /* no batch follows a cut one */
         const ec_batch_order order = {.index = b, .end = end, .list = is_pass ? list : NULL, .samples = is_pass ? 3 : 0,
                                       .cut = cut, .count = is_pass ? PIXELS - 100 : PIXELS, .feature_sets = b / 20 % 2, .go_on = go_on, .user = &done};
         bool complete;

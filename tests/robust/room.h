@@ -1,19 +1,19 @@
-/* A closed room with a lamp, a block and a ball, at any place and of any size: pictures and hits must not depend on those. */
+/* A closed room with a lamp, a block and a ball, at any place and of any size. Pictures and hits must not depend on these. */
 #ifndef EC_TESTS_ROBUST_ROOM_H
 #define EC_TESTS_ROBUST_ROOM_H
 
 #include "gltf/model.h"
 
 typedef struct ec_room {
-    double scale;          /* of the coordinates in the file; 0 counts as 1 */
-    double offset;         /* added to all of them */
-    double matrix[16];     /* of the node they stand below; only its linear part may turn, mirror or keep */
+    double scale;          /* factor of the coordinates in the file; 0 counts as 1 */
+    double offset;         /* added to all coordinates */
+    double matrix[16];     /* matrix of the node above; only its linear part may rotate, mirror or be the identity */
     bool has_matrix;
 } ec_room;
 
 static inline double ec_room_factor(const ec_room *room) { return room->scale > 0 ? room->scale : 1; }
 
-/* In the file's coordinates. */
+/* Converts to the file's coordinates. */
 static inline void ec_room_in_file(const ec_room *room, const double p[3], double out[3])
 {
     for (int k = 0; k < 3; k++) out[k] = ec_room_factor(room) * p[k] + room->offset;
@@ -27,7 +27,7 @@ static inline void ec_room_box(ec_model *m, const ec_room *room, int32_t materia
     ec_model_box(m, material, from, to, inwards);
 }
 
-/* In its own frame the room reaches from -1 to 1, wherever it stands. */
+/* In its own frame the room reaches from -1 to 1. */
 static inline ec_result ec_room_scene(const ec_room *room, ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -50,7 +50,7 @@ static inline ec_result ec_room_scene(const ec_room *room, ec_scene **scene, ec_
     return ec_model_scene(m, scene, err);
 }
 
-/* What scale and matrix make of a point or direction of that frame. */
+/* Transforms a point or direction of that frame by scale and matrix. */
 static inline void ec_room_moved(const ec_room *room, const double p[3], double moved[3])
 {
     for (int row = 0; row < 3; row++) {

@@ -120,7 +120,7 @@ double ec_exact_fresnel(double cosine, double eta)
 
 void ec_worst_take(ec_worst *worst, double value, const char *format, ...)
 {
-    if (isnan(worst->value) || value <= worst->value) return; /* NaN is taken, and stays */
+    if (isnan(worst->value) || value <= worst->value) return; /* NaN replaces any value, and stays */
     worst->value = value;
     va_list list;
     va_start(list, format);

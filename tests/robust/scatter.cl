@@ -1,4 +1,4 @@
-/* The BSDF and its parts over arrays: scatter_fields.h says what lies where. */
+/* Evaluates the BSDF and its parts over arrays; scatter_fields.h has their layout. */
 #include "lib/bsdf.h"
 #include "lib/sampler.h"
 #include "scatter_fields.h"
@@ -38,7 +38,7 @@ kernel void ec_scatter(uint n, global const float *in, global float *out)
     PUT(EC_SCATTER_WEIGHT, d.weight.y);
 }
 
-/* What a thin film reflects: its index and nanometres in w, then the cosine; over f0, refracting where eta is not 1. */
+/* Reflectance of a thin film: index and nanometres in w, then the cosine; over f0, or refracting where eta is not 1. */
 kernel void ec_films(uint n, global const float *in, global float *out)
 {
     uint at = get_global_id(0) * LANES;
@@ -52,7 +52,7 @@ kernel void ec_films(uint n, global const float *in, global float *out)
     PUT(EC_SCATTER_F + 2, r.z);
 }
 
-/* A stream of numbers in [0, 1), the two ends as often as not. */
+/* A stream of numbers in [0, 1), often at its ends. */
 typedef struct stream {
     lane_u key;
     uint at;
@@ -72,7 +72,7 @@ EC_FN lane_f stream_factor(stream *s)
     lane_f u = stream_unit(s);
     return u == 1.0f - EC_ULP ? F(1.0f) : u;
 }
-/* From `least` to 1, its logarithm uniform. */
+/* A number from `least` to 1, log-uniform. */
 EC_FN lane_f stream_scale(stream *s, float log_least, float least)
 {
     lane_f x = exp_negative(stream_factor(s) * log_least);
@@ -87,7 +87,7 @@ EC_FN v3 stream_direction(stream *s)
     return v3_make(r * cosine, r * sine, z);
 }
 
-/* What lies over a surface, stretches its lobes or passes through it diffusely. */
+/* Adds layers over the surface, stretched lobes, and diffuse transmission. */
 EC_FN void stream_layers(stream *s, surface *r)
 {
     r->s = v3_make(F(1.0f), F(0.0f), F(0.0f));
@@ -112,7 +112,7 @@ EC_FN void stream_layers(stream *s, surface *r)
     r->transmission_color = v3_make(stream_factor(s), stream_factor(s), stream_factor(s));
 }
 
-/* As kernels/lib/surface.h makes them of any material that a file can hold. */
+/* Material values as kernels/lib/surface.h makes them from any material that a file can hold. */
 EC_FN surface stream_surface(stream *s)
 {
     const float indices[4] = {1.0f, 1.0f + 0x1p-20f, 1.5f, 2.4f};
@@ -136,7 +136,7 @@ EC_FN surface stream_surface(stream *s)
 
 EC_FN lane_i v3_is_negative(v3 a) { return (a.x < 0.0f) | (a.y < 0.0f) | (a.z < 0.0f); }
 
-/* Random materials and directions, `rounds` of them a lane. counts: EC_FUZZ_COUNTS for each work-item. */
+/* Tests random materials and directions, `rounds` of them a lane. counts: EC_FUZZ_COUNTS for each work-item. */
 kernel void ec_scatter_fuzz(uint n, uint rounds, uint seed, global uint *counts)
 {
     uint at = get_global_id(0) * LANES;
@@ -153,7 +153,7 @@ kernel void ec_scatter_fuzz(uint n, uint rounds, uint seed, global uint *counts)
         lane_f u1 = stream_unit(&random), u = stream_unit(&random);
         chooser number = {stream_unit(&random), F(5.9604644775390625e-8f), stream_unit(&random)};
         bsdf_direction d = bsdf_sample(&b, false, u1, number, u);
-        lane_i goes = (d.pdf != 0.0f) & (d.wi.z != 0.0f); /* NaN too; shade.cl goes on with no others */
+        lane_i goes = (d.pdf != 0.0f) & (d.wi.z != 0.0f); /* NaN too; shade.cl continues no such path */
         wrong[EC_FUZZ_NOT_FINITE] += count_lanes(!v3_is_finite(f) | !is_finite_bits(pdf) | !is_finite_bits(d.pdf) |
                                                  (goes & !(v3_is_finite(d.weight) & v3_is_finite(d.wi))));
         wrong[EC_FUZZ_NEGATIVE] += count_lanes(v3_is_negative(f) | (pdf < 0.0f) | ((d.pdf < 0.0f) & (d.pdf != -1.0f)) |

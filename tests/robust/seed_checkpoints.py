@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""usage: ECLAT=build/eclat seed_checkpoints.py OUT   Small checkpoints and slices as seeds for fuzz_checkpoint, without their seals, which it puts
-on itself; of each, under NAME-state, the JSON object in it alone; and damaged ones that readers once fell for."""
+"""Makes small checkpoints and slices as seeds for fuzz_checkpoint, without their seals, which the fuzzer adds. NAME-state has the JSON
+object of each alone. Also makes damaged files that older readers accepted.
+
+usage: ECLAT=build/eclat seed_checkpoints.py OUT"""
 import json
 import os
 import pathlib
@@ -14,10 +16,10 @@ from polling import poll_until
 from support import CORNELL, read_header
 
 ECLAT = os.path.abspath(os.environ["ECLAT"])
-FOLDER = pathlib.Path("/tmp/seed")  # it is in the files, as the folder where the job was begun
+FOLDER = pathlib.Path("/tmp/seed")  # the files contain it, as the folder where the job began
 SEAL = len(b"eclat: sealed by SHA-256\n") + 32
 JOB = ["render", os.path.basename(CORNELL), "--effects", "all", "--lanes", "4", "-q", "-o", "x.exr"]
-KINDS = {  # what is rendered, and the file of it that is kept
+KINDS = {  # options of the render, and the file of it that is kept
     "whole": (["--size", "2x2", "--spp", "523", "--checkpoint", "c.exr"], "c.exr"),
     "adaptive": (["--size", "8x8", "--spp", "40", "--adaptive", "--checkpoint", "c.exr"], "c.exr"),
     "slice": (["--size", "2x2", "--spp", "64", "--samples", "10:20"], "x.exr"),
@@ -28,7 +30,7 @@ KINDS = {  # what is rendered, and the file of it that is kept
 
 
 def headers(data):
-    """Attributes of each part, and where the tables of their blocks begin."""
+    """Returns the attributes of each part, and the offsets of their tables of blocks."""
     parts, at = [], 8
     while data[at]:
         part, at = read_header(data, at)
@@ -53,16 +55,16 @@ def make(name):
 
 
 def with_nan(data):
-    """The first value of the first sums, which are not compressed."""
+    """Replaces the first value of the first sums, which are not compressed, by NaN."""
     parts, at = headers(data)
     before = sum(part["chunkCount"] for part in parts[:[part["name"] for part in parts].index("sums 0")])
     start, = struct.unpack_from("<Q", data, at + 8 * before)
-    first = start + 12  # behind part, line and length
+    first = start + 12  # skips part, line and length
     return data[:first] + struct.pack("<f", float("nan")) + data[first + 4:]
 
 
 def with_huge_window(data):
-    """As many pixels as a header can say."""
+    """Sets the largest number of pixels that a header can state."""
     window = struct.pack("<4i", *headers(data)[0][0]["dataWindow"])
     return data.replace(window, struct.pack("<4i", 0, 0, 2**31 - 2, 2**31 - 2))
 

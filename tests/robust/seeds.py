@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""usage: seeds.py OUT FOLDER...   Small .gltf and .glb files of the folders as seeds for fuzz_gltf: one file each, buffers and
-images inside, so that a mutant still finds them."""
+"""Copies small .gltf and .glb files of the folders as seeds for fuzz_gltf, one file each, with buffers and images inside, so that mutants
+still find them.
+
+usage: seeds.py OUT FOLDER..."""
 import base64
 import json
 import pathlib
@@ -22,7 +24,7 @@ def embed(path):
                 holder["uri"] = "data:;base64," + base64.b64encode(data).decode()
         return json.dumps(document, separators=(",", ":")).encode()
     except (ValueError, OSError, AttributeError, TypeError):
-        return path.read_bytes()  # broken on purpose: as it is
+        return path.read_bytes()  # broken on purpose: copied unchanged
 
 
 def main():

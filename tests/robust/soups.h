@@ -1,4 +1,4 @@
-/* Triangles and directions at random. */
+/* Random triangles and directions. */
 #ifndef EC_TESTS_ROBUST_SOUPS_H
 #define EC_TESTS_ROBUST_SOUPS_H
 
@@ -8,7 +8,7 @@
 #include "base/vec3.h"
 #include "selftest/soup.h"
 
-/* Uniform. */
+/* A uniform direction. */
 static inline void ec_direction(uint64_t *random, double d[3])
 {
     double z = ec_random_between(random, -1, 1), angle = ec_random_between(random, -3.14159265358979323846, 3.14159265358979323846);
@@ -18,7 +18,7 @@ static inline void ec_direction(uint64_t *random, double d[3])
     d[2] = z;
 }
 
-/* Corners within `edge` of points within `spread` of `centre`; none without area. May be fewer than asked for. */
+/* Triangles with corners within `edge` of points within `spread` of `centre`; none without area. There may be fewer than asked for. */
 static inline ec_result ec_soup_random(uint64_t *random, uint32_t count, double edge, double spread, const double centre[3],
                          ec_soup *soup, ec_error *err)
 {

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Checkpoints when all goes wrong: killed at any moment, disks that fail, files that are not as they were written."""
+"""Checkpoints when things go wrong: processes killed at any moment, disks that fail, files that were changed."""
 import hashlib
 import json
 import os
@@ -27,21 +27,21 @@ class CheckpointFaults(FaultCase):
         self.job = ["--spp", "1000000"]
 
     def samples(self, path):
-        """Of the picture in a checkpoint, which eclat must be able to read; 0 if there is none yet."""
+        """Returns the samples of the checkpoint's picture, which eclat must be able to read; 0 where there is none yet."""
         if not os.path.exists(path):
             return 0
         run = self.assert_ok(eclat("merge", path, "--partial", "-q", "--json", "-o", path + ".merged.exr"))
         return json.loads(run.stdout)["samples_per_pixel"]
 
     def finish(self, kept, samples):
-        """image_sha256 of the job gone on with until so many samples, and of one without a break."""
+        """Returns image_sha256 of the resumed job, and of one without a break."""
         render = ["--json", "-q", "--spp", str(samples)]
         again = eclat("render", "--resume", kept, *render, "-o", kept + ".a.exr")
         whole = eclat("render", self.scene, "--size", "8x8", "--max-depth", "3", *render, "-o", kept + ".b.exr")
         return [json.loads(self.assert_ok(run).stdout)["image_sha256"] for run in [again, whole]]
 
     def chain(self, seed):
-        """One job, killed and gone on with again and again."""
+        """Kills one job and resumes it, again and again."""
         dice, done, kept, kills = random.Random(seed), 0, None, 0
         folder = self.new_folder(f"chain{seed}", old=False)
         kept = os.path.join(folder, "kept.exr")
@@ -54,7 +54,7 @@ class CheckpointFaults(FaultCase):
             run, _ = self.run_with(f"run{seed}-{kills}", "--resume" if done else "--checkpoint", kept, "--every", "0.001s", spp=1000000,
                                    env=everywhere, call=call, at=dice.randint(1, counts[call]), signal=int(signal.SIGKILL))
             self.assertEqual((run.returncode, run.stderr), (-signal.SIGKILL, ""))
-            for name in os.listdir(folder):  # killed in the moment in which the new one takes the old one's place
+            for name in os.listdir(folder):  # left when killed while the new file replaces the old one
                 self.assertRegex(name, rf"kept\.exr|{STRAY}")
             now = self.samples(kept)
             self.assertGreaterEqual(now, done)
@@ -72,7 +72,7 @@ class CheckpointFaults(FaultCase):
 
     @full
     def test_killed_at_any_call(self):
-        """A checkpoint after every batch: what was written before stands, so that a batch is lost and no more."""
+        """With a checkpoint after every batch, the previous one survives: at most one batch is lost."""
         kept = os.path.join(self.path("counted"), "kept.exr")
         _, folder = self.run_with("counted", "--checkpoint", kept, "--every", "0.0000001s", spp=6)
         counts = self.counts(folder)
@@ -83,7 +83,7 @@ class CheckpointFaults(FaultCase):
             path = os.path.join(self.path(name), "kept.exr")
             run, _ = self.run_with(name, "--checkpoint", path, "--every", "0.0000001s", spp=6, call=call, at=n, signal=signal.SIGKILL)
             self.assertEqual(run.returncode, -signal.SIGKILL)
-            whole = {"rename": n, "fsync": n - 1}.get(call, 0)  # the first file takes no other's place
+            whole = {"rename": n, "fsync": n - 1}.get(call, 0)  # the first file replaces no other
             with self.subTest(call=call, n=n):
                 self.assertGreaterEqual(self.samples(path), min(whole, 6))
                 if self.samples(path):
@@ -91,7 +91,7 @@ class CheckpointFaults(FaultCase):
         at_once(kill, [(call, n) for call in ["pwrite", "fsync", "rename", "linkat"] for n in spread(counts[call], 5)])
 
     def test_a_disk_that_fails_once(self):
-        """The render goes on, and the next checkpoint is written."""
+        """The render continues, and the next checkpoint is written."""
         for call, code in [("pwrite", 28), ("fsync", 5), ("rename", 5)]:
             path = os.path.join(self.path(call), "kept.exr")
             run, folder = self.run_with(call, "--checkpoint", path, "--every", "0.0000001s", spp=5, quiet=False, call=call, at=3, code=code)
@@ -100,7 +100,7 @@ class CheckpointFaults(FaultCase):
             self.assertEqual(self.samples(path), 5)
 
     def test_a_full_disk(self):
-        """The checkpoint before stays; the picture is written if there is room for it, and the exit code says that something is missing."""
+        """The previous checkpoint stays. The picture is written if there is room, and the exit code tells that something is missing."""
         kept, image = self.path("kept.exr"), self.path("a.png")
         begun = ["render", self.scene, "--size", "256x256", "--max-depth", "3", "-q", "-o", image]
         self.assert_ok(eclat(*begun, "--spp", "2", "--checkpoint", kept))
@@ -139,7 +139,7 @@ class CheckpointFaults(FaultCase):
         self.refused(kept, self.path("a.png").encode())
 
     def test_of_another_version(self):
-        """One of batches that were independent, from before there were replicates."""
+        """A checkpoint of independent batches, from before there were replicates."""
         with open(os.path.join(CORPUS, "format-1"), "rb") as file:
             data = file.read()
         kept = self.path("kept.exr")
@@ -149,7 +149,7 @@ class CheckpointFaults(FaultCase):
         self.assertIn(f"it was written by another version of eclat (format 1, this one reads {form}); use that version, or render it again", error)
 
     def test_seeds_are_of_this_version(self):
-        """Older ones would be refused before anything in them is read."""
+        """Seeds of an older version would be refused before anything in them is read."""
         form = json.loads(read_exr(self.make()[0])[0]["eclat.state"])["format"]
         for name in os.listdir(CORPUS):
             if name.endswith("-state") and name != "format-1-state":
@@ -157,7 +157,7 @@ class CheckpointFaults(FaultCase):
                     self.assertEqual(json.load(file)["format"], form, f"{name}: make them anew by seed_checkpoints.py")
 
     def test_forged(self):
-        """Changed and sealed anew: read as what it says, or refused; never a crash."""
+        """A file that was changed and sealed again is read as it is, or refused; it never causes a crash."""
         kept, data = self.make()
         body, dice = data[:-len(MARK) - 32], random.Random(5)
         header = body.index(b"eclat.state")
@@ -178,7 +178,7 @@ class CheckpointFaults(FaultCase):
         at_once(forge, [(i, place, dice.choice([0, 255, 57, dice.randrange(256)])) for i, place in enumerate(places)])
 
     def test_forged_light(self):
-        """The film of what light paths bring, of an adaptive render. Read as what it says, or refused; what lacks is taken again."""
+        """The film of light paths in an adaptive render. A changed one is read as it is, or refused; missing samples are taken again."""
         kept = self.path("kept.exr")
         job = [os.path.join(SOURCE, "scenes", "ring", "ring.gltf"), "--size", "8x8", "--adaptive", "--light-paths", "0.0625"]
         self.assert_ok(eclat("render", *job, "--spp", "64", "-q", "--checkpoint", kept, "-o", self.path("a.png")))

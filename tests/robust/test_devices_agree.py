@@ -1,6 +1,6 @@
 # tier: full
-"""The same picture on every OpenCL device: each number of each channel, bit for bit, at each lane width. What the kernels compute
-with is correctly rounded everywhere (tests/kernel/test_rounding.c), and nothing depends on an order."""
+"""All OpenCL devices make the same picture: every number of every channel, bit for bit, at each lane width. The kernels' arithmetic is
+correctly rounded everywhere (tests/kernel/test_rounding.c), and nothing depends on an order."""
 import os
 import struct
 import sys
@@ -13,7 +13,7 @@ from test_motion import room
 sys.path.insert(0, os.path.join(SOURCE, "tools"))
 import opencl_devices
 
-# Every stage, light, material and accelerator; small, since a driver that compiles for seconds a kernel is no reason to wait.
+# Every stage, light, material and accelerator. The picture is small, since some drivers compile each kernel for seconds.
 LAMPS = os.path.join(SOURCE, "scenes", "lamps", "lamps.gltf")
 GLASS = os.path.join(SOURCE, "scenes", "glass", "glass.gltf")
 PICTURES = {
@@ -24,7 +24,7 @@ PICTURES = {
     "raster": [LAMPS, "--spp", "4", "--integrator", "raster"],
 }
 VELVET, FILM, BRUSHED, PRISM = (os.path.join(SOURCE, "scenes", name, name + ".gltf") for name in ("velvet", "soap-film", "brushed-metal", "prism"))
-# What a file or an option may ask for beyond these: each with its own kernels, so slower.
+# Effects that other files or options ask for. Each needs kernels of its own, which is slower.
 MORE = {
     "motion": ["MOTION", "--animation", "all", "--shutter", "0:1", "--spp", "4", "--env", "0.3,0.3,0.3"],
     "image light": ["IMAGE LIGHT", "--spp", "4"],
@@ -37,7 +37,7 @@ MORE = {
 }
 LANES = ["1", "4", "8", "16"]
 BUILD = os.path.dirname(os.path.abspath(ECLAT))
-SLOW = "llvmpipe"  # compiles and renders for minutes, and can have one lane only: takes part if ECLAT_SLOW_DEVICES is set
+SLOW = "llvmpipe"  # compiles and renders for minutes, and has one lane only: tested if ECLAT_SLOW_DEVICES is set
 
 
 def bits(planes):
@@ -56,7 +56,7 @@ def setUpModule():
 
 class DevicesAgree(Case):
     def made(self, what):
-        """Scenes that are no files."""
+        """Makes scenes that are not in files."""
         if what == "MOTION":
             return room().write(self.path("motion.gltf"))
         faces = [png(8, lambda x, y, c=colour: tuple((v + 16 * x) % 256 for v in c)) for colour in COLOURS]
@@ -88,7 +88,7 @@ class DevicesAgree(Case):
                 self.check(name, FAST, LANES)
 
     def test_every_effect(self):
-        """The reference at one lane, the others at what they choose for themselves."""
+        """Renders the reference with one lane, and others with the number that they choose."""
         for name in MORE:
             with self.subTest(name):
                 self.check(name, FAST, ["auto"])

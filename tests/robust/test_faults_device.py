@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Every OpenCL call fails once: a clear line, no damaged file, and the samples so far where there are any."""
+"""Every OpenCL call fails once: one clear line, no damaged file, and a picture of the samples so far, if there are any."""
 import json
 import os
 import re
@@ -9,18 +9,19 @@ from faults import SHIM, FaultCase, at_once, spread
 from support import CORNELL, eclat, read_exr
 from tiers import full
 
-HARMLESS = ["clGetPlatformInfo", "clGetDeviceInfo", "clGetProgramBuildInfo", "clGetProgramInfo"]  # a render may do without
-CACHED = ["clCreateProgramWithBinary", "clBuildProgram"]  # and without its cache: where the driver's binaries are kept, sources stand by
-CLOSING = {"clEnqueueUnmapMemObject": 2, "clFinish": 2}  # the last calls, when all is in the picture: samples and features are unmapped, nothing is under way
+HARMLESS = ["clGetPlatformInfo", "clGetDeviceInfo", "clGetProgramBuildInfo", "clGetProgramInfo"]  # a render can do without these
+CACHED = ["clCreateProgramWithBinary", "clBuildProgram"]  # nor does it need the cache: if the driver's binaries fail, it uses the sources
+# the last calls, once the picture is complete: unmapping samples and features, and waiting for nothing
+CLOSING = {"clEnqueueUnmapMemObject": 2, "clFinish": 2}
 LOST = {"CL_OUT_OF_RESOURCES": -5, "CL_INVALID_COMMAND_QUEUE": -36, "CL_DEVICE_NOT_AVAILABLE": -2}
 KEPT = re.compile(r"the render failed after (\d+) samples a pixel: .*; the picture so far is written$")
 
 
 class Device(FaultCase):
-    most = 8  # of each call; test_faults_every_call.py has more
+    most = 8  # uses of each call; test_faults_every_call.py tests more
 
     def check_kept(self, run, folder, error):
-        """What the line says is what the files hold: as many samples, and no sample of the batch that failed."""
+        """Checks that the files hold as many samples as the line states, and no sample of the failed batch."""
         kept = KEPT.search(error)
         if not kept:
             self.assertEqual(self.check_files(folder), {"a.exr": "old", "a.png": "old"}, error)
@@ -34,7 +35,7 @@ class Device(FaultCase):
         return samples
 
     def pictures(self, samples):
-        """Red of a render that was asked for so many samples."""
+        """Returns red of renders with so many samples."""
         if samples not in self.known:
             _, folder = self.run_with(f"spp{samples}", spp=samples)
             self.known[samples] = read_exr(os.path.join(folder, "a.exr"))[1]["R"]
@@ -49,7 +50,7 @@ class Device(FaultCase):
             self.pictures(samples)
 
     def test_a_card_that_holds_few_work_items_of_a_kernel(self):
-        """Not a power of two: groups are of the largest that fits."""
+        """The limit is not a power of two: groups get the largest power of two below it."""
         run, folder = self.run_with("few", spp=4, group=3)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(read_exr(os.path.join(folder, "a.exr"))[1]["R"], self.pictures(4))
@@ -67,7 +68,7 @@ class Device(FaultCase):
     def fail_once(self, call, n, code, **more):
         run, folder = self.run_with(f"{call}{n}{code}{len(more)}", call=call, at=n, code=code, **more)
         with self.subTest(call=call, n=n, code=code, more=more):
-            another = call == "clGetDeviceIDs" and n > 2  # of a second driver, where one is installed: the first one's device does
+            another = call == "clGetDeviceIDs" and n > 2  # a failing second driver, if one is installed: the first one's device is used
             if n > self.closing.get(call, n):
                 self.assertEqual([run.returncode, self.check_files(folder)], [0, {"a.exr": "new", "a.png": "new"}])
                 self.assertEqual(read_exr(os.path.join(folder, "a.exr"))[1]["R"], self.pictures(4))
@@ -98,7 +99,7 @@ class Device(FaultCase):
 
 
 class Others(FaultCase):
-    """The other commands that ask a device."""
+    """Other commands that use a device."""
 
     def test_devices_and_info(self):
         def fail(command, call):
@@ -114,7 +115,7 @@ class Others(FaultCase):
 
     @full
     def test_a_study_reports_what_was_measured_before(self):
-        builds = self.count_calls()["clBuildProgram"]  # for each of reference, base and rungs
+        builds = self.count_calls()["clBuildProgram"]  # one each for reference, base and rungs
         run = eclat("cost", CORNELL, "--size", "16x16", "--budget", "8s", "--json", self.path("a.json"),
                     env={"LD_PRELOAD": SHIM, "FAULT_CALL": "clBuildProgram", "FAULT_AT": str(2 * builds + 1), "FAULT_LOST": "1"})
         if run.returncode == 0:
@@ -135,7 +136,7 @@ class Memory(FaultCase):
         run, folder = self.run_with("plain", *self.big, "--json")
         plain = json.loads(run.stdout)
         limit = 0.6 * plain["device_bytes"]
-        for call in ["clCreateBuffer", "clEnqueueFillBuffer"]:  # when it is asked for, or when it is first used
+        for call in ["clCreateBuffer", "clEnqueueFillBuffer"]:  # fails when it is requested, or when it is first used
             for code in [-4, -5]:
                 with self.subTest(call=call, code=code):
                     run, folder = self.run_with(f"{call}{code}", *self.big, "--json", call=call, code=code, memory=int(limit))
@@ -194,7 +195,7 @@ class Kernels(FaultCase):
         with open(self.path("file"), "w", encoding="utf-8"):
             pass
         self.assertEqual(self.render_with_cache("no_home", "", False, HOME=""), first)
-        for place in [self.path("file"), "/dev/null", "/proc/no/such"]:  # the last one not even root may make
+        for place in [self.path("file"), "/dev/null", "/proc/no/such"]:  # in the last one not even root may make a file
             self.assertEqual(self.render_with_cache(place.replace("/", "_"), place, True), first)
 
 

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Disks that are full or fail, and processes killed as they write: the file of before or the whole new one, nothing else."""
+"""Full and failing disks, and processes killed while they write: the old file or the complete new one remains, nothing else."""
 import json
 import os
 import resource
@@ -13,13 +13,13 @@ from tiers import full
 
 ENOSPC, EIO, SIGKILL = 28, 5, 9
 CALLS = ["open", "pwrite", "write", "fsync", "close", "linkat", "rename"]
-NAMED = {"no_tmpfile": 1}  # as on a file system where files must have names
+NAMED = {"no_tmpfile": 1}  # as on a file system where every file has a name
 
 
 @full
 class Calls(FaultCase):
     def each_call(self, most, variants):
-        """(call, n, before, named): before: are there files of the outputs' names; named: has the temporary file a name?"""
+        """Yields (call, n, before, named). before: there are files with the outputs' names; named: the temporary file has a name."""
         for old, named in variants:
             counts = self.count_calls(old=old, **(NAMED if named else {}))
             shutil.rmtree(self.path("counted"))
@@ -32,7 +32,7 @@ class Calls(FaultCase):
         run, folder = self.run_with(f"{call}{n}{old}{named}", old=old, call=call, at=n, code=code, **(NAMED if named else {}))
         with self.subTest(call=call, n=n, old=old, named=named):
             files = self.check_files(folder)
-            if run.returncode == 0:  # there was another way, or the folder could not be flushed
+            if run.returncode == 0:  # there was another way, or only flushing the folder failed
                 self.assertIn(call, ["open", "close", "fsync"])
                 self.assertEqual(files, {"a.exr": "new", "a.png": "new"})
             else:
@@ -53,7 +53,7 @@ class Calls(FaultCase):
             for name in strays:
                 self.assertRegex(name, r"^\.eclat-\d+-[0-9a-f]{8}\.tmp$")
                 os.remove(os.path.join(folder, name))
-            if not named:  # but for the moment in which a nameless file replaces another
+            if not named:  # except while a nameless file replaces another
                 self.assertTrue(not strays or call == "rename", strays)
             self.check_files(folder)
             return len(strays)
@@ -61,14 +61,14 @@ class Calls(FaultCase):
     def test_killed_as_it_writes(self):
         strays = at_once(self.kill, self.each_call(6, [(True, False), (False, True)]))
         self.assertGreater(len(strays), 40)
-        self.assertGreater(sum(strays), 5)  # where they have names they stay
+        self.assertGreater(sum(strays), 5)  # temporary files with names stay
 
 
 class Disks(FaultCase):
-    """On file systems of their own, where user namespaces or root allow that."""
+    """Renders on file systems of their own, where user namespaces or root allow that."""
 
     def in_mount(self, mount, *options, stdout=subprocess.PIPE):
-        """A render into a folder prepared by the shell command `mount`; what is in there afterwards is copied out."""
+        """Renders into a folder that the shell command `mount` prepares; copies the folder's contents out afterwards."""
         inside, outside = self.path("inside"), self.path("outside")
         for folder in [inside, outside]:
             shutil.rmtree(folder, ignore_errors=True)
@@ -89,7 +89,7 @@ class Disks(FaultCase):
         self.assertEqual(len(run.stderr.splitlines()), 2, run.stderr)
         with open(outside + "/a.exr", encoding="utf-8") as file:
             self.assertEqual(file.read(), "yesterday\n")
-        self.assertEqual(sorted(os.listdir(outside)), ["a.exr", "a.png"])  # the PNG found room
+        self.assertEqual(sorted(os.listdir(outside)), ["a.exr", "a.png"])  # the PNG had room
 
     def test_a_read_only_disk_is_noticed_before_the_render(self):
         run, outside = self.in_mount('mount --bind "$in" "$in" && mount -o remount,bind,ro "$in"', "--spp", "1000000")
@@ -104,7 +104,7 @@ class Disks(FaultCase):
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.png", "old", "quad.gltf"])
 
     def test_a_limit_where_no_driver_catches_its_signal(self):
-        """LLVM, which PoCL has inside, handles SIGXFSZ; eclat has to do without."""
+        """LLVM, which PoCL contains, catches SIGXFSZ; eclat must not depend on that."""
         self.assert_ok(eclat("render", self.scene, "--size", "8x8", "--spp", "2", "-o", self.path("a.exr")))
         run = eclat("compare", self.path("a.exr"), self.path("a.exr"), "--diff", self.path("map.png"),
                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20, 20)))

@@ -1,6 +1,6 @@
 # tier: full
-"""A sequence in which a call of OpenCL's or a write fails once: at most one frame goes with it, no file is damaged, and the same command
-makes what is missing, to the same bits."""
+"""An OpenCL call or a write fails once during a sequence: at most one frame is lost, no file is damaged, and the same command makes the
+missing frames, to the same bits."""
 import json
 import os
 import unittest
@@ -34,7 +34,7 @@ class Frames(FaultCase):
         return folder
 
     def sequence(self, name, **faults):
-        """(result, folder, how often each call was met)."""
+        """Returns (result, folder, counts of calls)."""
         arguments, environment, folder = self.prepare(name, old=False, **faults)
         arguments = arguments[:arguments.index("-o")] + ["--frames", f"0:{FRAMES - 1}", "--json", "-o", os.path.join(folder, "f.%d.exr")]
         run = eclat(*arguments, env=environment, timeout=600)
@@ -67,7 +67,7 @@ class Frames(FaultCase):
         jobs = [(call, n) for call in CALLS for n in spread(self.counts.get(call, 0), self.most)]
         self.assertGreater(len(jobs), 20)
         failed = set(at_once(self.fail_once, jobs))
-        self.assertGreaterEqual(failed, {1, 2, 3, 4})  # each frame has been the one
+        self.assertGreaterEqual(failed, {1, 2, 3, 4})  # each frame was lost once
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Every allocation of eclat's own fails once: a clear line and no damaged file, or the picture after all."""
+"""Every allocation of eclat's own fails once: one clear line and no damaged file, or the complete picture."""
 import os
 import unittest
 
@@ -21,7 +21,7 @@ class Memory(FaultCase):
         with open(self.path("counted", "a.png"), "rb") as file:
             self.picture = file.read()
         ends = at_once(self.fail_once, [(n,) for n in spread(count, most)])
-        self.assertGreater(ends.count("error"), 0.7 * len(ends))  # what it can do without is little: kernels that were kept
+        self.assertGreater(ends.count("error"), 0.7 * len(ends))  # few allocations are dispensable: kernels in the cache
 
     def fail_once(self, n):
         run, folder = self.run_with(f"malloc{n}", call="malloc", at=n)

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""Signals at any moment: the picture of the complete batches, or the file of before; never half of one."""
+"""Signals at any moment: a picture of the complete batches, or the old file; never an incomplete one."""
 import glob
 import os
 import random
@@ -17,7 +17,7 @@ INTERRUPTED = "eclat: error: interrupted before there was a picture; nothing is 
 
 class Signals(FaultCase):
     def at_random(self, count, numbers):
-        """Calls from the first to a little behind the last of a render, and a signal for each."""
+        """Calls from the first to slightly beyond the last of a render, with a signal for each."""
         dice = random.Random(20)
         counts = self.count_calls(*ENOUGH, spp=128)
         calls = dice.choices(list(counts), list(counts.values()), k=count)
@@ -57,7 +57,7 @@ class Signals(FaultCase):
                 return self.check_interrupted(run.returncode, run.stderr, folder, number)
         calls = ["clGetDeviceInfo", "clCreateContext", "clBuildProgram", "clEnqueueNDRangeKernel", "clEnqueueReadBuffer", "pwrite"]
         ends = at_once(stop, [(call, n, signal.SIGINT) for call in calls for n in spread(counts[call], 4)])
-        for end in [True, False]: # whether one at the start still kills depends on which thread is faster
+        for end in [True, False]:  # a signal at the start may still kill the process: that depends on which thread is faster
             self.assertIn(end, ends)
 
     @full
@@ -77,7 +77,8 @@ class Signals(FaultCase):
         hangs = self.path("it-hangs")
         process, folder = self.start("hangs", call="clEnqueueNDRangeKernel", at=30, hang=hangs)
         poll_until(lambda: os.path.exists(hangs), process)
-        for number in [signal.SIGSTOP, signal.SIGINT, signal.SIGTERM, signal.SIGCONT]:  # both are there at once: the same wish, told twice
+        # SIGINT and SIGTERM arrive together: two requests to stop
+        for number in [signal.SIGSTOP, signal.SIGINT, signal.SIGTERM, signal.SIGCONT]:
             process.send_signal(number)
         poll_until(lambda: not self.pending(process), process)
         self.assertIsNone(process.poll())
@@ -88,7 +89,7 @@ class Signals(FaultCase):
 
     @staticmethod
     def pending(process):
-        """Have signals been sent to the process that none of its threads has taken?"""
+        """Returns whether the process has signals that none of its threads has taken."""
         with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
             return any(line.startswith("ShdPnd:") and int(line.split()[1], 16) for line in file)
 
@@ -104,7 +105,7 @@ class Signals(FaultCase):
         return found
 
     def test_ctrl_c_while_the_driver_runs_a_program_of_its_own(self):
-        """A terminal sends SIGINT to the linker that PoCL has started too, whose death PoCL answers by abort()."""
+        """A terminal sends SIGINT to the linker that PoCL has started, too. PoCL calls abort() when it dies."""
         cache = self.path("cache")
         os.mkdir(cache)
         process, folder = self.start("links", "--accel", "bvh8", "--lanes", "1", env={"XDG_CACHE_HOME": cache, "POCL_CACHE_DIR": cache})

@@ -1,6 +1,6 @@
 # tier: quick
-"""What an ordinary user meets: folders and files of others, caches that are not one's own, full disks, no home. Root, who may do anything, becomes
-somebody else for these runs."""
+"""Situations of an ordinary user: folders and files of others, caches of others, full disks, no home. These runs change to another user
+where they would run as root, who may do anything."""
 import os
 import shutil
 import subprocess
@@ -10,7 +10,7 @@ import unittest
 import support
 from support import ENVIRONMENT, Case, eclat, move_node, quad_scene, write_gltf
 
-USER = 54321 if os.geteuid() == 0 else os.geteuid()  # nobody whom the system knows by name
+USER = 54321 if os.geteuid() == 0 else os.geteuid()  # a user without a name in the system
 AS_USER = {"user": USER, "group": USER, "extra_groups": []} if os.geteuid() == 0 else {}
 SMALL = ("--size", "8x8", "--spp", "2", "--integrator", "raster", "-q")
 
@@ -20,7 +20,7 @@ SMALL = ("--size", "8x8", "--spp", "2", "--integrator", "raster", "-q")
 class UserCase(Case):
     @classmethod
     def setUpClass(cls):
-        """So that kernels are compiled once."""
+        """Makes the caches, so that kernels are compiled once."""
         cls.pocl = tempfile.mkdtemp(prefix="eclat-user-")
         cls.addClassCleanup(shutil.rmtree, cls.pocl)
         cls.hand_over(cls.pocl)
@@ -33,7 +33,7 @@ class UserCase(Case):
         self.hand_over(self.folder)
 
     def make(self, name, mode=None):
-        """A folder of the user's own; with a mode somebody else's, or, where that cannot be, one that is closed."""
+        """Makes a folder of the user's own. With a mode it belongs to somebody else, or, where that is impossible, has no permissions."""
         os.mkdir(self.path(name))
         if mode is None:
             self.hand_over(self.path(name))
@@ -55,7 +55,7 @@ class UserCase(Case):
         return eclat(*arguments, env={"HOME": self.folder, "POCL_CACHE_DIR": self.pocl, **(env or {})}, cwd=self.out, **AS_USER, **options)
 
     def refuse(self, *arguments, says=(), **options):
-        """One line, and nothing written."""
+        """Checks for one line, and that nothing is written."""
         line = self.assert_one_error(self.run_as_user(*arguments, **options), 1)
         for word in says:
             self.assertIn(word, line)
@@ -113,7 +113,7 @@ class Files(UserCase):
 
 
 class Caches(UserCase):
-    """What they cost is time; where a driver needs one, it is said how to give it."""
+    """Without a cache, renders only take longer. Where a driver needs one, the message says how to provide it."""
 
     def render(self, **env):
         self.assert_ok(self.run_as_user("render", self.scene, *SMALL, "-o", "a.png", env=env))
@@ -130,7 +130,7 @@ class Caches(UserCase):
         self.render(XDG_CACHE_HOME="", HOME="/nonexistent")
 
     def test_a_driver_without_a_folder(self):
-        """It says so as it starts, or as it compiles; other drivers than PoCL need none."""
+        """The message comes at the start, or during compilation. Only PoCL needs the folder."""
         for env in [{"POCL_CACHE_DIR": self.locked}, {"POCL_CACHE_DIR": "", "XDG_CACHE_HOME": "", "HOME": "/nonexistent"}]:
             run = self.run_as_user("render", self.scene, *SMALL, "-o", "a.png", env=env)
             if run.returncode == 0:

@@ -1,5 +1,5 @@
 /* tier: full */
-/* From samples to what is written: very bright and very dark ones, sRGB. */
+/* Tests the way from samples to files: very bright and very dark ones, and sRGB. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "robust/cases.h"
 #include "selftest/shot.h"
 
-/* A camera that sees nothing but a lamp: every sample is its radiance. */
+/* The camera sees only a lamp: every sample is the lamp's radiance. */
 static ec_result lamp(double radiance, ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -31,7 +31,7 @@ static ec_result lamp_row(ec_selftest *t, const char *what, double radiance, dou
     return ec_shot_only_row(t, what, scene, &o, expected, err);
 }
 
-/* Nothing in the way of an environment whose samples add up to more than a float holds. */
+/* The camera sees only an environment, whose samples add up to more than a float holds. */
 static ec_result bright_sky(ec_selftest *t, double radiance, ec_error *err)
 {
     ec_scene *scene;
@@ -44,7 +44,7 @@ static ec_result bright_sky(ec_selftest *t, double radiance, ec_error *err)
     return ec_shot_only_row(t, "sky of 1e38", scene, &o, (double)(float)radiance, err);
 }
 
-/* The loader takes no emission over 1e30, with a warning: products with it are to stay finite. */
+/* The loader limits emission to 1e30, with a warning, so that products with it stay finite. */
 static ec_result range_case(ec_selftest *t, ec_error *err)
 {
     EC_TRY(lamp_row(t, "lamp of 1e38, taken for 1e30", 1e38, 1e30, 4, 64, err));
@@ -52,7 +52,7 @@ static ec_result range_case(ec_selftest *t, ec_error *err)
     return bright_sky(t, 1e38, err);
 }
 
-/* A texture of all 256 sRGB values as an unlit surface, a texel a pixel. */
+/* An unlit surface with a texture of all 256 sRGB values, one texel a pixel. */
 static ec_result ramp(ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -81,7 +81,7 @@ static ec_result ramp(ec_scene **scene, ec_error *err)
 
 static double srgb_decode(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-/* Through texture look-up, film and tone mapping: linear radiance is rounded once, bytes come back as they were. */
+/* Texture look-up, film and tone mapping: linear radiance is rounded once, and bytes come back unchanged. */
 static ec_result srgb_case(ec_selftest *t, ec_error *err)
 {
     ec_scene *scene = NULL;
@@ -90,14 +90,14 @@ static ec_result srgb_case(ec_selftest *t, ec_error *err)
     double worst = 0;
     uint64_t changed = 0;
     ec_render_options o = ec_shot_options(t, 16, 16);
-    o.more_effects = 0; /* textures are for this one alone */
+    o.more_effects = 0; /* this scene is the only one with textures */
     ec_result result = ramp(&scene, err);
     if (result == EC_OK) result = ec_shot_take(t, scene, &o, &shot, err);
     ec_scene_free(scene);
     EC_TRY(result);
     ec_tonemap_rgb(shot.rgb, bytes, 256, 0, EC_TONEMAP_NONE);
     for (int i = 0; i < 256; i++) {
-        int value = 16 * (15 - i / 16) + i % 16; /* v = 0 at the quad's foot, and the texture's top there */
+        int value = 16 * (15 - i / 16) + i % 16; /* v = 0 is at the quad's bottom, which has the texture's top row */
         double off = fabs((double)shot.rgb[3 * i + 1] - srgb_decode(value / 255.0));
         if (!(off <= worst)) worst = off;
         for (int c = 0; c < 3; c++) changed += bytes[3 * i + c] != value;

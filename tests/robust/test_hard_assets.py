@@ -1,6 +1,7 @@
 # tier: full
-"""Every file under shared/assets/hard by every integrator: no NaN, no crash, something to see, and structures no larger than their
-triangles call for. Self-intersecting and non-manifold meshes, slivers to 1e8, the Cornell box at 1e-4, 1e4 and far away."""
+"""Renders every file under shared/assets/hard with every integrator: no NaN, no crash, a picture that is not empty, and structures of a
+size that their triangles justify. The files have self-intersecting and non-manifold meshes, slivers to 1e8, and the Cornell box at scales
+of 1e-4 and 1e4 and far away."""
 import glob
 import json
 import os
@@ -11,7 +12,7 @@ from support import SHARED, eclat
 
 HARD = os.path.join(SHARED, "assets", "hard")
 FILES = sorted(glob.glob(os.path.join(HARD, "**", "*.gl[tb]*"), recursive=True))
-REFERENCES_MOST = 2  # of the BVH a triangle: cutting adds a third at most on meshes that are not hard
+REFERENCES_MOST = 2  # references of the BVH for each triangle: on ordinary meshes, cutting adds a third at most
 
 
 @unittest.skipUnless(FILES, "there is no " + HARD)
@@ -31,7 +32,7 @@ class HardAssets(HardCase):
         self.each(lambda path: self.assertGreater(self.render(path, spp="8").mean, 0))
 
     def test_whitted_and_raster(self):
-        """Direct light alone: on some of the meshes it falls on few pixels."""
+        """Direct light only, which reaches few pixels of some meshes."""
         for integrator in ["whitted", "raster"]:
             self.each(lambda path: self.assertGreater(self.render(path, "--integrator", integrator, size="48x48", spp="2").mean, 0))
 

@@ -1,7 +1,7 @@
 /* tier: quick */
-/* Meshes that could make a builder explode: the memory of every structure grows with the triangles and no faster, on a stack that a
- * recursion as deep as the mesh is large would overflow. Counts, not seconds: no machine is too slow. A quadratic build of the
- * largest, 10^10 steps, would end in ctest's timeout. */
+/* Meshes that could make a builder explode. The memory of every structure must grow linearly with the triangles. The stack is so small that
+ * a recursion as deep as the mesh is large would overflow it. The test counts memory, not time, so that no machine is too slow. A quadratic
+ * build of the largest mesh would take 10^10 steps and end in ctest's timeout. */
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
@@ -21,28 +21,28 @@ static void coincident(uint32_t t, uint32_t n, float p[9])
     memcpy(p, (const float[9]){0, 0, 0, 1, 0, 0.5f, 0, 1, 0}, 9 * sizeof *p);
 }
 
-/* One centre, all sizes: no plane and no centroid separates them. */
+/* All triangles have the same centre: no plane and no centroid separates them. */
 static void concentric(uint32_t t, uint32_t n, float p[9])
 {
     float r = (float)(t + 1) / (float)n;
     memcpy(p, (const float[9]){-r, -r, -r, r, r, r, r, -r, 0}, 9 * sizeof *p);
 }
 
-/* All through one line, turned about it. */
+/* All triangles contain one line, and are rotated about it. */
 static void fan(uint32_t t, uint32_t n, float p[9])
 {
     float angle = 6.2831853f * (float)t / (float)n;
     memcpy(p, (const float[9]){0, 0, -1, 0, 0, 1, cosf(angle), sinf(angle), 0}, 9 * sizeof *p);
 }
 
-/* Diagonal needles of aspect 1e8: their boxes all overlap. */
+/* Diagonal needles with an aspect ratio of 1e8, whose boxes all overlap. */
 static void needles(uint32_t t, uint32_t n, float p[9])
 {
     float at = (float)t / (float)n;
     memcpy(p, (const float[9]){at, 0, 0, 1 - at, 1, 1, at + 1e-8f, 1e-8f, 0}, 9 * sizeof *p);
 }
 
-/* Distances to the next halve: every size of float at once. */
+/* Each distance is half of the previous one: all magnitudes of float at once. */
 static void halving(uint32_t t, uint32_t n, float p[9])
 {
     (void)n;
@@ -50,7 +50,7 @@ static void halving(uint32_t t, uint32_t n, float p[9])
     memcpy(p, (const float[9]){size, 0, 0, 2 * size, 0, 0, size, size, 0}, 9 * sizeof *p);
 }
 
-/* Most of the triangles in a speck, one as large as the stadium. */
+/* Most triangles are in a speck, and one is as large as a stadium around it. */
 static void stadium(uint32_t t, uint32_t n, float p[9])
 {
     float at = (float)t / (float)n * 1e-4f, reach = t ? 1e-6f : 1e4f;

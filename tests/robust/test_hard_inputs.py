@@ -1,6 +1,6 @@
 # tiers: quick, full
-"""Numbers at the edge of float, and scenes that are degenerate on purpose: what is dropped is counted, what is clamped is said, the
-rest is the picture that it would be without."""
+"""Numbers at the limits of float, and degenerate scenes. Dropped objects are counted, clamped values are reported, and the rest is the
+picture without them."""
 import math
 import unittest
 
@@ -29,7 +29,7 @@ class Emission(HardCase):
         self.assertEqual(max(picture.channels["R"]), FLOAT_1E30)
 
     def test_1e_minus_38_is_kept(self):
-        """Below the normal range floats are 2^-149 apart: 1.4e-7 of it."""
+        """Below the normal range, floats are 2^-149 apart, which is 1.4e-7 of 1e-38."""
         picture = self.render(Scene(lamp(1e-38)).extend(STRENGTH).add(QUAD))
         self.assertNotIn("warning", picture.messages)
         self.assertAlmostEqual(max(picture.channels["R"]) / 1e-38, 1, delta=1.5e-7)
@@ -37,10 +37,10 @@ class Emission(HardCase):
     def test_environment_of_3e38_is_clamped_and_said(self):
         picture = self.render(Scene(WHITE).add(QUAD), "--env", "3e38,3e38,3e38")
         self.assertIn("3 values are above 1e+30; they are clamped to it", picture.messages)
-        self.assertEqual(picture.channels["R"][0], FLOAT_1E30)  # past the quad
+        self.assertEqual(picture.channels["R"][0], FLOAT_1E30)  # beside the quad
 
     def test_overflow_at_a_surface_is_counted(self):
-        """10^30 W/sr from a micrometre: 10^42 W/m^2 is no float. The samples are dropped and said."""
+        """10^30 W/sr at a micrometre would give 10^42 W/m^2, which no float holds. The samples are dropped, with a warning."""
         scene = white_with_light({"type": "point", "intensity": 1e38}, translation=[0, 0, 1e-6])
         scene.json["cameras"][0]["perspective"]["yfov"] = 1e-8
         picture = self.render(scene, "--size", "4x4", invalid=None)
@@ -66,7 +66,7 @@ class Lights(HardCase):
                 self.assertLess(max(picture.channels["R"]), 1e-3)
 
     def test_lamps_that_are_there_twice(self):
-        """Rays meet one of them, so it shines once, however it is sampled."""
+        """Rays meet one of the two lamps, so that it counts once, however light is sampled."""
         def scene(count):
             s = Scene(WHITE, LAMP).add(QUAD, scale=[3, 3, 1])
             s.camera["translation"] = [0, 0, 0.9]
@@ -80,10 +80,10 @@ class Lights(HardCase):
 
 
 class Environments(HardCase):
-    """A Lambert floor of albedo 1/2 below maps of 8 x 4 texels."""
+    """A Lambertian floor of albedo 1/2 below maps of 8 x 4 texels."""
 
     def floor(self, rgb, *options):
-        down = [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]  # what looked along -z looks along -y
+        down = [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)]  # looks along -y instead of -z
         grey = {"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0},
                 "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
         scene = Scene(grey).extend("KHR_materials_specular").add(QUAD, rotation=down)
@@ -92,8 +92,8 @@ class Environments(HardCase):
         return self.render(scene, "--env", write_exr(self.path("map.exr"), 8, 4, rgb), *options, spp="64")
 
     def test_rows_of_zeros(self):
-        """1 above and 0 below. Between the middle rows the map falls from 1 to 0, to 1/2 at the horizon:
-        albedo times the integral of 2 L cos sin over the zenith angle."""
+        """Rows of 1 above and 0 below. Between the two middle rows the map falls from 1 to 0, and is 1/2 at the horizon. The expected value
+        is the albedo times the integral of 2 L cos sin over the zenith angle."""
         steps, start, expected = 10000, math.radians(67.5), 0
         for i in range(steps):
             angle = (i + 0.5) / steps * math.pi / 2
@@ -106,7 +106,7 @@ class Environments(HardCase):
                 self.assertAlmostEqual(picture.mean, expected, delta=4 * picture.se)
 
     def test_texels_that_are_no_radiance(self):
-        """As if they were black."""
+        """Such texels count as black."""
         def rgb(values):
             return [1] * 24 + values + [1] * 69
         picture = self.floor(rgb([math.nan, math.inf, -1]))
@@ -117,7 +117,7 @@ class Environments(HardCase):
         self.assertEqual(max(self.floor([0] * 96).channels["R"]), 0)
 
     def test_one_texel_of_1e38(self):
-        """Taken as 1e30; the others are 1e-38, and no chance becomes 0 or infinite."""
+        """The texel counts as 1e30, the others as 1e-38. No probability becomes 0 or infinite."""
         picture = self.floor([1e38] * 3 + [1e-38] * 93)
         self.assertIn("3 values are above 1e+30; they are clamped to it", picture.messages)
         self.assertGreater(picture.mean, 0)
@@ -126,7 +126,7 @@ class Environments(HardCase):
 @full
 class Geometry(HardCase):
     def assert_no_difference(self, scene, message):
-        """Two triangles more, which are dropped."""
+        """Adds two more triangles, which the loader must drop."""
         picture = self.render(scene)
         self.assertIn(message, picture.messages)
         self.assert_same(picture, self.render(Scene(LAMP).add(QUAD)))
@@ -159,7 +159,7 @@ class Geometry(HardCase):
         self.assert_same(self.render(Scene(LAMP).add(QUAD, scale=[1, 1, 0])), self.render(Scene(LAMP).add(QUAD)))
 
     def test_mirrored(self):
-        """A single-sided lamp still shines forwards."""
+        """A single-sided lamp still shines forwards when mirrored."""
         expected = self.render(Scene(LAMP).add(QUAD))
         for scale in [[-1, 1, 1], [-1, -1, 1]]:
             self.assert_same(self.render(Scene(LAMP).add(QUAD, scale=scale)), expected)
@@ -170,7 +170,8 @@ class Geometry(HardCase):
         expected = self.render(Scene(LAMP).add(QUAD[:9]), size="4x4", spp="1")
         for accel in ["bvh2", "bvh8", "grid", "kdtree"]:
             with self.subTest(accel=accel):
-                picture = self.render(scene, size="4x4", spp="1", kernels=("--lanes", "1", "--accel", accel))  # one traversal each
+                # one ray traversal for each lane
+                picture = self.render(scene, size="4x4", spp="1", kernels=("--lanes", "1", "--accel", accel))
                 self.assert_same(picture, expected)
 
 
@@ -211,7 +212,7 @@ class Cameras(HardCase):
 
 
 class Shading(HardCase):
-    """Lit by 1 from everywhere, a surface shows its albedo for that direction: no more than 1."""
+    """Lit by 1 from everywhere, a surface shows its albedo in that direction: at most 1."""
     MATERIAL = {"pbrMetallicRoughness": {"metallicFactor": 0.5, "roughnessFactor": 0.3}, "normalTexture": {"index": 0}}
 
     def shade(self, rgb, *streams):
@@ -221,7 +222,8 @@ class Shading(HardCase):
         return picture
 
     def test_normal_maps_of_zeros(self):
-        """(0, 0, 0) means a normal of (-1, -1, -1); 127 and 128 mean one of no length, as near as bytes come to it."""
+        """The texel (0, 0, 0) means a normal of (-1, -1, -1). Texels of 127 and 128 mean one of nearly no length, as close to 0 as bytes
+        allow."""
         for level in [0, 127, 128]:
             with self.subTest(level=level):
                 self.shade([level] * 3, NORMAL, UV)

@@ -1,5 +1,5 @@
 /* tier: full */
-/* A cube map's light on a floor (EXT_lights_image_based). */
+/* Light of a cube map on a floor (EXT_lights_image_based). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,14 +10,14 @@
 
 enum { FACE = 64 };
 
-/* Directions of a face's pixels as OpenGL 4.6 has them, table 8.19. */
+/* Directions of a face's pixels, from OpenGL 4.6, table 8.19. */
 static void face_direction(int face, double s, double t, double d[3])
 {
     const double r[6][3] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
     for (int k = 0; k < 3; k++) d[k] = r[face][k] / sqrt(1 + s * s + t * t);
 }
 
-/* 1 + a . d in direction d. */
+/* Radiance 1 + a . d in direction d. */
 static bool draw_cube(const double a[3], ec_cube *cube)
 {
     *cube = (ec_cube){.size = FACE};
@@ -32,10 +32,10 @@ static bool draw_cube(const double a[3], ec_cube *cube)
     return true;
 }
 
-/* What irradiance coefficients of bands 0 and 1 would say: over pi, 1 + 2/3 (R a) . n (Ramamoorthi and Hanrahan 2001). Between pixels
- * h = 2 / FACE apart bilinear interpolation errs by h^2 / 8 times the second derivative, at most 1 along an arc and 2 along a face, each
- * way: when the cube is unrolled, and again when the map is looked up. With what a neighbour's pixels are off past an edge, half of h / 4
- * times the slope over strips h wide, that stays under h^2 |a|. */
+/* Irradiance from spherical harmonics of bands 0 and 1, divided by pi: 1 + 2/3 (R a) . n (Ramamoorthi and Hanrahan 2001). Between pixels h
+ * = 2 / FACE apart, bilinear interpolation errs by h^2 / 8 times the second derivative, which is at most 1 along an arc and 2 along a face.
+ * It happens twice: when the cube is resampled, and when the map is looked up. Beyond a face's edge a neighbour's pixels are off by half of
+ * h / 4 times the slope, over strips h wide. Together that is below h^2 |a|. */
 static ec_result cube_row(ec_selftest *t, const char *what, const double a[3], const double q[4], ec_error *err)
 {
     double h = 2.0 / FACE, size = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]), tolerance = size * h * h;

@@ -1,15 +1,16 @@
 /* tiers: quick, full */
-/* Coordinates are known to an ulp at best, so a picture may not hang on one: with every vertex, light and camera moved by one ulp
- * at random it must be the same within noise, and with the same random numbers far closer than that. An epsilon in metres, a hash
- * of a position's bits or a cancellation would show here.
+/* Coordinates are known to an ulp at best, so a picture must not depend on one. All vertices, lights and cameras are moved by one ulp at
+ * random. The picture must be the same within noise, and with the same random numbers much closer. An epsilon in metres, a hash of a
+ * position's bits or a cancellation would fail here.
  *
- * With the same seed a path stays as it was but where the move sent it another way, from where on it is another path. If a share p
- * of the variance is in such paths, the two pictures differ by sqrt(p) of what two seeds differ by, so p is the square of that ratio.
- * What an ulp may do: an edge moves by 10^-7 of the picture's height, and each of a path's some ten segments passes tens of
- * edges, which is 10^-5; a curved mirror magnifies a turn by twice the way over its radius, so that of the paths that bounce ten
- * times between such mirrors nothing stays; and v3_frame turns where a normal's z changes its sign, which the walls of a box
- * do (one of the Cornell box's: p = 0.003). 0.05 leaves room for that, and sees a move of a thousandth, as the last line of main
- * shows: p = 0.2 to 1. */
+ * With the same seed, a path stays the same unless the move sends it another way; from there on it is another path. If a share p of the
+ * variance is in such paths, the two pictures differ by sqrt(p) times the difference of two seeds. So p is the square of that ratio.
+ *
+ * Several effects of an ulp are legitimate. An edge moves by 10^-7 of the picture's height, and each of a path's ten or so segments passes
+ * tens of edges: 10^-5. A curved mirror magnifies a change of direction by twice the distance over its radius, so that paths with ten
+ * bounces between such mirrors change completely. v3_frame turns where a normal's z changes its sign, which the walls of a box do (one of
+ * the Cornell box's: p = 0.003). The limit of 0.05 allows for these, and detects a move of a thousandth: there p = 0.2 to 1, as the last
+ * line of main shows. */
 #include "support/gltf_writer.h"
 #include "support/random.h"
 #include "support/render_case.h"
@@ -17,7 +18,7 @@
 enum { WIDTH = 48, HEIGHT = 36, SAMPLES = 64 };
 #define MOST 0.05
 
-/* One ulp up or down of the coordinate as it stands in the file: the centre is what loading took off. */
+/* Moves a coordinate one ulp up or down, measured at its value in the file: loading subtracted the centre. */
 static void move(float *x, double center, double ulps, test_random *random)
 {
     float file = fabsf((float)(*x + center));
@@ -43,7 +44,7 @@ static ec_render_options options(uint64_t seed)
 {
     ec_render_options o = case_options(WIDTH, HEIGHT, SAMPLES);
     o.seed = (uint32_t)seed;
-    o.light_choice = EC_LIGHTS_BY_POWER; /* an ulp may build another light tree, of lamps as even as balls are: p = 0.09 in veach-mis */
+    o.light_choice = EC_LIGHTS_BY_POWER; /* with lamps as uniform as balls, an ulp may change the light tree: p = 0.09 in veach-mis */
     return o;
 }
 
@@ -63,7 +64,7 @@ static double square_difference(const case_image *a, const case_image *b, uint32
     return sum;
 }
 
-/* As it is; moved; and moved, with another seed. */
+/* Three renders: the scene as it is; moved; moved, with another seed. */
 typedef struct pictures {
     case_image still, moved, other;
     double p;
@@ -107,7 +108,7 @@ static void check(const char *name, ec_scene *scene, bool all_lanes)
     free_three(&all, scene);
 }
 
-/* And a move that is none of rounding is seen. */
+/* Checks that a move larger than rounding is detected. */
 static void check_seen(const char *name, ec_scene *scene)
 {
     pictures all = render_three(name, scene, 0x1p14);
@@ -115,7 +116,7 @@ static void check_seen(const char *name, ec_scene *scene)
     free_three(&all, scene);
 }
 
-/* A room of 10 m, a kilometre from the origin in a file without a node to say so: its coordinates are known to 0.06 mm. */
+/* A room of 10 m, a kilometre from the origin in the vertices themselves: its coordinates are known to 0.06 mm. */
 static ec_scene *far_room(void)
 {
     gltf_writer *w = gltf_new();

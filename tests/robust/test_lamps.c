@@ -1,5 +1,5 @@
 /* tier: full */
-/* Lamps of every size and distance: what a surface gets from them is known. */
+/* Lamps of every size and distance: the light that a surface gets from them is known. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,13 +19,14 @@ static double corner_factor(double a, double b, double h)
     return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * pi);
 }
 
-/* Form factor to a rectangle that stands on the element's plane at distance d, its corner nearest: `high` up, `wide` along (C-14). */
+/* Form factor to a rectangle perpendicular to the element's plane, at distance d, with the nearest corner in front of it: `high` up, `wide`
+ * along (C-14). */
 static double wall_factor(double high, double wide, double d)
 {
     return (atan(wide / d) - d / hypot(high, d) * atan(wide / hypot(high, d))) / (2 * pi);
 }
 
-/* A white Lambert floor that reaches further than anything on it; its radiance is the form factor times the lamp's radiance. */
+/* A white Lambertian floor, larger than anything on it. Its radiance is the form factor times the lamp's radiance. */
 static ec_model *floor_model(double half)
 {
     ec_model *m = ec_model_new();
@@ -36,13 +37,13 @@ static ec_model *floor_model(double half)
     return m;
 }
 
-/* Looks down on a square of 2 x size about the origin, from height y. */
+/* A camera at height y that sees a square of 2 x size about the origin. */
 static void look_down(ec_model *m, double y, double size)
 {
     ec_model_camera(m, EC_CAMERA_ORTHOGRAPHIC, (double[3]){0, y, 0}, (double[3]){0, 0, 0}, size);
 }
 
-/* A lamp of 2 a x 2 a that shines down from height h, in parts x parts quads. */
+/* A lamp of 2 a x 2 a that shines down from height h, made of parts x parts quads. */
 static void add_lamp(ec_model *m, double a, double h, double radiance, int parts)
 {
     ec_material material = ec_material_lambert(0, radiance);
@@ -59,14 +60,14 @@ static void add_lamp(ec_model *m, double a, double h, double radiance, int parts
         const size_t corner[6] = {i, i + 1, i + n + 1, i, i + n + 1, i + n};
         for (int k = 0; k < 6; k++) indices[used++] = (uint32_t)corner[k];
     }
-    /* Without memory the model fails for want of vertices. */
+    /* Writes the model; without memory it has no vertices, and loading fails. */
     ec_model_add(m, ec_model_material(m, &material), &(ec_model_mesh){.vertex_count = (uint32_t)(n * n), .index_count = (uint32_t)used,
                                                                       .positions = positions, .indices = indices});
     free(positions);
     free(indices);
 }
 
-/* Ends the model: a row of its direct light. */
+/* Finishes the model, renders its direct light and returns a row of it. */
 static ec_result rounded_row(ec_selftest *t, ec_model *m, const char *what, uint32_t spp, ec_sample sample,
                              double expected, double rounding, ec_error *err)
 {
@@ -91,8 +92,8 @@ static ec_result direct_row(ec_selftest *t, ec_model *m, const char *what, uint3
     return rounded_row(t, m, what, spp, sample, expected, EC_SHOT_ROUNDING, err);
 }
 
-/* Directions sampled towards a triangle right above are off by u edge / height (lib/spherical_triangle.h); cosines, which rise and fall around
- * the true ones, by half the square of that. */
+/* Directions sampled towards a triangle straight above are off by u edge / height (lib/spherical_triangle.h). Their cosines, which vary
+ * around the true ones, are off by half the square of that. */
 static double near_rounding(double edge, double height)
 {
     const double angle = 0x1p-24 * edge / height;
@@ -135,7 +136,7 @@ static ec_result tiny_lamp_case(ec_selftest *t, ec_error *err)
     return EC_OK;
 }
 
-/* Half of the lamp is below the horizon of what it shines on. */
+/* Half of the lamp is below the surface's horizon. */
 static ec_result horizon_lamp_case(ec_selftest *t, ec_error *err)
 {
     ec_model *m = floor_model(0.5);
@@ -147,7 +148,7 @@ static ec_result horizon_lamp_case(ec_selftest *t, ec_error *err)
     return direct_row(t, m, "", 256, EC_SAMPLE_MIS, 2 * wall_factor(2, 1.5, 1), err);
 }
 
-/* A single-sided lamp that shines up has a floor below it. */
+/* A single-sided lamp shines up, with a floor below it. */
 static ec_result lamp_back_case(ec_selftest *t, ec_error *err)
 {
     ec_model *m = floor_model(4);
@@ -159,7 +160,7 @@ static ec_result lamp_back_case(ec_selftest *t, ec_error *err)
     return direct_row(t, m, "", 16, EC_SAMPLE_MIS, 0, err);
 }
 
-/* Light from everywhere, whose lamp's solid angle is the hemisphere: exactly its radiance. */
+/* The lamp's solid angle is the whole hemisphere: the result is exactly its radiance. */
 static ec_result surrounding_lamp_case(ec_selftest *t, ec_error *err)
 {
     ec_model *m = floor_model(0.5);
@@ -171,7 +172,7 @@ static ec_result surrounding_lamp_case(ec_selftest *t, ec_error *err)
     return direct_row(t, m, "", 256, EC_SAMPLE_MIS, 1, err);
 }
 
-/* The table of lights is as long as the lamp has parts. */
+/* The table of lights has as many entries as the lamp has parts. */
 static ec_result many_lamps_case(ec_selftest *t, ec_error *err)
 {
     enum { PARTS = 707 };
@@ -203,7 +204,7 @@ static ec_result occlusion_case(ec_selftest *t, ec_error *err)
     return ec_shot_only_row(t, "", scene, &o, 1 - 2 * wall_factor(1, 100, 1), err);
 }
 
-/* A point light behind panes: each takes Schlick's F = 0.04 + 0.96 (1 - c)^5, with a dozen roundings. */
+/* A point light behind panes: each reflects Schlick's F = 0.04 + 0.96 (1 - c)^5, with a dozen roundings. */
 static ec_result panes_case(ec_selftest *t, ec_error *err)
 {
     static const int counts[2] = {1, 64};
@@ -226,7 +227,7 @@ static ec_result panes_case(ec_selftest *t, ec_error *err)
         EC_TRY(ec_model_scene(m, &scene, err));
         ec_render_options o = ec_shot_options(t, 4, 16);
         ec_shot shot;
-        o.max_depth = 2 + (uint32_t)counts[i]; /* nothing by way of reflections */
+        o.max_depth = 2 + (uint32_t)counts[i]; /* no light by reflections */
         o.more_effects |= EC_FEATURE_PANES;
         ec_result result = ec_shot_take(t, scene, &o, &shot, err);
         ec_scene_free(scene);

@@ -1,5 +1,5 @@
 # tier: full
-"""Six million pixels in 250 MB: the bits of the picture that takes 0.9 GB."""
+"""A picture of six million pixels, rendered in 250 MB, has the bits of the whole one, which takes 0.9 GB."""
 import json
 import os
 import sys
@@ -9,7 +9,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from support import CORNELL, Case, eclat  # noqa: E402
 
 BOUND = 250 * 10 ** 6
-HEADER = 40000  # more than header and table of blocks of such a file
+HEADER = 40000  # larger than the header and the table of blocks of such a file
 
 
 class LargePicture(Case):
@@ -19,7 +19,7 @@ class LargePicture(Case):
         return json.loads(run.stdout)
 
     def assert_same_blocks(self, a, b):
-        """Of two EXR files, which compress the same rows to the same bytes."""
+        """Compares two EXR files, which compress equal rows to equal bytes."""
         with open(self.path(a), "rb") as one, open(self.path(b), "rb") as other:
             size = min(os.path.getsize(one.name), os.path.getsize(other.name)) - HEADER
             self.assertGreater(size, 4 * 10 ** 7)
@@ -29,7 +29,8 @@ class LargePicture(Case):
                 self.assertTrue(one.read(1 << 20) == other.read(1 << 20))
 
     def test_in_250_mb(self):
-        self.assert_ok(eclat("render", CORNELL, "-q", "--size", "600x600", "--spp", "2", "--max-depth", "2", "-o", self.path("warm.png")))  # compiles
+        # compiles the kernels
+        self.assert_ok(eclat("render", CORNELL, "-q", "--size", "600x600", "--spp", "2", "--max-depth", "2", "-o", self.path("warm.png")))
         strips = self.render("strips", "--memory", "250M")
         self.assertGreater(strips["strips"], 10)
         self.assertLess(strips["peak_memory_bytes"], BOUND)

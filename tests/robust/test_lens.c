@@ -1,5 +1,5 @@
 /* tier: full */
-/* What a lens makes of a lamp that is not in focus. */
+/* A lens in front of a lamp that is out of focus. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,8 +9,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* One point of the picture sees a strip of width 2 w at twice the distance in focus from each point p of the aperture: at -p. So it
- * is the share of a disc of radius 1/2 between two chords. A field of view of 10^-4 puts 240 m of focal length before the sensor. */
+/* A pixel sees a strip of width 2 w at twice the focus distance. From a point p of the aperture it sees the strip shifted by -p. So the
+ * result is the share of a disc of radius 1/2 between two chords. The field of view of 10^-4 gives a focal length of 240 m. */
 static ec_result lens_case(ec_selftest *t, ec_error *err)
 {
     static const double widths[] = {0.05, 0.25, 0.45};

@@ -1,5 +1,5 @@
 # tier: full
-"""Ten thousand places of a mesh of a hundred thousand triangles: 10^9 triangles in less than 1 GB."""
+"""A mesh of a hundred thousand triangles in ten thousand places: 10^9 triangles in less than 1 GB."""
 import json
 import math
 import os
@@ -14,7 +14,7 @@ ROWS, COLUMNS, SIDE = 160, 316, 100
 
 
 def ball():
-    """A bumpy ball of 2 COLUMNS (ROWS - 1) triangles, smooth."""
+    """A smooth, bumpy ball of 2 COLUMNS (ROWS - 1) triangles."""
     points, normals, corners = [], [], []
     for i in range(ROWS + 1):
         for k in range(COLUMNS + 1):
@@ -65,7 +65,7 @@ class ManyInstances(Case):
         report = json.loads(run.stdout)
         self.assertEqual((report["instances"], report["triangles"], report["stored_triangles"]),
                          (SIDE * SIDE, SIDE * SIDE * triangles, triangles))
-        # On PoCL the device's memory is the host's, so that it counts twice here.
+        # With PoCL, the device's memory is the host's and counts twice here.
         self.assertLess(report["peak_memory_bytes"] + report["device_bytes"], 10 ** 9)
         self.assertEqual(report["invalid_samples"], 0)
 

@@ -1,6 +1,7 @@
 # tier: full
-"""A million lights: read, built, packed and rendered, in memory that grows with their number and no faster.
-A step that took time with the square of it, 10^12, would end in the timeout of five minutes."""
+"""A million lights: read, built, packed and rendered in memory that grows linearly with their number.
+
+A step of quadratic time, 10^12, would end in the timeout of five minutes."""
 import array
 import unittest
 
@@ -12,7 +13,7 @@ FEW, MANY = 100000, 1000000
 
 
 def specks(count):
-    """Emitting triangles of a millimetre on a lattice above a floor, as a .glb."""
+    """Emitting triangles of a millimetre, on a grid above a floor, as a .glb."""
     scene = Scene(WHITE, LAMP).add(QUAD, scale=[2, 2, 1])
     positions, side = array.array("f"), round(count ** 0.5)
     for i in range(count):
@@ -41,7 +42,7 @@ class ManyLights(HardCase):
         return self.render(path, "--max-depth", "3")
 
     def compare(self, make, brighter):
-        """The same floor under a tenth of the lights and under all, which give so many times its light."""
+        """Compares a floor under a tenth of the lights and under all, which must give `brighter` times its light."""
         few, many = self.picture(make, FEW), self.picture(make, MANY)
         se = ((brighter * few.se) ** 2 + many.se ** 2) ** 0.5
         self.assertGreater(few.mean, 10 * few.se)
@@ -49,7 +50,7 @@ class ManyLights(HardCase):
         self.assertLess(many.stats["peak_memory_bytes"], MANY / FEW * few.stats["peak_memory_bytes"])
 
     def test_bulbs(self):
-        """Each as bright as its share of one candela."""
+        """Each light has an equal share of one candela."""
         self.compare(bulbs, 1)
 
     def test_triangles(self):

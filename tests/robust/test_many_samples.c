@@ -1,9 +1,9 @@
 /* tier: full */
-/* Sums of more samples than a float counts to. */
+/* Sums of more samples than a float can count. */
 #include "robust/cases.h"
 #include "selftest/shot.h"
 
-/* A camera that sees nothing but a lamp: every sample is its radiance. */
+/* The camera sees only a lamp: every sample is the lamp's radiance. */
 static ec_result lamp(ec_selftest *t, ec_error *err)
 {
     ec_scene *scene;

@@ -1,6 +1,6 @@
 # tiers: quick, full
-"""Materials that no exporter writes: all extensions in one, factors out of range, texture transforms to the end of float on every slot, 16 bits
-a channel, the second set of coordinates. A ball in a sky of 1 shows no NaN, nothing below 0 and, in the mean, no more light than comes in."""
+"""Materials that no exporter writes: all extensions at once, factors out of range, extreme texture transforms on every slot, 16 bits a
+channel, the second set of coordinates. A ball in a sky of 1 shows no NaN, nothing below 0, and on average no more light than arrives."""
 import math
 import struct
 import unittest
@@ -11,7 +11,7 @@ from tiers import full
 
 KHR = "KHR_materials_"
 COLUMNS, ROWS = 16, 8
-# White plastic returns up to 8.6 % too much where it is seen along the surface (glTF's own mix): of a coarse ball 2 % in the mean
+# White plastic returns up to 8.6 % too much at grazing angles (by glTF's own mix): on average 2 % for a coarse ball
 WHITE_MOST = 1.03
 
 LAYERS = {
@@ -36,7 +36,7 @@ TEXTURES = {
 
 
 def ball(material):
-    """Smooth, with tangents and two sets of coordinates."""
+    """A smooth ball with tangents and two sets of coordinates."""
     places, normals, tangents, first, indices = [], [], [], [], []
     for j in range(ROWS + 1):
         for i in range(COLUMNS + 1):
@@ -56,7 +56,7 @@ def ball(material):
 
 
 def deep_png():
-    """4 x 4 pixels of four channels with 16 bits."""
+    """A PNG of 4 x 4 pixels, four channels of 16 bits."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = b"".join(b"\0" + b"".join(struct.pack(">4H", 21845 * x, 21845 * y, 30000 + x, 65535 - 1000 * y) for x in range(4)) for y in range(4))
@@ -103,7 +103,7 @@ class OddMaterials(HardCase):
 
     @full
     def test_texture_transforms(self):
-        """On every slot: the second set, turned and mirrored; and as far as float goes."""
+        """On every slot: the second set, rotated and mirrored; and transforms up to the limits of float."""
         core = {name: {name: None} for name in ("normalTexture", "emissiveTexture")}
         core.update({name: {"pbrMetallicRoughness": {name: None}} for name in ("baseColorTexture", "metallicRoughnessTexture")})
         for transform in [{"offset": [0.3, 0.2], "rotation": 0.7, "scale": [2, -3], "texCoord": 1}, {"scale": [3e38, 3e38]}, {"scale": [3e38, -3e38], "rotation": 0.8, "offset": [-3e38, 3e38]}]:

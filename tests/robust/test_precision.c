@@ -1,6 +1,6 @@
 /* tiers: full, long */
-/* Digits that the kernels' functions keep, against double precision; precision/precision.h says how it is judged. Every lane width
- * must keep the same: 8 lanes what one does, and in the long tier all. */
+/* Digits that the kernels' functions keep, against double precision; precision/precision.h describes the criterion. Lane widths must give
+ * equal results: 8 lanes and one, and in the long tier all. */
 #include "kernel/kernel_run.h"
 #include "robust/precision/internal.h"
 #include "robust/precision/precision.h"

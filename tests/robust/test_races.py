@@ -1,7 +1,7 @@
 # tier: full
-"""ThreadSanitizer watches four threads build every acceleration structure, decode pictures and weigh a map, and five sources of batches
-work as a team. clang with its own OpenMP run-time (libomp), whose libarcher tells the sanitizer of OpenMP's barriers and tasks; gcc's
-libgomp does not, and every barrier would be a finding."""
+"""Runs four threads that build every acceleration structure, decode pictures and compute a map's table, and a team of five sources of
+batches, under ThreadSanitizer. Uses clang with its own OpenMP run-time (libomp), whose libarcher tells the sanitizer about OpenMP's
+barriers and tasks. gcc's libgomp does not, and every barrier would be reported."""
 import glob
 import os
 import re
@@ -47,8 +47,8 @@ class Races(unittest.TestCase):
 
     @staticmethod
     def findings(text):
-        """Reports on memory that is the program's own. libomp keeps the records of its tasks in pieces of its own memory and hands an ended
-        one's to the next by atomics that the sanitizer does not see: what a task was given seems to race with what another was."""
+        """Returns reports on the program's own memory. libomp keeps records of its tasks in memory of its own, and hands the record of a
+        finished task to the next by atomics that the sanitizer does not see. So the arguments of two tasks seem to race."""
         reports = re.findall(r"WARNING: ThreadSanitizer.*?(?=\n=+\n|\Z)", text, re.S)
         runtime = re.compile(r"Location is heap block .*\n *#0 malloc .*\n *#1 <null> <null> \(libomp\.")
         return [report for report in reports if not runtime.search(report)]

@@ -1,5 +1,6 @@
 /* tier: full */
-/* What files hold that is no surface: triangles without area or numbers, nodes that flatten, normals and tangents of zeros. */
+/* Contents of files that make no surface: triangles without area or with invalid numbers, nodes that flatten, normals and tangents of
+ * zeros. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -13,16 +14,16 @@
 enum { FLAT = 4, NEVER_MET = FLAT - 1, ODD = 4, BAD = FLAT + ODD };
 static const float bad[BAD][9] = {
     {0, 0, 0, 0, 0, 0, 0, 0, 0},                         /* a point */
-    {0.1f, 0.2f, 0.3f, 0.1f, 0.2f, 0.3f, 1, 0, 0},       /* two corners alike */
-    {1e-30f, 0, 0, 0, 1e-30f, 0, 0, 0, 1e-30f},          /* an area that no float can hold */
-    {0, 0, 0, 1, 1, 1, 2, 2, 2},                         /* in a line */
+    {0.1f, 0.2f, 0.3f, 0.1f, 0.2f, 0.3f, 1, 0, 0},       /* two equal corners */
+    {1e-30f, 0, 0, 0, 1e-30f, 0, 0, 0, 1e-30f},          /* an area beyond float's range */
+    {0, 0, 0, 1, 1, 1, 2, 2, 2},                         /* corners on a line */
     {NAN, 0, 0, 1, 0, 0, 0, 1, 0},
     {0, INFINITY, 0, 1, 0, 0, 0, 1, 0},
     {0, 0, 0, 1, 0, -INFINITY, 0, NAN, 0},
-    {FLT_MAX, 0, 0, 0, FLT_MAX, 0, 0, 0, FLT_MAX},       /* squares of its distances overflow */
+    {FLT_MAX, 0, 0, 0, FLT_MAX, 0, 0, 0, FLT_MAX},       /* squared distances overflow */
 };
 
-/* A lit box around them, so that there is something to render. */
+/* Surrounds them with a lit box, so that there is something to render. */
 static ec_result spoilt_box(ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -37,8 +38,8 @@ static ec_result spoilt_box(ec_scene **scene, ec_error *err)
     return ec_model_scene(m, scene, err);
 }
 
-/* Should one get past the loader, no accelerator may crash over it or hit it. (Three corners in a line can be met: rounding parts
- * them. That is why the loader looks.) */
+/* If the loader lets one pass, no accelerator may crash or hit it. (Three corners on a line can be hit, since rounding moves them apart.
+ * That is why the loader checks.) */
 static ec_result trace_flat(ec_selftest *t, uint64_t *hits, uint64_t *rays, ec_error *err)
 {
     uint64_t random = 10;
@@ -83,8 +84,8 @@ static ec_result degenerate_case(ec_selftest *t, ec_error *err)
     return ec_selftest_none(t, "hit", hits, rays, NULL, err);
 }
 
-/* A smooth ball below a node that leaves it `rank` dimensions, in an emitting box: two make a disc, which reflects as it should; less
- * have no area. */
+/* A smooth ball in an emitting box, below a node whose matrix has this rank. Two dimensions make a disc, which reflects as it should; fewer
+ * leave no area. */
 static ec_result flattened(int rank, ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -125,7 +126,7 @@ static ec_result add_texture(ec_scene *scene, const uint8_t texel[4], ec_error *
     return EC_OK;
 }
 
-/* Triangles whose vertex normals, tangents and texture coordinates are as given: an emitting box made of them by hand. */
+/* Triangles with given normals, tangents and texture coordinates: a closed emitting box. */
 static ec_result box_of(const float normals[9], const float tangents[12], const float uv[6], const uint8_t *texel,
                         ec_scene **scene, ec_error *err)
 {
@@ -134,7 +135,7 @@ static ec_result box_of(const float normals[9], const float tangents[12], const 
         ec_material walls = ec_material_lambert(0.5, 1);
         int32_t material = ec_model_material(m, &walls);
         static const float corners[4][3] = {{-1, -1, -1}, {3, -1, -1}, {-1, 3, -1}, {-1, -1, 3}};
-        static const int faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}; /* of a tetrahedron, seen from within */
+        static const int faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}; /* of a tetrahedron, seen from inside */
         for (int i = 0; i < 4; i++) {
             float positions[9];
             for (int k = 0; k < 9; k++) positions[k] = corners[faces[i][k / 3]][k % 3];
@@ -149,8 +150,8 @@ static ec_result box_of(const float normals[9], const float tangents[12], const 
     return add_texture(*scene, texel, err);
 }
 
-/* Without a normal or tangent that means something the geometric one is left, and the closed box gives 1 / (1 - albedo) as ever.
- * A map of (128, 128, 128) all but has none; the energy of what it leans to is nobody's promise, only that it is a number. */
+/* Where a normal or tangent is meaningless, the geometric one is used, and the closed box gives 1 / (1 - albedo) as usual. A map of (128,
+ * 128, 128) has a nearly zero normal: only that the result is a number is promised. */
 static ec_result zero_normals_case(ec_selftest *t, ec_error *err)
 {
     static const float zeros[12] = {0}, uv[6] = {0, 0, 1, 0, 0, 1}, up[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};

@@ -1,5 +1,5 @@
 /* tier: full */
-/* Rays that leave a surface do not start behind the next one. */
+/* Rays that leave a surface do not start behind the next surface. */
 #include <math.h>
 #include <stdio.h>
 
@@ -7,7 +7,7 @@
 #include "gltf/model.h"
 #include "selftest/shot.h"
 
-/* A tenth of a turn about a skew axis: no coordinate of what is in it stays round. */
+/* A tenth of a turn about a skew axis: no coordinate stays a round number. */
 static void tilt(double m[16])
 {
     const double axis[3] = {0.36, 0.48, 0.8}, c = cos(0.6), s = sin(0.6);
@@ -20,8 +20,8 @@ static void tilt(double m[16])
     }
 }
 
-/* Two plates, a lamp behind the upper one, a camera between them. The largest coordinate is 2, and under 4 where it is tilted: the same
- * ulp, 2^-22. */
+/* Two plates, a lamp behind the upper one, and a camera between them. The largest coordinate is 2, and below 4 when rotated: both have the
+ * ulp 2^-22. */
 static ec_result plates(double gap, bool tilted, ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -57,7 +57,8 @@ static ec_result lit_pixels(ec_selftest *t, double ulps, bool tilted, uint32_t *
     return EC_OK;
 }
 
-/* Under four ulp there is no room for a camera. Offsets that are too large pass through what is near: those of Waechter and Binder are 25 times as long. */
+/* A gap below four ulp has no room for a camera. Offsets that are too large pass through the plate: those of Waechter and Binder are 25
+ * times as long. */
 static ec_result gap_case(ec_selftest *t, ec_error *err)
 {
     for (int tilted = 0; tilted < 2; tilted++) {

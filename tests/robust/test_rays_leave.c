@@ -1,5 +1,5 @@
 /* tier: full */
-/* Rays that leave a surface do not meet it again. */
+/* Rays that leave a surface do not hit it again. */
 #include <math.h>
 #include <stdio.h>
 
@@ -46,8 +46,8 @@ static ec_result leave_all(ec_tracer *r, uint64_t *random, uint32_t first, tally
     return result;
 }
 
-/* Without an offset 45 % of such rays meet their triangle again, with a fixed one of 1e-4 41 % at coordinates of 1e6.
- * What the pipeline does besides, passing through the triangle that a ray leaves, is not in use here. */
+/* Without an offset 45 % of such rays hit their triangle again; with a fixed offset of 1e-4, 41 % at coordinates of 1e6. The pipeline also
+ * skips the triangle that a ray leaves; this test does not use that. */
 static ec_result self_intersection_case(ec_selftest *t, ec_error *err)
 {
     static const double edges[] = {1e-3, 1, 1e3}, centres[] = {0, 1, 1e3, 1e6};
@@ -63,7 +63,7 @@ static ec_result self_intersection_case(ec_selftest *t, ec_error *err)
         ec_soup soup;
         snprintf(where, sizeof where, "edge %g, centre %g", edge, at);
         result = ec_soup_random(&random, count, edge, edge * cbrt(count), (double[3]){at, -0.6 * at, 0.3 * at}, &soup, err);
-        /* A thousandth at a million: floats have one corner for all three. */
+        /* A triangle of 0.001 at coordinates of a million: its three corners round to one float. */
         if (result == EC_OK && soup.count) result = ec_tracer_build(r, &soup, err);
         for (uint32_t first = 0; result == EC_OK && first < soup.count; first += EC_TRACER_RAYS)
             result = leave_all(r, &random, first, &sum, where, err);

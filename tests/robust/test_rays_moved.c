@@ -1,5 +1,5 @@
 /* tier: full */
-/* A room in other sizes, places and orientations has the same hits and the same picture. No epsilon in it may have a unit. */
+/* A room in other sizes, places and orientations has the same hits and the same picture. No epsilon may have a unit. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "selftest/shot.h"
 #include "selftest/tracer.h"
 
-#define EC_VIEW_SPP 512 /* a standard error well under the 2 % that pictures may differ by */
+#define EC_VIEW_SPP 512 /* the standard error is far below the 2 % by which pictures may differ */
 
 typedef struct ray {
     double o[3], d[3], next[3]; /* in the room's frame; next: the direction after the first hit */
@@ -21,11 +21,11 @@ typedef struct ray {
 typedef struct view {
     uint32_t count;
     ray *rays;
-    ec_traced *camera, *bounce; /* hits of the room as it is */
+    ec_traced *camera, *bounce; /* hits of the original room */
     ec_shot shot;
-    uint64_t traced, other;     /* ids that differ */
-    double t;                   /* largest difference, of reach / cosine */
-    double mean;                /* furthest from the shot's */
+    uint64_t traced, other;     /* number of ids that differ */
+    double t;                   /* largest difference, relative to reach / cosine */
+    double mean;                /* largest distance from the shot's hits */
 } view;
 
 static void free_view(view *v)
@@ -41,7 +41,7 @@ static void floats(const double p[3], float out[3])
     for (int k = 0; k < 3; k++) out[k] = (float)p[k];
 }
 
-/* Directions stay unit, origins go where the room goes. */
+/* Directions stay unit vectors; origins are transformed with the room. */
 static void put_rays(ec_tracer *r, const ec_room *room, const view *v)
 {
     for (uint32_t i = 0; i < v->count; i++) {
@@ -108,13 +108,13 @@ static ec_result first_view(ec_selftest *t, ec_tracer *r, uint32_t count, view *
     return result;
 }
 
-/* Camera rays: which triangle, and where. */
+/* Camera rays: triangles and positions. */
 static void compare_hits(const ec_tracer *r, const ec_room *room, view *v)
 {
     double scale = room->scale > 0 ? room->scale : 1;
     for (uint32_t i = 0; i < v->count; i++) {
         ec_traced h = ec_tracer_hit(r, i), first = v->camera[i];
-        v->other += h.prim != first.prim || h.prim == EC_NO_ID; /* it is closed */
+        v->other += h.prim != first.prim || h.prim == EC_NO_ID; /* the room is closed */
         if (h.prim != first.prim || h.prim == EC_NO_ID) continue;
         float o[3], d[3];
         ec_tracer_given(r, i, o, d);
@@ -124,7 +124,7 @@ static void compare_hits(const ec_tracer *r, const ec_room *room, view *v)
     v->traced += v->count;
 }
 
-/* From where the first hit was the same. */
+/* Second segments, where the first hits were the same. */
 static void compare_bounces(const ec_tracer *r, view *v, const ec_traced *camera)
 {
     for (uint32_t i = 0; i < v->count; i++) {
@@ -170,7 +170,7 @@ static ec_result other_view(ec_selftest *t, ec_tracer *r, const ec_room *room, b
     return result;
 }
 
-/* Two hits of which each is off by so much, and coordinates rounded in both rooms, which is less. */
+/* Two hits, each with such an error, and coordinates rounded in both rooms, whose error is smaller. */
 #define T_DIFFERENCE (2 * EXACT_T_BOUND)
 
 static ec_result view_rows(ec_selftest *t, const char *what, const view *v, ec_error *err)
@@ -181,7 +181,7 @@ static ec_result view_rows(ec_selftest *t, const char *what, const view *v, ec_e
     snprintf(name, sizeof name, "%s, t", what);
     EC_TRY(ec_selftest_largest(t, name, v->t, T_DIFFERENCE, "of reach / cosine", err));
     snprintf(name, sizeof name, "%s, picture", what);
-    /* Paths that part at an edge differ, and in a mirrored room, whose frames and order of lights are others, all of them. */
+    /* Paths that diverge at an edge differ. In a mirrored room, whose frames and order of lights differ, all of them do. */
     return ec_selftest_value(t, name, v->shot.mean, v->mean, v->shot.noise, fmin(4 * v->shot.noise, 0.02 * v->shot.mean), err);
 }
 
@@ -197,7 +197,7 @@ static ec_result compare_rooms(ec_selftest *t, const char *what, const ec_room *
     return result;
 }
 
-/* Powers of ten, which floats have to round. */
+/* Powers of ten, which floats must round. */
 static ec_result scale_case(ec_selftest *t, ec_error *err)
 {
     ec_room rooms[12];
@@ -207,7 +207,7 @@ static ec_result scale_case(ec_selftest *t, ec_error *err)
     return compare_rooms(t, "1e-6 to 1e6", rooms, count, err);
 }
 
-/* Nodes are multiplied out in double and the centre is subtracted before anything is rounded. Sizes: two units, the room's. */
+/* Node matrices are multiplied in double, and the centre is subtracted before rounding. Sizes: two units, the room's. */
 static ec_result translation_case(ec_selftest *t, ec_error *err)
 {
     ec_room rooms[5];
@@ -219,7 +219,7 @@ static ec_result translation_case(ec_selftest *t, ec_error *err)
     return compare_rooms(t, "by 1e4 sizes", rooms, count, err);
 }
 
-/* A mirrored node turns its triangles round: what was lit from the front still is. */
+/* A mirrored node reverses its triangles: their front sides stay lit. */
 static ec_result turned_case(ec_selftest *t, ec_error *err)
 {
     static const ec_room rooms[] = {
@@ -234,11 +234,11 @@ static ec_result turned_case(ec_selftest *t, ec_error *err)
     return compare_rooms(t, "mirrored", mirrored, 2, err);
 }
 
-/* Coordinates that are already large in the file have lost digits there, half an ulp each: sqrt 3 of it in space, twice, since the
- * centre is that of rounded corners. So far and no farther: at 1e4 sizes 1e-3 of the room, at 1e6 a tenth.
+/* Coordinates that are large in the file itself have lost digits: half an ulp each, sqrt 3 of it in space, twice, since the centre comes
+ * from rounded corners. At 1e4 sizes that is 1e-3 of the room, at 1e6 a tenth.
  *
- * Rays that pass so near to an edge may hit the triangle beside it: of lines through a room of surface 24, 2 d 88 pi / 24 come within d
- * of its 88 of edges (Crofton). If most did, there would be nothing to compare. */
+ * Rays that pass so near to an edge may hit the triangle beside it: of lines through a room of surface 24, a share of 2 d 88 pi / 24 comes
+ * within d of its 88 of edges (Crofton). If most did, there would be nothing to compare. */
 static ec_result baked_case(ec_selftest *t, ec_error *err)
 {
     view v;

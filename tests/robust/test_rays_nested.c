@@ -1,12 +1,12 @@
 /* tier: full */
-/* One closed surface right under another: no ray sees the one behind before the one in front. */
+/* Two closed surfaces, one just below the other: no ray hits the one behind before the one in front. */
 #include <string.h>
 
 #include "robust/cases.h"
 #include "selftest/tracer.h"
 
-/* Two balls, the second 4e-5 of the radius within the first, facets parallel. Seen from outside the outer one is in front everywhere,
- * from inside the inner one. Along a ray they lie 4e-5 / cosine apart, and t is wrong by 2e-6 reach / cosine at most. */
+/* Two balls with parallel facets, the second inside the first by 4e-5 of the radius. From outside the outer one is in front everywhere,
+ * from inside the inner one. Along a ray they are 4e-5 / cosine apart, and t is wrong by at most 2e-6 reach / cosine. */
 static ec_result nested_case(ec_selftest *t, ec_error *err)
 {
     enum { LEVELS = 4 };
@@ -30,7 +30,7 @@ static ec_result nested_case(ec_selftest *t, ec_error *err)
     result = ec_tracer_build(r, &both, err);
     for (int outside = 0; outside < 2 && result == EC_OK; outside++) {
         ec_rays_within(r, &random, nowhere, (double[3]){1, 1, 1});
-        for (uint32_t i = 0; i < EC_TRACER_RAYS && outside; i++) { /* back along the same lines, to stay on the far side's outside */
+        for (uint32_t i = 0; i < EC_TRACER_RAYS && outside; i++) { /* back along the same lines, to end on the far side's outside */
             float o[3], d[3];
             ec_tracer_given(r, i, o, d);
             for (int k = 0; k < 3; k++) o[k] += 3 * d[k], d[k] = -d[k];

@@ -1,5 +1,5 @@
 /* tier: full */
-/* Normals: the bent one decides how much light, the true one on which side; and frames around them. */
+/* Normals: the shading normal decides how much light arrives, the geometric one from which side. And frames around normals. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 #define NORMALS 32768u
 
-/* A smooth ball of few facets, a lamp outside, a camera within: all that is seen there came through the surface. */
+/* A smooth ball of few facets, with a lamp outside and the camera inside: all light that the camera sees came through the surface. */
 static ec_result smooth_leak_case(ec_selftest *t, ec_error *err)
 {
     enum { SIZE = 16 };
@@ -40,7 +40,7 @@ static ec_result smooth_leak_case(ec_selftest *t, ec_error *err)
     return ec_selftest_none(t, "", lit, 2 * (uint64_t)SIZE * SIZE * spp, "paths", err);
 }
 
-/* The pole where Frisvad's frame has none, its neighbours an ulp away, and any others. */
+/* Frisvad's singular pole, its neighbours an ulp away, and random normals. */
 static void put_normals(float *normals)
 {
     static const float near[][3] = {{0, 0, -1}, {0x1p-24f, 0, -1}, {0, -0x1p-24f, -1}, {0x1p-12f, 0, -0x1.fffffep-1f},
@@ -59,7 +59,7 @@ static void put_normals(float *normals)
     }
 }
 
-/* How far from orthonormal, beyond what n itself is off unit length (its own rounding, which the frame can but pass on). */
+/* Deviation from an orthonormal frame, beyond n's own deviation from unit length (its rounding, which the frame can only pass on). */
 static double askew(const float *normals, const float *frames, uint32_t i)
 {
     double v[3][3], worst = 0;
@@ -73,7 +73,7 @@ static double askew(const float *normals, const float *frames, uint32_t i)
     return worst;
 }
 
-/* Duff et al. 2017: no direction is singular. Four ulp of 1. */
+/* Duff et al. 2017: no direction is singular. The tolerance is four ulp of 1. */
 static ec_result frame_case(ec_selftest *t, ec_error *err)
 {
     float *normals = calloc(3 * NORMALS, sizeof *normals), *frames = calloc(6 * NORMALS, sizeof *frames);

@@ -1,5 +1,5 @@
 /* tier: full */
-/* Hits against double precision: under grazing angles, on slivers. */
+/* Hits against double precision: at grazing angles, and on slivers. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "robust/leave.h"
 #include "selftest/tracer.h"
 
-/* At a point within a triangle, from `distance` away, at this cosine to its normal. */
+/* A ray to a point within a triangle, from `distance` away, with this cosine to its normal. */
 static void put_ray_at(ec_tracer *r, uint64_t *random, uint32_t i, double cosine, double distance)
 {
     const float *v = ec_tracer_triangle(r, i % r->soup->count);
@@ -33,8 +33,8 @@ static void put_ray_at(ec_tracer *r, uint64_t *random, uint32_t i, double cosine
 }
 
 typedef struct errors {
-    double t, weight;          /* largest, of what their bounds are proportional to */
-    uint64_t hits, rays, lost; /* lost: misses of triangles that are hit for certain */
+    double t, weight;          /* largest errors, in units of their bounds */
+    uint64_t hits, rays, lost; /* lost: misses of triangles that are certainly hit */
 } errors;
 
 static void compare(ec_tracer *r, uint32_t i, errors *e)
@@ -49,13 +49,13 @@ static void compare(ec_tracer *r, uint32_t i, errors *e)
     if (h.prim == EC_NO_ID) return;
     exact_hit x = exact_meet(o, d, ec_tracer_triangle(r, h.prim));
     e->hits++;
-    if (!(x.cosine > 0)) return; /* a plane that holds the ray: any t is on it */
+    if (!(x.cosine > 0)) return; /* the plane contains the ray: t is arbitrary */
     e->t = ec_worse(e->t, fabs(h.t - x.t) / (x.reach / x.cosine));
     double off = ec_worse(fabs(h.b1 - x.b1), fabs(h.b2 - x.b2));
     e->weight = ec_worse(e->weight, off * EXACT_T_BOUND / exact_weight_bound(&x));
 }
 
-/* The error of t may grow as 1 / cosine, which nothing in float can help; no hit may be lost for it. */
+/* The error of t may grow as 1 / cosine, which float cannot avoid; no hit may be lost because of it. */
 static ec_result grazing_case(ec_selftest *t, ec_error *err)
 {
     const double nowhere[3] = {0, 0, 0};
@@ -83,7 +83,7 @@ static ec_result grazing_case(ec_selftest *t, ec_error *err)
     return ec_selftest_none(t, "lost", all.lost, all.rays, NULL, err);
 }
 
-/* A long edge, and a corner so much nearer to it than the edge is long. */
+/* A long edge, and a corner whose distance from it is smaller by the aspect ratio. */
 static void put_sliver(uint64_t *random, double aspect, float v[9])
 {
     double e[3], side[3], along = ec_random_unit(random);
@@ -97,7 +97,7 @@ static void put_sliver(uint64_t *random, double aspect, float v[9])
     }
 }
 
-/* Off a triangle's plane, and how much the kernels' own bound allows: in units of that bound. */
+/* Distance from a triangle's plane, in units of the kernels' own bound. */
 static double off_plane(uint32_t i, const float v[9])
 {
     double normal[3], allowed = 0, off = 0;
@@ -109,8 +109,8 @@ static double off_plane(uint32_t i, const float v[9])
     return fabs(off) / allowed;
 }
 
-/* Hits on slivers: weights as near to double's as their heights allow, which from 1e6 on is anything; points on the plane
- * within the bound that offsets trust. */
+/* Hits on slivers: weights are as exact as the triangle's heights allow, which from 1e6 on means arbitrary. Points are on the plane to the
+ * bound that offsets rely on. */
 static ec_result slivers(ec_selftest *t, double aspect, bool has_weights, ec_error *err)
 {
     enum { SLIVERS = 48 };
@@ -129,7 +129,7 @@ static ec_result slivers(ec_selftest *t, double aspect, bool has_weights, ec_err
     for (uint32_t a = 0; ec_tracer_next(r, &a, EC_TRACER_RAYS, &result, err); a++) {
         for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) compare(r, i, &all);
     }
-    for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) /* what missed still needs a triangle to leave */
+    for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) /* a miss still needs a triangle to leave */
         if (ec_tracer_hit(r, i).prim == EC_NO_ID) set_hit(r, i, 0, 0, 0);
     if (result == EC_OK) result = leave_hits(r, err);
     for (uint32_t i = 0; i < EC_TRACER_RAYS; i++)
@@ -139,7 +139,7 @@ static ec_result slivers(ec_selftest *t, double aspect, bool has_weights, ec_err
     snprintf(what, sizeof what, "1e%.0f, weights", log10(aspect));
     if (has_weights) EC_TRY(ec_selftest_largest(t, what, all.weight, EXACT_T_BOUND, "where the height is the reach", err));
     snprintf(what, sizeof what, "1e%.0f, points off the plane", log10(aspect));
-    /* the bound is 9 u of the coordinates: as a share of that, in units of u */
+    /* the bound is 9 u of the coordinates; this is the share of it in units of u */
     return ec_selftest_largest(t, what, off * 9 * 0x1p-24, 9 * 0x1p-24, "of coordinates", err);
 }
 

@@ -1,5 +1,5 @@
 /* tier: full */
-/* Rays whose answer is known exactly: along planes and edges of whole numbers, and where several triangles are equally near. */
+/* Rays with exactly known answers: along planes and edges at whole numbers, and where several triangles are equally near. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "robust/soups.h"
 #include "selftest/tracer.h"
 
-enum { BOXES = 16, QUADS = 30 }; /* few enough triangles for the accelerator that tries them all */
+enum { BOXES = 16, QUADS = 30 }; /* few enough triangles for the accelerator that tests all of them */
 
 typedef struct quad {
     int axis, low[3], high[3]; /* low[axis] = high[axis] */
@@ -36,7 +36,7 @@ static void put_quad(const quad *q, float *v)
     }
 }
 
-/* The nearest whole t >= 1 at which o + t d, d of -1, 0 and 1, lies on a quad or its rim; 0: none. */
+/* The smallest whole t >= 1 at which o + t d, with d of -1, 0 and 1, is on a quad or its border; 0: none. */
 static int first_meeting(const quad *quads, const int o[3], const int d[3])
 {
     int best = 0;
@@ -51,7 +51,7 @@ static int first_meeting(const quad *quads, const int o[3], const int d[3])
     return best;
 }
 
-/* Most begin 1 to 16 steps before a corner, a point of a rim or within of a quad. */
+/* Most rays begin 1 to 16 steps before a corner, a border point or an inner point of a quad. */
 static int put_whole_ray(ec_tracer *r, uint64_t *random, const quad *quads, uint32_t i)
 {
     const quad *q = &quads[ec_random_bits(random) % QUADS];
@@ -69,8 +69,8 @@ static int put_whole_ray(ec_tracer *r, uint64_t *random, const quad *quads, uint
     return first_meeting(quads, o, d);
 }
 
-/* Every ray lies in planes of boxes, most with components of 0 or -0. In whole numbers all but 1 / det is exact, so a wrong answer
- * is 0 * infinity in a slab, or a rim that counts as outside. */
+/* Every ray lies in planes of boxes; most have components of 0 or -0. In whole numbers everything but 1 / det is exact. So a wrong answer
+ * comes from 0 * infinity in a slab, or from a border that counts as outside. */
 static ec_result box_planes_case(ec_selftest *t, ec_error *err)
 {
     uint64_t random = 4;
@@ -97,7 +97,7 @@ static ec_result box_planes_case(ec_selftest *t, ec_error *err)
             for (uint32_t i = 0; i < EC_TRACER_RAYS; i++) {
                 ec_traced h = ec_tracer_hit(r, i);
                 missed += expected[i] > 0 && h.prim == EC_NO_ID;
-                /* 1 / det of 2.5 ulp, a product, and exit distances padded by 8 u */
+                /* 1 / det with 2.5 ulp, a product, and exit distances padded by 8 u */
                 wrong += h.prim != EC_NO_ID && !(fabs((double)h.t - expected[i]) <= expected[i] * 16 * 0x1p-24);
             }
             rays += EC_TRACER_RAYS;
@@ -112,9 +112,9 @@ static ec_result box_planes_case(ec_selftest *t, ec_error *err)
     return ec_selftest_none(t, "hits at a wrong distance", wrong, rays, NULL, err);
 }
 
-enum { DISTINCT = 12, COPIES = 5 }; /* likewise */
+enum { DISTINCT = 12, COPIES = 5 }; /* as above */
 
-/* Copies of triangles of which half lie in one plane; reversed: the last of the list first. */
+/* Copies of triangles, half of them in one plane. reversed: the last of the list comes first. */
 static ec_result copies(const ec_soup *once, bool reversed, ec_soup *soup, ec_error *err)
 {
     EC_TRY(ec_soup_make(DISTINCT * COPIES, soup, err));
@@ -141,8 +141,8 @@ static void put_crossing_rays(ec_tracer *r, uint64_t *random)
     }
 }
 
-/* The least id of what is equally near must win, in every accelerator: then turning the list round cannot move the hit, and among
- * equal triangles the first wins in one order and the last in the other. */
+/* Of equally near triangles the smallest id must win, in every accelerator. Then reversing the list cannot move the hit; among equal
+ * triangles the first wins in one order, and the last in the other. */
 static ec_result ties_case(ec_selftest *t, ec_error *err)
 {
     const double nowhere[3] = {0, 0, 0};
@@ -167,7 +167,7 @@ static ec_result ties_case(ec_selftest *t, ec_error *err)
                 if (!reversed && a == 0) first[i] = h;
                 moved += (h.prim == EC_NO_ID) != (first[i].prim == EC_NO_ID) || h.t != first[i].t;
                 if (h.prim == EC_NO_ID) continue;
-                uint32_t listed = reversed ? soup.count - 1 - h.prim : h.prim; /* where in the list as it was */
+                uint32_t listed = reversed ? soup.count - 1 - h.prim : h.prim; /* its place in the original list */
                 if (reversed) wrong += listed < soup.count - DISTINCT || listed % DISTINCT < first[i].prim;
                 else wrong += listed >= DISTINCT || h.prim != first[i].prim || h.b1 != first[i].b1 || h.b2 != first[i].b2;
             }
@@ -182,8 +182,8 @@ static ec_result ties_case(ec_selftest *t, ec_error *err)
     return ec_selftest_none(t, "triangle", wrong, rays, NULL, err);
 }
 
-/* So many times one triangle: no plane divides them, every box is the same. Nodes and references may grow with their number only;
- * the most is in the grid, which allows 64 references a triangle. */
+/* Many copies of one triangle: no plane divides them, and every box is the same. Nodes and references may only grow linearly. The grid has
+ * most, since it allows 64 references a triangle. */
 static ec_result coincident_case(ec_selftest *t, ec_error *err)
 {
     enum { RAYS = 256, ENTRIES_MOST = 65 };

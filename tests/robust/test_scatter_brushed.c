@@ -1,18 +1,18 @@
 /* tier: full */
-/* Stretched lobes (KHR_materials_anisotropy): as wide as they get along x while they are next to smooth across, of metal and of glass. */
+/* Stretched lobes (KHR_materials_anisotropy): as wide as possible along x and nearly smooth across, of metal and of glass. */
 #include "robust/cases.h"
 #include "robust/scatter.h"
 
 static double unit24(uint64_t *random) { return (double)(ec_random_bits(random) >> 40) * EC_U; }
 
-/* As floats have them. */
+/* The widths as floats. */
 static void widths(const ec_scatter_run *run, uint32_t i, double *along, double *across)
 {
     *across = ec_scatter_given(run, EC_SCATTER_ALPHA, i);
     *along = *across * ec_scatter_given(run, EC_SCATTER_STRETCH, i);
 }
 
-/* GGX of two widths (Burley 2012; Heitz 2014, eq. 85), and its masking cos sqrt(1 + slope^2). */
+/* GGX with two widths (Burley 2012; Heitz 2014, eq. 85), and its masking cos sqrt(1 + slope^2). */
 static double exact_ggx(double along, double across, const double h[3])
 {
     double x = h[0] / along, y = h[1] / across, k = x * x + y * y + h[2] * h[2];
@@ -29,7 +29,7 @@ static void draw_widths(uint64_t *random, ec_scatter_material *m)
     m->along = ec_random_unit(random) < 0.25 ? 1 : m->alpha * pow(10, -log10(m->alpha) * ec_random_unit(random));
 }
 
-/* As scatter/ggx has it, with two roundings more for the stretch each time that it is squared. */
+/* Tolerances of scatter/ggx, with two more roundings for each squared stretch. */
 static ec_result closed_forms(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     ec_worst density = {0}, masking = {0};
@@ -58,8 +58,8 @@ static ec_result closed_forms(ec_selftest *t, ec_scatter_run *run, ec_error *err
     return ec_selftest_largest(t, "masking", masking.value, 9 * EC_U, masking.note, err);
 }
 
-/* From white metal, and from panes and glass from either side, every sample carries at most what comes, as of round lobes. Metal's are as dense as Heitz
- * 2018 has them. */
+/* On white metal, and on panes and glass from either side, no sample carries more light than arrives, as with round lobes. Metal's
+ * densities are those of Heitz 2018. */
 static ec_result samples(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     ec_worst gain = {0}, density = {0};
@@ -68,7 +68,7 @@ static ec_result samples(ec_selftest *t, ec_scatter_run *run, ec_error *err)
         double eta = ec_random_between(&random, 1.2, 3);
         ec_scatter_material m = i % 3 == 0 ? ec_scatter_metal(1) : ec_scatter_glass(1, i % 3 == 1 ? 1 : i % 2 ? eta : 1 / eta);
         draw_widths(&random, &m);
-        if (m.eta != 1) m.alpha = fmax(m.alpha, 1e-4 * fmax(m.eta, 1) / fabs(m.eta - 1)), m.along = fmax(m.along, m.alpha); /* surface_widen */
+        if (m.eta != 1) m.alpha = fmax(m.alpha, 1e-4 * fmax(m.eta, 1) / fabs(m.eta - 1)), m.along = fmax(m.along, m.alpha); /* see surface_widen */
         ec_scatter_set(run, i, &m);
         double cosine = i % 2 ? pow(10, ec_random_between(&random, -6, 0)) : ec_random_unit(&random);
         ec_scatter_put_direction(run, EC_SCATTER_WO, i, cosine, 6.3 * ec_random_unit(&random));

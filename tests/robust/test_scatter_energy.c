@@ -1,5 +1,5 @@
 /* tier: full */
-/* Light that a surface returns: no more than it gets where the model promises so, and what it should where glTF's does not. */
+/* Light that a surface returns: no more than arrives where the model promises that, and the expected amount where glTF's model does not. */
 #include <stdio.h>
 
 #include "robust/cases.h"
@@ -7,7 +7,7 @@
 
 static double unit24(uint64_t *random) { return (double)(ec_random_bits(random) >> 40) * EC_U; }
 
-/* Metal, glass and panes, grey: every sample carries at most what comes, F / F G2 / G1. So no albedo exceeds 1. */
+/* Grey metal, glass and panes: no sample carries more than arrives, F / F G2 / G1. So no albedo exceeds 1. */
 static ec_result no_gain(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     ec_worst worst = {0};
@@ -30,7 +30,7 @@ static ec_result no_gain(ec_selftest *t, ec_scatter_run *run, ec_error *err)
     return ec_selftest_largest(t, "light gained by a sample", worst.value, 1e-3, worst.note, err);
 }
 
-/* f |cos| in double, of wo in the plane y = 0 with this cosine. */
+/* f |cos| in double, for wo in the plane y = 0 with this cosine. */
 typedef double exact_bsdf(const double wo[3], const double wi[3], double half_cosine);
 
 static double albedo_of(exact_bsdf *f, double cosine)
@@ -75,7 +75,7 @@ static ec_result albedo_row(ec_selftest *t, ec_scatter_run *run, const char *wha
     return ec_selftest_value(t, what, expected, mean, noise, 4 * noise + 1e-4, err);
 }
 
-/* No more of white light than all is kept, and 1 % less at the least. */
+/* All white light is kept except at most 1 %, and none is added. */
 static ec_result kept_row(ec_selftest *t, ec_scatter_run *run, const char *what, const ec_scatter_material *m,
                           double cosine, ec_error *err)
 {
@@ -94,9 +94,9 @@ static double coat(const double wo[3], const double wi[3], double half_cosine)
     return (fresnel * ec_exact_ggx(COAT_ALPHA, h) * visible + (1 - fresnel) / EC_PI_DOUBLE) * wi[2];
 }
 
-/* A white base under a coat returns more than it gets at grazing angles: glTF takes from the base what the coat reflects by the half
- * vector's angle, not by either direction's. That is its model, so the expected value has it. From inside half-clear glass there is no
- * such mix, or light that is reflected totally again and again would grow: half meets the base, half the face. */
+/* A white base under a coat returns more than it gets at grazing angles: glTF subtracts the coat's reflectance at the half vector's angle,
+ * not at either direction's. That is its model, so the expected value includes it. Inside half-transmitting glass eclat has no such mix, or
+ * light that is reflected totally again and again would grow: half of it meets the base, half the interface. */
 static ec_result mixtures(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     static const double cosines[] = {1, 0.5, 0.1};
@@ -122,8 +122,8 @@ static ec_result energy_case(ec_selftest *t, ec_error *err)
     return result;
 }
 
-/* With and without what facets scatter more than once. Head-on a perfect metal of alpha 1 keeps 1 - ln 2 if they scatter once: the
- * integral of mu / (1 + mu) over mu. Glass, and with multiple scattering all: nothing lost but what the table keeps back, under 1 %. */
+/* With and without multiple scattering between facets. Head-on, a perfect metal of alpha 1 keeps 1 - ln 2 with single scattering: the
+ * integral of mu / (1 + mu) over mu. Glass, and all surfaces with multiple scattering, lose only what the table holds back, below 1 %. */
 static ec_result furnaces(ec_selftest *t, bool multiple, ec_error *err)
 {
     static const double cosines[] = {1, 0.3};

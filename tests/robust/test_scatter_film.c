@@ -1,9 +1,9 @@
 /* tier: full */
-/* What a thin film on a surface reflects, where the answer is known without a film. */
+/* Reflectance of a thin film on a surface, where the answer is known without a film. */
 #include "robust/cases.h"
 #include "robust/scatter.h"
 
-/* Half of them at grazing angles. */
+/* Cosines, half of them at grazing angles. */
 static double cosine_of(uint32_t i)
 {
     double all = (i + 0.5) / EC_SCATTER_N;
@@ -17,8 +17,8 @@ static void put_film(ec_scatter_run *run, uint32_t i, double ior, double nanomet
     ec_scatter_put(run, EC_SCATTER_F0, i, f0);
 }
 
-/* A film of no thickness, or of the air's index, is none: Schlick's formula is left, and Fresnel's on glass. An index made of f0 and f0 of
- * that again: ten roundings, and as many of the formula. */
+/* A film of no thickness, or with the index of air, has no effect: Schlick's formula remains, and Fresnel's on glass. The index is computed
+ * from f0, and f0 from that again: ten roundings, and as many in the formula. */
 static ec_result nothing(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     static const double indices[] = {1.5, 2.4, 1.01};
@@ -39,8 +39,8 @@ static ec_result nothing(ec_selftest *t, ec_scatter_run *run, ec_error *err)
     return ec_selftest_largest(t, "of nothing", worst.value, 20 * EC_U, worst.note, err);
 }
 
-/* On glass: light that comes from inside finds what light along the same way finds from outside, and beyond the critical angle all of it
- * stays. An error of u of a cosine c out there is one of u / c where it is found back; it moves the phase by some tens of u / c. */
+/* On glass, reflectance from inside equals that along the same way from outside, and beyond the critical angle all light is reflected. An
+ * error of u in a cosine c outside is one of u / c where that cosine is recovered; it moves the phase by some tens of u / c. */
 static ec_result inside(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     enum { HALF = EC_SCATTER_N / 2 };
@@ -68,8 +68,8 @@ static ec_result inside(ec_selftest *t, ec_scatter_run *run, ec_error *err)
     return ec_selftest_none(t, "light out beyond the critical angle", wrong, total, NULL, err);
 }
 
-/* A share of the light, of films from none to millimetres, of indices to a thousand, on what reflects none or all; and all of it along
- * the surface, where the outer face lets T = 2 c (1 + n^2) / sqrt(n^2 - 1) < 1e-6 through. */
+/* The reflectance is between 0 and 1 for films of no thickness to millimetres, of indices up to a thousand, over surfaces that reflect
+ * nothing or everything. Along the surface it is 1: the outer face transmits T = 2 c (1 + n^2) / sqrt(n^2 - 1) < 1e-6. */
 static ec_result shares(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     uint64_t random = 11, wrong = 0;
@@ -88,7 +88,7 @@ static ec_result shares(ec_selftest *t, ec_scatter_run *run, ec_error *err)
                               ec_scatter_given(run, EC_SCATTER_W + 1, i));
         }
     EC_TRY(ec_selftest_none(t, "less than none or more than all", wrong, 3 * EC_SCATTER_N, NULL, err));
-    /* The series adds no more than 2 T twice, times what a row of the matrix to Rec. 709 sums up to, 5.3: in all 22 T. */
+    /* The series adds at most 2 T twice, times the sum of a row of the matrix to Rec. 709, 5.3: 22 T in all. */
     return ec_selftest_largest(t, "missing along the surface", missing.value, 22e-6, missing.note, err);
 }
 

@@ -1,12 +1,12 @@
 /* tier: full */
-/* What an interface between two dielectrics reflects, and where the rest goes. */
+/* Reflectance of an interface between two dielectrics, and the direction of the transmitted light. */
 #include "robust/cases.h"
 #include "robust/scatter.h"
 
 static const double indices[] = {1.5, 1 / 1.5, 2.4, 1 / 2.4, 1.01, 1 / 1.01, 1 + 0x1p-20, 1 - 0x1p-20};
 enum { INDICES = sizeof indices / sizeof indices[0], EACH = EC_SCATTER_N / INDICES };
 
-/* From grazing to head-on; every fourth lies within 2^-15 of the critical angle, that is floats next to each other. */
+/* Cosines from grazing to head-on. Every fourth is within 2^-15 of the critical angle, that is, neighbouring floats. */
 static double cosine_of(double eta, uint32_t i)
 {
     double all = (i + 0.5) / EACH, critical = sqrt(fmax(1 - eta * eta, 0));
@@ -14,9 +14,9 @@ static double cosine_of(double eta, uint32_t i)
     return i % 4 == 1 ? pow(10, -7 * all) : all;
 }
 
-/* Both polarisations are differences over sums, (a - b) / (a + b), of terms of three roundings each: 8 u of 1 as squares. At the
- * critical angle cos^2 + eta^2 - 1 cancels; it has an error of u of itself since what its terms lose is put back. Without that the
- * reflectance would be wrong by 5e-4. */
+/* Both polarisations are (a - b) / (a + b), of terms with three roundings each: their squares are off by 8 u of 1. At the critical angle
+ * cos^2 + eta^2 - 1 cancels. Its relative error is u, since the code adds back the terms' rounding errors. Without that the reflectance
+ * would be wrong by 5e-4. */
 static ec_result reflectances(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     ec_worst anywhere = {0}, critical = {0};
@@ -33,7 +33,7 @@ static ec_result reflectances(ec_selftest *t, ec_scatter_run *run, ec_error *err
         double got = ec_scatter_got(run, EC_SCATTER_FRESNEL, i), exact = ec_exact_fresnel(cosine, eta);
         bool near = eta < 1 && i % 4 == 3;
         ec_worst_take(near ? &critical : &anywhere, fabs(got - exact), "index %.7g, cosine %.8g: %.8g", eta, cosine, got);
-        if (i >= 4 && i % EACH >= 4 && i % 4 == 3) /* the one before it, at a smaller cosine */
+        if (i >= 4 && i % EACH >= 4 && i % 4 == 3) /* the previous one, at a smaller cosine */
             rising += !(got <= ec_scatter_got(run, EC_SCATTER_FRESNEL, i - 4) + 16 * EC_U);
         if (eta < 1 && cosine * cosine + eta * eta < 1) leaks += got != 1, total++;
     }
@@ -43,8 +43,9 @@ static ec_result reflectances(ec_selftest *t, ec_scatter_run *run, ec_error *err
     return ec_selftest_none(t, "light out beyond the critical angle", leaks, total, NULL, err);
 }
 
-/* Smooth white glass: both directions that a path may take carry all that comes, R / R and (1 - R) / (1 - R), in twelve roundings
- * of probabilities and luminances, and so often. The refracted one by Snell's law; what is rounded is divided by the index. */
+/* Smooth white glass: each of the two directions carries all light, with weights R / R and (1 - R) / (1 - R), after twelve roundings of
+ * probabilities and luminances, and is chosen as often as R says. The refracted one follows Snell's law; its rounding error is divided by
+ * the index. */
 static ec_result directions(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     ec_worst weight = {0}, direction = {0};

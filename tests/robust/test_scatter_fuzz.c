@@ -1,11 +1,11 @@
 /* tier: full */
-/* What nobody would render on purpose. */
+/* Materials that nobody would render on purpose. */
 #include <stdlib.h>
 
 #include "robust/cases.h"
 #include "robust/scatter.h"
 
-/* Random materials, directions and numbers, the ends of their ranges as often as not. */
+/* Random materials, directions and numbers, often at the ends of their ranges. */
 static ec_result fuzz(ec_selftest *t, const char *more, uint32_t rounds, int judged, ec_error *err)
 {
     static const char *const names[EC_FUZZ_COUNTS] = {
@@ -29,7 +29,7 @@ static ec_result fuzz(ec_selftest *t, const char *more, uint32_t rounds, int jud
 
 static ec_result fuzz_case(ec_selftest *t, ec_error *err) { return fuzz(t, "", 3072, EC_FUZZ_COUNTS, err); }
 
-/* And with all that lies over a surface. A coat and fibres are chosen by what they reflect at this angle, and have no bound of a weight. */
+/* With all layers over the surface too. A coat and fibres are chosen by their reflectance at this angle, and their weights have no bound. */
 static ec_result fuzz_layers_case(ec_selftest *t, ec_error *err)
 {
     return fuzz(t, "+EC_FEATURE_ANISOTROPY+EC_FEATURE_CLEARCOAT+EC_FEATURE_CLEARCOAT_NORMAL_TEXTURE+EC_FEATURE_SHEEN+EC_FEATURE_IRIDESCENCE"

@@ -1,17 +1,17 @@
 /* tier: full */
-/* The microfacet distribution, its masking and its sampling, down to what counts as smooth and to grazing angles. */
+/* The microfacet distribution, its masking and its sampling, down to the limit of smooth surfaces and to grazing angles. */
 #include "robust/cases.h"
 #include "robust/scatter.h"
 
 static const double alphas[] = {1, 0.1, 1e-2, 1e-3, 1e-4}, cosines[] = {1, 0.5, 1e-2, 1e-4, 1e-6};
 enum { ALPHAS = sizeof alphas / sizeof alphas[0], COSINES = sizeof cosines / sizeof cosines[0] };
 
-/* D has the square of x^2 / alpha^2 + z^2 in it, of five roundings, and six more; the masking has five in all. */
+/* D contains the square of x^2 / alpha^2 + z^2, with five roundings, and six more; the masking has five in all. */
 static ec_result closed_forms(ec_selftest *t, ec_scatter_run *run, ec_error *err)
 {
     ec_worst density = {0}, masking = {0};
     for (uint32_t i = 0; i < EC_SCATTER_N; i++) {
-        double slope = alphas[i % ALPHAS] * pow(10, 8.0 * i / EC_SCATTER_N - 3); /* of the normal: from its peak to grazing */
+        double slope = alphas[i % ALPHAS] * pow(10, 8.0 * i / EC_SCATTER_N - 3); /* of the normal: from the peak to grazing */
         ec_scatter_material m = ec_scatter_metal(alphas[i % ALPHAS]);
         ec_scatter_set(run, i, &m);
         ec_scatter_put_direction(run, EC_SCATTER_WO, i, 0.5, 0);
@@ -30,8 +30,8 @@ static ec_result closed_forms(ec_selftest *t, ec_scatter_run *run, ec_error *err
     return ec_selftest_largest(t, "masking", masking.value, 5 * EC_U, masking.note, err);
 }
 
-/* The weak white furnace of Heitz 2014: integral of G1 D / (4 cos) over all wi, also those under the horizon. Over slopes
- * alpha t with t^2 = (1 - v^2) / v^2, in which D's own measure is 2 v dv dphi / (2 pi), by midpoints. */
+/* The weak white furnace test of Heitz 2014: the integral of G1 D / (4 cos) over all wi, including those below the horizon. Midpoint rule
+ * over slopes alpha t with t^2 = (1 - v^2) / v^2, where D's own measure is 2 v dv dphi / (2 pi). */
 static ec_result furnace(ec_selftest *t, ec_scatter_run *run, double alpha, double cosine, ec_worst *worst, ec_error *err)
 {
     enum { RADII = 255, SECTORS = EC_SCATTER_N / (RADII + 1) };
@@ -59,9 +59,9 @@ static ec_result furnace(ec_selftest *t, ec_scatter_run *run, double alpha, doub
     return EC_OK;
 }
 
-/* Sampled directions are unit vectors to sixteen roundings (2 (wo m) m - wo, m's square has five), whatever the numbers, the ends of
- * [0, 1) among them; those under the horizon are no directions. The density is that of Heitz 2018: D of a half vector whose components
- * have four roundings each. */
+/* Sampled directions are unit vectors to sixteen roundings (2 (wo m) m - wo; m's square has five), for all random numbers, including the
+ * ends of [0, 1). Directions below the horizon are rejected. The density is that of Heitz 2018: D of a half vector whose components have
+ * four roundings each. */
 static ec_result samples(ec_selftest *t, ec_scatter_run *run, double alpha, double cosine, ec_worst *density,
                          uint64_t *bad, ec_error *err)
 {

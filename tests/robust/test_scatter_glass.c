@@ -1,5 +1,5 @@
 /* tier: full */
-/* Glass in glass, and surfaces that are next to smooth: small pictures whose radiance is known. */
+/* Glass in glass, and nearly smooth surfaces: small pictures of known radiance. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@ static void sheet(ec_model *m, double z, double radiance)
     ec_model_quad(m, ec_model_material(m, &lambert), (double[3]){-90, -90, z}, (double[3]){180, 0, 0}, (double[3]){0, 180, 0});
 }
 
-/* As many slabs in one another as are told apart, of indices in turn: 64 interfaces, of which those between two bodies reflect 0.0036. */
+/* As many nested slabs as eclat tells apart, with alternating indices: 64 interfaces. Those between two bodies reflect 0.0036. */
 static ec_result slabs_in_slabs(ec_selftest *t, ec_error *err)
 {
     enum { SLABS = 32 };
@@ -39,7 +39,7 @@ static ec_result slabs_in_slabs(ec_selftest *t, ec_error *err)
     return ec_shot_only_row(t, "64 interfaces, pass", scene, &o, 1 / (1 + sum), err);
 }
 
-/* A slab of another index within one of 1.5: four faces. Of a clear stack, R / (1 - R) is the sum of the faces' F / (1 - F). */
+/* A slab of another index within one of 1.5: four faces. In a clear stack, R / (1 - R) is the sum of the faces' F / (1 - F). */
 static ec_result slab_in_slab_case(ec_selftest *t, ec_error *err)
 {
     static const double inner[4] = {1.33, 1, 1.5, 1.5 * (1 + 1e-6)};
@@ -63,7 +63,7 @@ static ec_result slab_in_slab_case(ec_selftest *t, ec_error *err)
     return slabs_in_slabs(t, err);
 }
 
-/* Brighter to the right and to the top, without steps that a narrow lobe could tell from a mirror's single direction. */
+/* Light that grows to the right and to the top, without steps by which a narrow lobe would differ from a mirror's single direction. */
 static ec_result slope(ec_scene *scene, ec_error *err)
 {
     enum { W = 256, H = 128 };
@@ -107,7 +107,8 @@ static ec_result same(ec_selftest *t, const char *what, ec_material smooth, ec_m
     return result;
 }
 
-/* Under a width of 1e-4, and of glass times |index - 1| from either side, a surface counts as smooth: other code, the same picture. */
+/* Below a width of 1e-4, which for glass is multiplied by |index - 1| from either side, a surface counts as smooth: other code, the same
+ * picture. */
 static ec_result continuity_case(ec_selftest *t, ec_error *err)
 {
     ec_material smooth = ec_material_default(), rough = smooth;

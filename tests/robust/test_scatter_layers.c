@@ -1,6 +1,6 @@
 /* tier: full */
-/* Effects beyond glass and metal where they are hardest: coats and sheen along the surface, diffuse transmission, glass that disperses. They share
- * one build of kernels. */
+/* Effects other than glass and metal in their hardest cases: coats and sheen at grazing angles, diffuse transmission, dispersive glass.
+ * They share one build of kernels. */
 #include <math.h>
 #include <stdio.h>
 
@@ -17,7 +17,7 @@ static ec_render_options options(const ec_selftest *t, uint32_t spp)
     return o;
 }
 
-/* A wide plate of the material at z = 0, seen at one angle; `lamp`: one radiance behind it and none before it, else 1 from everywhere. */
+/* A wide plate of the material at z = 0, seen at one angle. `lamp`: radiance 1 behind it and none before it; otherwise 1 from everywhere. */
 static ec_result plate(const ec_material *material, double cosine, bool lamp, ec_scene **scene, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -37,7 +37,7 @@ static ec_result plate(const ec_material *material, double cosine, bool lamp, ec
     return EC_OK;
 }
 
-/* Estevez and Kulla 2017 at roughness 1, where the distribution's and the fit's powers are simple. */
+/* Estevez and Kulla 2017 at roughness 1, where the powers in the distribution and the fit are simple. */
 static double shadowing(double cosine)
 {
     double x = cosine < 0.5 ? cosine : 1 - cosine;
@@ -46,7 +46,7 @@ static double shadowing(double cosine)
     return exp(cosine < 0.5 ? L : 2 * half - L);
 }
 
-/* E, by the midpoint rule on n x n directions. */
+/* E by the midpoint rule on n x n directions. */
 static double sheen_albedo(double cosine, int n)
 {
     double sum = 0, wo[3] = {sqrt(1 - cosine * cosine), 0, cosine}, own = shadowing(cosine);
@@ -61,7 +61,7 @@ static double sheen_albedo(double cosine, int n)
     return sum;
 }
 
-/* What white under white fibres returns of what they leave: 1 - E, the smaller of both directions'. */
+/* Light that a white base returns from under white fibres: 1 - E, the smaller of both directions'. */
 static double under_sheen(double cosine)
 {
     enum { BANDS = 200 };
@@ -73,8 +73,8 @@ static double under_sheen(double cosine)
     return sum;
 }
 
-/* White fibres alone return what the formula says, however flat the view; on white what they leave comes back too, but for what their
- * table errs by, 0.5 %. */
+/* White fibres alone return the formula's value at all angles. On a white base, the light that they let pass returns too, with the error of
+ * the fibres' table, 0.5 %. */
 static ec_result sheen_case(ec_selftest *t, ec_error *err)
 {
     static const double cosines[] = {1, 0.1, 0.01};
@@ -100,8 +100,8 @@ static ec_result sheen_case(ec_selftest *t, ec_error *err)
     return EC_OK;
 }
 
-/* A coat over black mirrors 0.04 + 0.96 (1 - c)^5, at the width that counts as smooth from either side too, where masking takes 1e-8;
- * over white all that comes returns. */
+/* A coat over black reflects 0.04 + 0.96 (1 - c)^5, also just above and below the width that counts as smooth, where masking takes 1e-8.
+ * Over white, all light returns. */
 static ec_result coat_case(ec_selftest *t, ec_error *err)
 {
     static const double cosines[] = {1, 0.1, 0.01};
@@ -121,8 +121,8 @@ static ec_result coat_case(ec_selftest *t, ec_error *err)
     return EC_OK;
 }
 
-/* A white sheet before a wide lamp lets its share of the light through, and from all around returns all of it. The lamp's rim, 0.1
- * behind and 90 away, is 1e-6 of the light. */
+/* A white sheet before a wide lamp transmits its share of the light, and returns all light that comes from everywhere. Beyond the lamp's
+ * edge, 0.1 behind and 90 away, is 1e-6 of the light. */
 static ec_result diffuse_transmission_case(ec_selftest *t, ec_error *err)
 {
     static const double shares[] = {0, 0.25, 1};
@@ -142,7 +142,7 @@ static ec_result diffuse_transmission_case(ec_selftest *t, ec_error *err)
     return EC_OK;
 }
 
-/* Index at the lines C, d and F (656.27, 587.56, 486.13 nm) by Cauchy's A + B / lambda^2, of 20 / V = dispersion. */
+/* Index at the lines C, d and F (656.27, 587.56, 486.13 nm) by Cauchy's A + B / lambda^2, with 20 / V = dispersion. */
 static double index_of(double d, double dispersion, int channel)
 {
     static const double wavelength[3] = {0.65627, 0.58756, 0.48613};
@@ -151,8 +151,8 @@ static double index_of(double d, double dispersion, int channel)
     return d + (d - 1) * dispersion / 20 * (at[channel] - at[1]) / (at[2] - at[0]);
 }
 
-/* A slab head-on before a lamp: the faces reflect each colour by its own index. A path that has met one stands for one colour, one in
- * three, which is what the noise is of: that of green, for all. Index 1 disperses nothing. */
+/* A slab head-on before a lamp: its faces reflect each colour with that colour's index. A refracted path carries one of three colours,
+ * which makes all the noise; the tolerance for all colours is green's. Index 1 has no dispersion. */
 static ec_result dispersion_case(ec_selftest *t, ec_error *err)
 {
     static const char *const colours[] = {"red", "green", "blue"};

@@ -1,5 +1,5 @@
 /* tier: full */
-/* Does light go both ways alike? */
+/* Checks that light goes both ways alike. */
 #include "robust/cases.h"
 #include "robust/scatter.h"
 
@@ -13,9 +13,9 @@ static double facing(const ec_scatter_run *run, uint32_t i, double eta)
     return fabs(dot) / sqrt(length2);
 }
 
-/* wo and wi changed for each other; f / |cos|. Between media it is basic radiance that is carried, whose solid angle is n^2 times as
- * large (Nicodemus 1963): f out of glass is n^2 times f into it. Not next to total reflection, where 1 / n's own rounding shows in
- * 1 - F: by 2 u over the squared cosine of facing() in air. Else some fifty roundings, most of them in the half vector over alpha. */
+/* Exchanges wo and wi, and compares f / |cos|. Between media, basic radiance is carried, whose solid angle is n^2 times as large (Nicodemus
+ * 1963): f out of glass is n^2 times f into it. Not near total reflection, where the rounding of 1 / n shows in 1 - F: by 2 u over the
+ * squared cosine of facing() in air. Otherwise some fifty roundings, most of them in the half vector over alpha. */
 static ec_result reciprocity(ec_selftest *t, ec_scatter_run *run, bool through, ec_error *err)
 {
     uint64_t random = 7;
@@ -31,7 +31,7 @@ static ec_result reciprocity(ec_selftest *t, ec_scatter_run *run, bool through, 
         }
         ec_scatter_set(run, i, &m);
         ec_scatter_put_direction(run, EC_SCATTER_WO, i, ec_random_between(&random, 1e-3, 1), 6.3 * ec_random_unit(&random));
-        double side = through ? -1 : 1; /* z always points to where wo is */
+        double side = through ? -1 : 1; /* z always points to wo's side */
         ec_scatter_put_direction(run, EC_SCATTER_W, i, side * ec_random_between(&random, 1e-3, 1), 6.3 * ec_random_unit(&random));
         ec_scatter_given3(run, EC_SCATTER_WO, i, wo);
         ec_scatter_given3(run, EC_SCATTER_W, i, wi);

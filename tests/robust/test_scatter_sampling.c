@@ -1,5 +1,5 @@
 /* tier: full */
-/* Are directions sampled as densely as the BSDF says, and do weights carry the light that they should? */
+/* Checks that directions are sampled with the density of the BSDF, and that weights carry the right amount of light. */
 #include <stdlib.h>
 
 #include "robust/cases.h"
@@ -11,8 +11,8 @@ typedef struct sampled {
     double cosine;
 } sampled;
 
-/* Rough metal; a coat at a grazing angle; glass seen from outside, and from inside where part of it reflects totally; a thin pane that
- * lets half of the light in it pass. */
+/* Rough metal; a coat at a grazing angle; glass from outside, and from inside where it partly reflects totally; a thin pane that transmits
+ * half of the light in it. */
 static const sampled surfaces[] = {
     {"metal", {1, 1, 1, 0.5, 0, 1, false, 0}, 0.5},
     {"coat", {0.8, 0.04, 0, 0.3, 0, 1, false, 0}, 0.1},
@@ -23,9 +23,9 @@ static const sampled surfaces[] = {
 enum { SURFACES = sizeof surfaces / sizeof surfaces[0] };
 
 typedef struct cells {
-    uint32_t bands, sectors, points; /* of z from -1 to 1, of azimuth; of either in a cell's integral */
-    double *mass;                    /* of each cell, and of no direction at all */
-    double *found;                   /* samples in each */
+    uint32_t bands, sectors, points; /* bins of z from -1 to 1, of azimuth; points of either in a cell's integral */
+    double *mass;                    /* for each cell, and for samples without a direction */
+    double *found;                   /* samples in each cell */
 } cells;
 
 static uint32_t cell_count(const cells *c) { return c->bands * c->sectors + 1; }
@@ -38,7 +38,7 @@ static void set_items(ec_scatter_run *run, const sampled *s)
     }
 }
 
-/* The density, summed at the midpoints of points x points parts of each cell. */
+/* Integrates the density over each cell with points x points midpoints. */
 static ec_result integrate(ec_selftest *t, ec_scatter_run *run, cells *c, ec_error *err)
 {
     uint32_t side_z = c->bands * c->points, side_phi = c->sectors * c->points, left = cell_count(c) - 1;
@@ -80,8 +80,8 @@ static ec_result draw(ec_selftest *t, ec_scatter_run *run, cells *c, uint32_t ru
     return EC_OK;
 }
 
-/* The RMS difference of what is sampled from the density, relative to it: (chi^2 - its mean) / N estimates its square (Pearson). The
- * tolerance is where chi^2 comes 1 time in 1000 (Wilson, Hilferty 1931). Cells that expect fewer than 5 count as one. */
+/* The RMS difference between samples and density, relative to the density: (chi^2 - its mean) / N estimates its square (Pearson). The
+ * tolerance is reached by chance once in 1000 (Wilson, Hilferty 1931). Cells that expect fewer than 5 count as one. */
 static ec_result compare(ec_selftest *t, const char *name, const cells *c, double n, ec_error *err)
 {
     double chi2 = 0, degrees = -1, pooled = 0, pooled_found = 0;
@@ -91,7 +91,7 @@ static ec_result compare(ec_selftest *t, const char *name, const cells *c, doubl
         else pooled += expected, pooled_found += c->found[i];
     }
     if (pooled >= 5) chi2 += pow(pooled_found - pooled, 2) / pooled, degrees++;
-    else if (pooled_found > 30) chi2 = INFINITY; /* where next to none should be */
+    else if (pooled_found > 30) chi2 = INFINITY; /* cells where almost none should be */
     double most = degrees * pow(1 - 2 / (9 * degrees) + 3.09 * sqrt(2 / (9 * degrees)), 3);
     return ec_selftest_value(t, name, 0, sqrt(fmax(chi2 - degrees, 0) / n), sqrt(sqrt(2 * degrees) / n),
                              sqrt((most - degrees) / n), err);

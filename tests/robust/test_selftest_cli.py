@@ -1,5 +1,5 @@
 # tier: quick
-"""eclat selftest: its table, its JSON, what it says of a device that computes wrongly."""
+"""eclat selftest: its table, its JSON, and its verdict on a device that computes wrongly."""
 import json
 import os
 import re
@@ -8,7 +8,7 @@ import unittest
 from support import ECLAT, Case, eclat
 
 KEYS = ["name", "expected", "measured", "tolerance", "digits", "pass", "noise", "note", "breaks", "seconds"]
-# Rows of different digits; one small kernel.
+# Rows with different digits; one small kernel.
 SOME = ["selftest", "--only", "numbers/functions"]
 # tests/robust/wrong_device.c
 WRONG = {"LD_PRELOAD": os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "tests", "libwrong_device.so")}
@@ -16,7 +16,7 @@ WRONG = {"LD_PRELOAD": os.path.join(os.path.dirname(os.path.abspath(ECLAT)), "te
 
 class Selftest(Case):
     def rows(self, text):
-        """(state, name, digits) of every row of a table."""
+        """Returns (state, name, digits) of every row of a table."""
         lines = text.splitlines()
         for word in ["case", "expected", "measured", "tolerance", "digits"]:
             self.assertIn(word, lines[0])
@@ -71,7 +71,7 @@ class Selftest(Case):
         rows = self.rows(run.stdout)
         states = [row[0] for row in rows]
         self.assertIn("FAILED", states)
-        self.assertEqual(states, sorted(states)) # those that failed come first
+        self.assertEqual(states, sorted(states))  # failed rows come first
         self.assertEqual(run.stdout.count("what this breaks: "), states.count("FAILED"))
         self.assertRegex(run.stdout.splitlines()[-1], rf"^{states.count('FAILED')} of {len(rows)} rows FAILED in ")
 
@@ -83,7 +83,7 @@ class Selftest(Case):
         self.assertEqual(report["failed"], len(report["cases"]))
         rows = {row["name"]: row for row in report["cases"]}
         self.assertTrue(all(row["pass"] is False for row in rows.values()))
-        self.assertEqual(rows["numbers/functions exp"]["measured"], 1) # where all results are 0
+        self.assertEqual(rows["numbers/functions exp"]["measured"], 1)  # all results are 0
 
     def test_quiet_shows_what_failed_and_nothing_else(self):
         run = eclat(*SOME, "-q", env=WRONG)

@@ -1,7 +1,9 @@
 # tiers: quick, full, long
-"""Several devices on one picture: the bits of one device, whatever each of them took; a device that fails loses nothing, a slow one holds
-nobody up. Two or three devices of PoCL's single-threaded driver, which is one more device for each word in POCL_DEVICES, and PoCL beside
-Intel's runtime where tools/test --all-devices has installed that."""
+"""Several devices on one picture: the bits of one device, however the work is divided. A device that fails loses nothing, and a slow one
+delays nobody.
+
+Uses two or three devices of PoCL's single-threaded driver, which makes one for each word in POCL_DEVICES, and PoCL beside Intel's runtime
+where tools/test --all-devices has installed it."""
 import functools
 import json
 import os
@@ -22,7 +24,7 @@ import opencl_devices
 TWO = {"POCL_DEVICES": "basic basic"}
 THREE = {"POCL_DEVICES": "basic basic basic"}
 RESULT = ["image_sha256", "samples", "error", "error_bound", "relmse", "heavy_pixels", "stopped_by", "replicates"]
-SIZE = ["--size", "72x50"]  # rows of tiles that are not whole
+SIZE = ["--size", "72x50"]  # the last row and column of tiles are cut
 OUT = re.compile(r"^eclat: warning: (.*) has failed, and the others take over its work: (.*)$")
 
 
@@ -40,7 +42,7 @@ class Several(Case):
         return json.loads(self.assert_ok(run).stdout)
 
     def assert_same(self, *job, env=None, scene=CORNELL):
-        """One device's figures and planes."""
+        """Compares with the report and planes of one device."""
         one = self.render(scene, *SIZE, *job, device="0", env=env)
         planes = read_exr(self.path("a.exr"))[1]
         several = self.render(scene, *SIZE, *job, env=env)
@@ -57,7 +59,7 @@ class Several(Case):
 
     @full
     def test_pieces_of_batches(self):
-        """From sample 512 on a wave is two rows of tiles of the seven: every batch is cut."""
+        """From sample 512 on, a wave is two of the seven rows of tiles: every batch is divided."""
         several = self.assert_same("--spp", "1024", "--wave", str(72 * 8 * 16 * 2))
         self.assertTrue(all(one["samples_per_pixel"] > 0 for one in several["devices"]), several["devices"])
 
@@ -73,7 +75,7 @@ class Several(Case):
     @full
     def test_adaptive(self):
         several = self.assert_same("--adaptive", "--spp", "256", "--wave", "4096")
-        self.assertLess(several["allotment_gain"], 1)  # it is not uniform all the same
+        self.assertLess(several["allotment_gain"], 1)  # samples are still distributed by noise
         self.assertTrue(all(one["samples_per_pixel"] > 0 for one in several["devices"]), several["devices"])
         self.assert_same("--error", "10%")
         self.assert_same("--adaptive", "--spp", "160", "--wave", "4096", "--denoise=atrous", "--channels", "all")
@@ -105,7 +107,7 @@ class Several(Case):
 
     @long
     def test_going_on_within_a_batch_of_one_device(self):
-        """Its waves end anywhere in a row of tiles, pieces of several devices at their ends."""
+        """Waves end anywhere in a row of tiles; with several devices, pieces end there."""
         kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "2048", "--replicates", "1", "--wave", "16384", "--background", "transparent"]  # batches of 32 samples from 256 on, of 64 from 512
         whole = self.render(*job, device="0")
         planes = read_exr(self.path("a.exr"))[1]
@@ -113,7 +115,7 @@ class Several(Case):
             def is_there():
                 state = self.state(kept) if os.path.exists(kept) else {"batches": -1}
                 return state["batches"] >= wanted and state["underWay"] % (72 * 8) != 0
-            for _ in range(9):  # killed between two looks it may be at another place again
+            for _ in range(9):  # each kill may come at another moment
                 process = subprocess.Popen([ECLAT, "render", *job, "--device", "0", "--checkpoint", kept, "--every", "0.0000001", "-q", "-o", self.path("b.exr")],
                                            env=dict(ENVIRONMENT, **TWO))
                 poll_until(is_there, process)
@@ -134,8 +136,8 @@ class Several(Case):
 
     @full
     def test_killed(self):
-        """The last checkpoint stands, and holds no hole."""
-        job = [RING, "--size", "96x96", "--spp", "4608", "--samples", "4096:4608", "--wave", "16384"]  # 36 waves a batch, which are cut
+        """The last checkpoint stays, without gaps."""
+        job = [RING, "--size", "96x96", "--spp", "4608", "--samples", "4096:4608", "--wave", "16384"]  # 36 waves a batch, which are divided
         whole = self.render(*job, device="0")
         cut = 0
         for writes in [3, 15]:
@@ -152,10 +154,11 @@ class Several(Case):
 
     @full
     def test_time_and_interruption(self):
-        """The end comes within waves; whatever the picture has is whole batches."""
+        """The render ends within waves; the picture has only complete batches."""
         job = [CORNELL, "--size", "256x256", "--wave", "2048"]
         self.assertEqual(self.render(*job, "--time", "2s")["stopped_by"], "time")
-        first = self.render(*job, "--time", "0.02s", name="first.exr")  # within the first batch: what was reached is right, the rest is marked
+        # within the first batch: pixels that were reached are right, others are marked
+        first = self.render(*job, "--time", "0.02s", name="first.exr")
         samples, red = read_exr(self.path("first.exr"))[1]["samples"], read_exr(self.path("first.exr"))[1]["R"]
         done = max(samples)
         whole = self.render(*job, "--spp", f"{done:.0f}", device="0")
@@ -171,7 +174,7 @@ class Several(Case):
         shares = re.findall(r"(?m)^device   basic-.*, \d+ lanes: ([0-9.]+) of 16 samples a pixel$", run.stdout)
         self.assertEqual((len(shares), sum(map(float, shares))), (2, 16))
         self.assertRegex(read_exr(self.path("a.exr"))[0]["eclat.devices"], r"^1 basic-.*: [0-9.]+ samples, 0 basic-.*: [0-9.]+ samples$")
-        self.assertNotIn("warning", run.stderr)  # alike: they round alike
+        self.assertNotIn("warning", run.stderr)  # both devices round in the same way
 
     def test_queues_of_one_device(self):
         """A device that is named twice has two queues, each with half of its memory."""
@@ -207,7 +210,7 @@ class Several(Case):
 
 class Failing(FaultCase):
     """One of three devices fails."""
-    job = ["--size", "256x256", "--device", "all", "--json"]  # long enough for all of them to take part
+    job = ["--size", "256x256", "--device", "all", "--json"]  # long enough for all devices to take part
 
     @functools.cached_property
     def whole(self):
@@ -246,7 +249,7 @@ class Failing(FaultCase):
         self.assertRegex(run.stderr, r"^eclat: warning: basic-.* has failed, and the others take over its work: clCreateCommandQueue .*\n$")
 
     def test_one_size_a_kernel(self):
-        """A kernel that two threads run at two sizes makes PoCL 3.1 abort now and then. Batches are of 8 and of 16 samples here."""
+        """PoCL 3.1 sometimes aborts when two threads run one kernel with two sizes. Batches have 8 and 16 samples here."""
         run, _ = self.run_with("sizes", *self.job, "--size", "128x128", spp=256, env=TWO, launches=self.path("launches"))
         self.assert_ok(run)
         sizes = {}
@@ -271,8 +274,9 @@ class Failing(FaultCase):
 
     @full
     def test_a_slow_one_holds_nobody_up(self):
-        """A device whose every launch takes a thirtieth of the other one's render: once two waves have shown its pace it gets no piece that the other
-        one would have to wait for. (It would go on with batches that are shorter than its shortest wave, to 26 samples a pixel in place of 10.)"""
+        """Each launch of one device takes a thirtieth of the other's whole render. Once two waves have shown its pace, it gets no piece
+        that the other would have to wait for. (It would go on with batches that are shorter than its shortest wave, to 26 samples a pixel
+        instead of 10.)"""
         job = [*self.job, "--replicates", "1", "--wave", str(256 * 256 * 8)]
         run, _ = self.run_with("fast", *job, "--device", "0", spp=1024, env=TWO)
         fast = json.loads(self.assert_ok(run).stdout)
@@ -284,11 +288,11 @@ class Failing(FaultCase):
 
 
 class Unlike(FaultCase):
-    """Drivers that are not alike together."""
+    """Devices of different drivers together."""
 
     @full
     def test_one_that_does_not_say_how_it_rounds(self):
-        """The last question to the second device is how it rounds."""
+        """The last query to the second device asks how it rounds."""
         env = {"POCL_DEVICES": "pthread basic"}
         last = self.count_calls("--device", "0", env=env)["clGetDeviceInfo"]
         for device, warns in [("all", True), ("1", False)]:

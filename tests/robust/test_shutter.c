@@ -1,5 +1,5 @@
 /* tier: full */
-/* What a shutter makes of a lamp and of a shade that move. */
+/* A shutter with a lamp, and with an occluder, that moves. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The first quad goes along y: from -1 to 0.5 in the first half of the exposure, on to 1 in the second. */
+/* The first quad moves along y: from -1 to 0.5 in the first half of the exposure, to 1 in the second. */
 static ec_result set_in_motion(ec_scene *scene, ec_error *err)
 {
     static const float ways[] = {-1, 0.5f, 1};
@@ -40,8 +40,8 @@ static ec_result set_in_motion(ec_scene *scene, ec_error *err)
     return EC_OK;
 }
 
-/* A strip 0.6 wide comes by at 3 a shutter: it is there for a fifth of it. As a lamp before the camera, and as what keeps a sun from a floor. For
- * both BVHs, whose kernels each read times by themselves. */
+/* A strip 0.6 wide moves by at 3 per shutter time: it covers a point for a fifth of it. It is a lamp before the camera, or hides the sun
+ * from a floor. Both BVHs, whose kernels read times separately. */
 static ec_result shutter_case(ec_selftest *t, ec_error *err)
 {
     static const char *const accels[] = {"bvh2", "bvh8"};
@@ -53,7 +53,7 @@ static ec_result shutter_case(ec_selftest *t, ec_error *err)
         if (m) {
             ec_material strip = ec_material_lambert(0, shades ? 0 : 1), floor = ec_material_lambert(shades ? 1 : 0, 0);
             ec_light sun = {.type = EC_LIGHT_DIRECTIONAL, .intensity = {0, (float)(pi * sqrt(2)), 0}};
-            double x = shades ? 0.5 : -0.5; /* in the way from the floor to the sun, or to the camera */
+            double x = shades ? 0.5 : -0.5; /* between the floor and the sun, or the camera */
             ec_model_quad(m, ec_model_material(m, &strip), (double[3]){x, -0.3, 1}, (double[3]){1, 0, 0}, (double[3]){0, 0.6, 0});
             ec_model_quad(m, ec_model_material(m, &floor), (double[3]){-5, -5, 0}, (double[3]){10, 0, 0}, (double[3]){0, 10, 0});
             if (shades) ec_model_light(m, &sun, (double[3]){1, 0, 1}, (double[3]){0, 0, 0});

@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""A picture in strips whose render is stopped, killed, or finds its disk full: complete strips or nothing, never half a file."""
+"""A picture in strips whose render is stopped or killed, or meets a full disk: complete strips or nothing, never an incomplete file."""
 import json
 import os
 import re
@@ -13,12 +13,12 @@ from support import eclat, read_exr
 from tiers import full
 
 ENOSPC, SIGINT, SIGKILL = 28, int(signal.SIGINT), int(signal.SIGKILL)
-SIDE = 448  # so large that strips are more than two, however much the process takes beside them
+SIDE = 448  # large enough for more than two strips, however much memory the process needs besides
 TALL = ["--channels", "all", "--size", f"{SIDE}x{SIDE}"]
 
 
 class Strips(FaultCase):
-    """The first test makes what all of them need: the whole picture, how much memory a few strips take, and counts of calls."""
+    """The first test makes shared data: the whole picture, the memory of a few strips, and counts of calls."""
     memory, calls = None, None
 
     @classmethod
@@ -34,7 +34,8 @@ class Strips(FaultCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         shutil.copytree(folder, self.whole, dirs_exist_ok=True)
         run, _ = self.run_with("least", *TALL, "--memory", "1M", spp=2)
-        Strips.memory = ["--memory", f"{int(re.search(r'give ([0-9]+)M', run.stderr).group(1)) + 4}M"]  # what the process itself takes strays by 2 MB
+        # the memory of the process itself varies by 2 MB
+        Strips.memory = ["--memory", f"{int(re.search(r'give ([0-9]+)M', run.stderr).group(1)) + 4}M"]
 
     def in_strips(self, name, *options, **faults):
         return self.run_with(name, *TALL, *self.memory, *options, spp=2, **faults)

@@ -7,7 +7,7 @@
 #include "robust/cases.h"
 #include "selftest/shot.h"
 
-/* Sampled by the BSDF and without roulette the sum is that of the series cut off, with no noise: what is off is rounding. */
+/* Sampled by the BSDF and without roulette, the result is the truncated series, without noise: differences are rounding. */
 static ec_result deep_paths_case(ec_selftest *t, ec_error *err)
 {
     static const uint32_t depths[] = {2, 3, 40, 1000};
@@ -23,7 +23,7 @@ static ec_result deep_paths_case(ec_selftest *t, ec_error *err)
         o.max_depth = depths[d];
         snprintf(what, sizeof what, "%u segments", depths[d]);
         if ((result = ec_shot_take(t, scene, &o, &shot, err)) != EC_OK) break;
-        /* beta and the sum are rounded once a segment each */
+        /* beta and the sum are rounded once in each segment */
         result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, expected * 3 * depths[d] * 0x1p-24, err);
         ec_shot_free(&shot);
     }
@@ -31,7 +31,7 @@ static ec_result deep_paths_case(ec_selftest *t, ec_error *err)
     return result;
 }
 
-/* Roulette must not change the mean, whatever survives. P over albedo^2, or the variance of endless paths is infinite. */
+/* Roulette must not change the mean, whatever the survival probability P. It must exceed albedo^2, or endless paths have infinite variance. */
 static ec_result roulette_case(ec_selftest *t, ec_error *err)
 {
     static const double survivals[] = {0, 0.5, 0.8};
@@ -57,8 +57,8 @@ static ec_material mirror(double reflectance)
     return m;
 }
 
-/* Four perfect mirrors unfold floor and ceiling to infinite planes: floor 1 / (1 - r1 r2), ceiling r2 times that. Joining to the
- * lamp cannot reach its images; only paths by way of mirrors do. */
+/* Four perfect mirrors make floor and ceiling infinite planes: floor 1 / (1 - r1 r2), ceiling r2 times that. Light sampling cannot reach
+ * the lamp's images; only paths by mirrors do. */
 static ec_result mirrored_plates_case(ec_selftest *t, ec_error *err)
 {
     ec_model *m = ec_model_new();
@@ -112,7 +112,8 @@ static ec_result corridor_case(ec_selftest *t, ec_error *err)
         ec_result result = ec_shot_take(t, scene, &o, &shot, err);
         ec_scene_free(scene);
         EC_TRY(result);
-        /* A reflection multiplies by F of some eight rounded operations; the cosine's own error counts (1 - r) 5 (1 - cos)^4 < 1e-3 times. */
+        /* A reflection multiplies by F, of about eight rounded operations. The cosine's own error counts (1 - r) 5 (1 - cos)^4 < 1e-3
+         * times. */
         result = ec_selftest_value(t, what, expected, shot.mean, shot.noise, expected * 8 * n * 0x1p-24, err);
         ec_shot_free(&shot);
         EC_TRY(result);

@@ -1,7 +1,6 @@
 # tiers: quick, full, long
-"""valgrind's memcheck on whole commands: no invalid access, no branch on what was never written, nothing lost. The kernels, as PoCL
-makes them, run under it too. The first run compiles them under valgrind, which is what takes time; later
-ones find them in build/tests/cache-valgrind."""
+"""valgrind's memcheck on whole commands: no invalid access, no branch on undefined memory, no leak. The kernels that PoCL compiles run
+under it too. The first run compiles them under valgrind, which takes most of the time; later runs find them in build/tests/cache-valgrind."""
 import json
 import os
 import shutil
@@ -14,17 +13,17 @@ from tiers import full, long
 
 VALGRIND = shutil.which("valgrind")
 CACHE = os.path.join(os.path.dirname(os.path.abspath(support.ECLAT)), "tests", "cache-valgrind")
-# One thread each for kernels and builders, since valgrind runs one at a time. memcheck knows no AVX-512 and hides it from LLVM, so
-# that these kernels must not mix with those of other tests.
+# One thread each for kernels and builders, since valgrind runs one at a time. memcheck does not support AVX-512 and hides it from LLVM, so
+# these kernels must not mix with those of other tests.
 ENVIRONMENT = dict(os.environ, XDG_CACHE_HOME=CACHE, POCL_CACHE_DIR=os.path.join(CACHE, "pocl"), POCL_MAX_PTHREAD_COUNT="1",
-                   OMP_NUM_THREADS="1", OCL_ICD_VENDORS="pocl.icd", ECLAT_KERNELS="")  # other drivers are not ours to judge
+                   OMP_NUM_THREADS="1", OCL_ICD_VENDORS="pocl.icd", ECLAT_KERNELS="")  # other drivers are not tested
 
 
 @full
 @unittest.skipUnless(VALGRIND, "there is no valgrind")
 class Valgrind(HardCase):
     def watch(self, code, *arguments, more=()):
-        """What it prints."""
+        """Returns the output."""
         os.makedirs(os.path.join(CACHE, "pocl"), exist_ok=True)
         log = self.path("valgrind.log")
         command = [VALGRIND, "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
@@ -44,8 +43,8 @@ class Valgrind(HardCase):
 
     @long
     def test_eight_lanes(self):
-        """Packets that are full ask nothing of what was never written. Of others, lanes behind the end of a queue do, in three kernels: whatever that is, all
-        zeros, large numbers or NaN, the picture has the bits of one lane, of which test_render_and_compare says that it is clean."""
+        """Full packets read nothing undefined. In three kernels, packets at the end of a queue read lanes behind it. Whether these hold
+        zeros, large numbers or NaN, the picture has the bits of one lane, which test_render_and_compare shows to be clean."""
         job = ["render", CORNELL, "--seed", "1", "--spp", "1", "--json", "-q", "-o", "a.exr", "--lanes"]
         self.watch(0, *job, "8", "--size", "16x8", "--max-depth", "1")
         picture = json.loads(self.assert_ok(support.eclat(*job, "1", "--size", "16x8", cwd=self.folder)).stdout)["image_sha256"]
@@ -68,7 +67,7 @@ class Valgrind(HardCase):
 
 
 class Fill(Case):
-    """Memory that comes filled with something, as the C library does it where it is asked: no picture depends on what."""
+    """The C library fills new memory with a byte: no picture depends on it."""
 
     def test_the_picture_is_the_same(self):
         pictures = set()

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* A scanned mesh from inside, its holes closed: no ray leaves it through any accelerator. */
+/* A scanned mesh seen from inside, with its holes closed: no ray leaves it in any accelerator. */
 #include <math.h>
 #include <unistd.h>
 
@@ -11,11 +11,11 @@
 
 typedef struct mesh {
     uint32_t points, faces;
-    float *at;        /* 3 a point; room for one more */
-    uint32_t *corner; /* 3 a face; room for as many again */
+    float *at;        /* 3 floats a point; room for one more point */
+    uint32_t *corner; /* 3 indices a face; room for as many faces again */
 } mesh;
 
-/* Of binary PLY only what this file has: points of three floats, faces of three corners. */
+/* Reads only the binary PLY of this file: points of three floats, faces of three corners. */
 static bool read_mesh(const char *path, mesh *m)
 {
     char line[128];
@@ -39,8 +39,8 @@ static int by_key(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* A cone over every edge that has no other side, to one point for all: what goes into each point on the rim also comes out of it, so
- * the sides of the cones cancel. */
+/* Adds a cone over all edges that have no neighbour, to one common point. Every rim point has as many edges in as out, so that the cones'
+ * sides cancel. */
 static uint32_t close_holes(mesh *m)
 {
     uint32_t edges = 3 * m->faces, faces = m->faces, rim = 0;
@@ -62,7 +62,7 @@ static uint32_t close_holes(mesh *m)
     return rim;
 }
 
-/* How often the surface goes round p: the sum of solid angles (van Oosterom and Strackee 1983). */
+/* How often the surface winds around p: the sum of solid angles (van Oosterom and Strackee 1983). */
 static double winding(const ec_soup *soup, const float p[3])
 {
     double sum = 0;
@@ -136,7 +136,7 @@ int main(void)
     int open = kernel_open(&cl);
     if (open) return open;
     CHECK(read_mesh(BUNNY, &m));
-    CHECK(close_holes(&m) > 100); /* it has five */
+    CHECK(close_holes(&m) > 100); /* the mesh has five holes */
     CHECK_OK(ec_soup_make(m.faces, &soup, &err), err);
     for (uint32_t i = 0; i < 3 * soup.count; i++) memcpy(soup.vertices + 3 * (size_t)i, m.at + 3 * (size_t)m.corner[i], 3 * sizeof(float));
     if (!test_failures) trace_all(&(ec_selftest){.cl = &cl, .lanes = 8, .full = true}, &soup);

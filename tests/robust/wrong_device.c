@@ -1,4 +1,4 @@
-/* LD_PRELOADed into eclat: a device that computes wrongly without a word. Whatever is read back from it is 0. */
+/* LD_PRELOADed into eclat: a device that computes wrongly without an error. All data read from it is 0. */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>

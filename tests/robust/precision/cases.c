@@ -1,11 +1,11 @@
-/* What is measured: function, inputs, results. `roundings` counts the operations that round on the longest way from an input to a
- * result, a division or a root as one, a library function as its bound in ulps; where two ways meet in a difference, both.
+/* The cases: function, inputs, results. `roundings` counts the rounding operations on the longest way from an input to a result. A division
+ * or a root counts as one, a library function as its bound in ulps. Where a result is a difference, the ways to both operands count.
  *
- * Maps and textures have texels between 1 and 2: a rounding of u or v then moves a result by as many u as there are texels, and the
- * environment's 16 stand in its count.
+ * Maps and textures have texels between 1 and 2. So rounding u or v moves a result by as many u as there are texels; the environment's 16
+ * are in its count.
  *
- * Left out: what only looks up, compares or counts (filter.h, queue.h, seen.h, sort_rays.h, tally.h, traverse_*.h), and hashes (sampler.h),
- * which are exact. */
+ * Left out: headers that only look up, compare or count (filter.h, queue.h, seen.h, sort_rays.h, tally.h, traverse_*.h), and hashes
+ * (sampler.h). These are exact. */
 #include <stddef.h>
 
 #include "robust/precision/draw.h"
@@ -81,7 +81,8 @@ const ec_precision_case ec_precision_cases[] = {
     {"edges_distance", "triangle", "ray.h", ec_inputs_triangle, 15, 0, 0, 16, {STATED("t", 0, 1), SCALED("b1, b2", 2, 2)}},
 
     {"light_sample_triangle", "light_sample_triangle", "light.h", ec_inputs_light, 21, BIT(15) | BIT(16), 0, 32,
-     {STATED("wi", 0, 3), VECTOR("towards", 4), EACH("pdf", 7, 1), VECTOR("normal", 8)}}, /* the bound of its end goes by the longest axis: no digits at ties */
+     {STATED("wi", 0, 3), VECTOR("towards", 4), EACH("pdf", 7, 1), VECTOR("normal", 8)}}, /* the bound of the end is relative to the longest axis: no
+                                                                                           * digits at ties */
     {"light_from_centre", "light_from_centre", "light_centre.h", ec_inputs_light, 21, BIT(15) | BIT(16), 0, 32, {EACH("irradiance", 0, 3)}},
     {"light_sample_punctual", "light_sample_punctual", "light.h", ec_inputs_spot, 19, BIT(15) | BIT(16), 0, 16, {VECTOR("wi", 0), EACH("irradiance", 3, 3)}},
     {"environment_uv", "environment_uv", "environment.h", ec_inputs_direction, 3, 0, 0, 12, {SCALED("u", 0, 1), EACH("v", 2, 1)}},
@@ -110,7 +111,7 @@ static void put_material(float *memory, uint32_t id, int32_t normal_map)
     for (uint32_t slot = 0; slot < EC_SLOT_COUNT; slot++) {
         float *s = material + EC_WORD_slots + 8 * slot;
         s[0] = ec_float_of_bits((uint32_t)(slot == EC_SLOT_NORMAL ? normal_map : -1));
-        s[2] = s[6] = 1; /* (u, v) as they are */
+        s[2] = s[6] = 1; /* (u, v) unchanged */
     }
     material[EC_WORD_normal_scale] = 1;
 }
@@ -129,14 +130,14 @@ void ec_precision_fill(float *memory, ec_params *params)
     const uint32_t rows = EC_PRECISION_MAP_HEIGHT + 1, texels = EC_PRECISION_MAP_WIDTH * rows;
     for (uint32_t i = 0; i < texels; i++) {
         for (int k = 0; k < 3; k++) memory[EC_PRECISION_MAP + 4 * i + k] = (float)ec_random_between(&random, 1, 2);
-        memory[EC_PRECISION_MAP + 4 * i + 3] = 1.0f / (float)texels; /* alike, so that no density jumps between texels */
+        memory[EC_PRECISION_MAP + 4 * i + 3] = 1.0f / (float)texels; /* equal, so that the density has no jumps between texels */
     }
     put_even_table(memory + EC_PRECISION_TABLE, rows);
     for (uint32_t y = 0; y < rows; y++)
         put_even_table(memory + EC_PRECISION_TABLE + 2 * (rows + y * EC_PRECISION_MAP_WIDTH), EC_PRECISION_MAP_WIDTH);
     for (uint32_t id = 0; id < 3; id++) put_texture(memory, id, id);
     for (uint32_t i = 0; i < 4 * EC_PRECISION_TEXTURE_SIZE * EC_PRECISION_TEXTURE_SIZE; i++) {
-        double is_z = i % 4 == 2; /* a normal map of moderate slopes */
+        double is_z = i % 4 == 2; /* the z of a normal map of moderate slopes */
         memory[EC_PRECISION_TEXELS + i] = (float)(is_z ? ec_random_between(&random, 0.9, 1) : ec_random_between(&random, 0.2, 0.8));
     }
     put_material(memory, 0, -1);

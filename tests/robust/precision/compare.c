@@ -1,4 +1,4 @@
-/* One function: results from the device against double, and what the rounding of its inputs explains. */
+/* Compares one function's results from the device with double precision, and with the error that rounding its inputs explains. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,13 +10,13 @@
 #define ULP_HALF 0x1p-24 /* u */
 #define MOST_CONDITION 0.01
 
-/* Results of one input, and for each word what half an ulp in every input makes of it. */
+/* Results of one input; for each word also the change by half an ulp in every input. */
 typedef struct exact {
     double value[EC_PRECISION_RESULTS], condition[EC_PRECISION_RESULTS];
 } exact;
 
-/* Inputs move as far as the function's roundings might have moved them, both ways, so that a kink or a jump within that reach
- * counts; the change is then brought down to half an ulp. */
+/* Inputs move both ways as far as the function's roundings might have moved them, so that a kink or a jump within that distance counts. The
+ * change is then scaled to half an ulp. */
 static exact reference_of(const ec_precision_case *c, const ec_precision_reference *reference,
                           const ec_precision_data *data, const float *in)
 {
@@ -33,7 +33,7 @@ static exact reference_of(const ec_precision_case *c, const ec_precision_referen
             for (int step = 0; step < steps; step++) x[i] = nextafterf(x[i], side ? INFINITY : -INFINITY);
             if (c->turns >> i & 1) x[i] = in[i] + (side ? 1.0f : -1.0f) * (float)steps * 0x1p-24f;
             reference->run(x, moved, data->memory, data->params);
-            for (int k = 0; k < EC_PRECISION_RESULTS; k++) most[k] = fmax(most[k], fabs(moved[k] - e.value[k])); /* NaN: no neighbour */
+            for (int k = 0; k < EC_PRECISION_RESULTS; k++) most[k] = fmax(most[k], fabs(moved[k] - e.value[k])); /* NaN: there is no neighbour */
             x[i] = in[i];
         }
         for (int k = 0; k < EC_PRECISION_RESULTS; k++) e.condition[k] += most[k] / (2 * steps);
@@ -41,10 +41,10 @@ static exact reference_of(const ec_precision_case *c, const ec_precision_referen
     return e;
 }
 
-/* Words [first, end) as one value: the largest error, size and condition. */
+/* Words [first, end) as one value: largest error, size and condition. */
 typedef struct judged {
     double error, size, condition;
-    uint32_t word; /* with the largest error */
+    uint32_t word; /* the word with the largest error */
 } judged;
 
 static judged judge(const exact *e, const float *out, uint32_t first, uint32_t end, double scale)
@@ -70,12 +70,13 @@ static double digits_of(double error, double size)
 
 static void take(ec_precision_row *row, const judged *j, const exact *e, const float *in, const float *out, double *digits)
 {
-    /* Where rounding the inputs leaves no digit the sum of single changes bounds nothing; but infinite or not a number is wrong. */
+    /* If rounding the inputs leaves no digit, the sum of single changes bounds nothing, and the input is left out. An infinite result or
+     * NaN is always wrong. */
     if (j->error > 0 && j->condition > MOST_CONDITION * j->size && isfinite(j->error)) {
         row->hopeless++;
         return;
     }
-    /* Results under the least normal number may be flushed to 0. */
+    /* Results below the smallest normal number may be flushed to 0. */
     double explained = ULP_HALF * j->size + j->condition + FLT_MIN, times = j->error / explained;
     double kept = j->error <= FLT_MIN ? digits_of(0, 1) : digits_of(j->error, j->size);
     digits[row->inputs++] = kept;
@@ -90,7 +91,7 @@ static void take(ec_precision_row *row, const judged *j, const exact *e, const f
     row->measured = out[j->word];
 }
 
-/* Not judged: a value that no float can be. */
+/* Values outside float's range are not judged. */
 static bool representable(const exact *e, uint32_t first, uint32_t end)
 {
     for (uint32_t k = first; k < end; k++)

@@ -1,6 +1,6 @@
-/* What stands in for lib/lanes.h, lib/elementary.h and OpenCL's built-ins when kernels are compiled as C in double precision
- * (tools/double_kernels.py): one lane, and libm instead of polynomials. Memory that is only read holds floats, as on the device;
- * what is made of the bits of a float is rounded to one first. Only for that one file: it takes names from C. */
+/* Replaces lib/lanes.h, lib/elementary.h and OpenCL's built-ins where kernels are compiled as C in double precision
+ * (tools/double_kernels.py): one lane, and libm instead of polynomials. Memory that is only read holds floats, as on the device. Functions
+ * of a float's bits round to float first. Include it only in that one file: it redefines names of C. */
 #ifndef EC_PRECISION_DOUBLE_H
 #define EC_PRECISION_DOUBLE_H
 
@@ -25,7 +25,7 @@
 #define constant const
 typedef uint32_t uint;
 
-/* One work-item a call: the caller points at its words. */
+/* One work-item a call: the caller points at the work-item's words. */
 #define get_global_id(dimension) 0u
 #define get_group_id(dimension) 0u
 
@@ -99,7 +99,7 @@ static inline uint32_t mul_hi(uint32_t a, uint32_t b) { return (uint32_t)((uint6
 #define EC_PI 3.14159265358979323846
 #define EC_INV_PI 0.31830988618379067154
 
-/* u in quarters first, which is exact. */
+/* Reduces u to quarters first, which is exact. */
 EC_FN lane_f sincos_2pi(lane_f u, lane_f *cosine)
 {
     double q = floor(u * 4 + 0.5), r = (u * 4 - q) * (0.5 * EC_PI), s = sin(r), c = cos(r);

@@ -41,7 +41,7 @@ void ec_draw_direction(uint64_t *random, double *v)
             v[k] = ec_draw_sign(random, ec_random_unit(random) < 0.25 ? 0 : ec_draw_log(random, 1e-9, 1e-2));
         v[axis] = ec_draw_sign(random, 1);
     }
-    if (kind == 1) v[axis] = ec_draw_sign(random, ec_random_unit(random) < 0.25 ? 0 : ec_draw_log(random, 1e-9, 1e-2)); /* to a plane */
+    if (kind == 1) v[axis] = ec_draw_sign(random, ec_random_unit(random) < 0.25 ? 0 : ec_draw_log(random, 1e-9, 1e-2)); /* close to a plane */
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     for (int k = 0; k < 3; k++) v[k] /= length;
 }

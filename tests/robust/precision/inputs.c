@@ -39,7 +39,7 @@ static void draw_vector(uint64_t *random, double least, double most, double *v)
     for (int k = 0; k < 3; k++) v[k] *= length;
 }
 
-/* Half of them nearly parallel or nearly orthogonal. */
+/* Two vectors; half of the pairs are nearly parallel or nearly orthogonal. */
 void ec_inputs_two_vectors(uint64_t *random, float *x)
 {
     double a[3], b[3], n[3], kind = ec_random_unit(random);
@@ -96,7 +96,7 @@ void ec_inputs_distance(uint64_t *random, float *x)
     for (int k = 0; k < 3; k++) x[EC_WORD_absorption + k] = (float)(ec_draw_log(random, 1e-8, 80) / x[0]);
 }
 
-/* Narrow peaks, and directions in them. */
+/* Narrow lobes, and directions in them. */
 void ec_inputs_phase(uint64_t *random, float *x)
 {
     double d[3], wi[3];
@@ -118,7 +118,7 @@ void ec_inputs_free_way(uint64_t *random, float *x)
     x[1] = ec_draw_unit(random);
 }
 
-/* In and around the scene's ball. */
+/* Points in and around the scene's bounding sphere. */
 void ec_inputs_fog(uint64_t *random, float *x)
 {
     double o[3];

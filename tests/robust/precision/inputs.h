@@ -1,4 +1,4 @@
-/* Inputs of the precision cases; kernel_*.h have which word is what. */
+/* Inputs of the precision cases; kernel_*.h describe the words. */
 #ifndef EC_PRECISION_INPUTS_H
 #define EC_PRECISION_INPUTS_H
 

@@ -13,14 +13,14 @@ static double draw_grazing(uint64_t *random)
     return kind == 1 ? 1 - ec_draw_log(random, 1e-7, 1) : ec_random_between(random, 0.01, 1);
 }
 
-/* Indices of glass to air and back, of liquids in each other, of almost the same. */
+/* Relative indices: glass to air and back, liquids in each other, nearly equal media. */
 static double draw_eta(uint64_t *random, double least)
 {
     double eta = ec_random_unit(random) < 0.5 ? ec_random_between(random, 1.1, 2.5) : 1 + ec_draw_log(random, least, 1);
     return ec_random_unit(random) < 0.5 ? eta : 1 / eta;
 }
 
-/* A cosine under the critical angle, often just under it. */
+/* A cosine below the critical one, often just below it. */
 static double draw_refracted(uint64_t *random, double eta)
 {
     double least = eta < 1 ? sqrt(1 - eta * eta) : 0;
@@ -57,7 +57,7 @@ static void draw_material(uint64_t *random, float *x)
     for (int k = 0; k < 3; k++) x[U1 + k] = ec_draw_unit(random);
 }
 
-/* A normal out of the middle of a lobe of these widths. */
+/* A normal from the centre of a lobe of these widths. */
 static void draw_normal(uint64_t *random, const float *x, double *m)
 {
     double angle = ec_random_between(random, -M_PI, M_PI), r = x[ALPHA] * ec_draw_log(random, 1e-2, 5),
@@ -68,7 +68,7 @@ static void draw_normal(uint64_t *random, const float *x, double *m)
     m[2] = 1 / length;
 }
 
-/* As wide along x as it gets, or between that and as across. */
+/* The width along x: the largest, or between that and the width across. */
 static void stretch(uint64_t *random, float *x)
 {
     x[STRETCH] = (float)(ec_random_unit(random) < 0.5 ? 1 / x[ALPHA] : pow(1 / x[ALPHA], ec_random_unit(random)));
@@ -76,7 +76,7 @@ static void stretch(uint64_t *random, float *x)
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* wo anywhere above; wi anywhere above, or mirrored in a normal of the lobe. */
+/* wo anywhere above the surface; wi anywhere above it, or wo mirrored at a normal of the lobe. */
 static void draw_reflection(uint64_t *random, float *x)
 {
     double wo[3], wi[3], m[3];
@@ -100,11 +100,11 @@ void ec_inputs_opaque(uint64_t *random, float *x)
 void ec_inputs_highlight(uint64_t *random, float *x)
 {
     draw_material(random, x);
-    x[ALPHA] = (float)ec_draw_log(random, 0.01, 1); /* under it Whitted's surfaces mirror */
+    x[ALPHA] = (float)ec_draw_log(random, 0.01, 1); /* below it, Whitted's surfaces are mirrors */
     draw_reflection(random, x);
 }
 
-/* A rough interface of two media, its lobes no narrower than float half vectors resolve (surface_transmission). */
+/* A rough interface of two media. Its lobes are no narrower than float half vectors resolve (surface_transmission). */
 static void draw_glass(uint64_t *random, float *x)
 {
     draw_material(random, x);
@@ -177,7 +177,7 @@ void ec_inputs_smooth_glass(uint64_t *random, float *x)
     ec_put(x + WO, wo);
 }
 
-/* Films from thinner than light's wavelengths to where no colour is left, on metals and dielectrics, on glass from both sides. */
+/* Films, from thinner than light's wavelengths to too thick for colours; on metals and dielectrics, and on glass from both sides. */
 void ec_inputs_film(uint64_t *random, float *x)
 {
     bool refracts = ec_random_unit(random) < 0.5;
@@ -196,7 +196,7 @@ void ec_inputs_dispersion(uint64_t *random, float *x)
     x[1] = (float)ec_draw_log(random, 1e-3, 10);
 }
 
-/* A half vector in the place of wo. */
+/* A half vector in place of wo. */
 static void draw_half_vector(uint64_t *random, float *x)
 {
     double m[3];

@@ -8,7 +8,7 @@ static void cross(const double *a, const double *b, double *c)
     for (int k = 0; k < 3; k++) c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Triangles of size 1, a tenth of them slivers down to 1 : 10^5, half of them up to 10^4 sizes from the origin. */
+/* Triangles of size 1. A tenth are slivers down to 1 : 10^5; half are up to 10^4 sizes from the origin. */
 static void draw_triangle(uint64_t *random, double v[3][3])
 {
     double at[3], far = ec_random_unit(random) < 0.5 ? 0 : ec_draw_log(random, 1, 1e4);
@@ -26,7 +26,7 @@ static void draw_barycentrics(uint64_t *random, double *b)
     b[0] = 1 - root;
     b[1] = root * (1 - u);
     b[2] = root * u;
-    if (ec_random_unit(random) < 0.25) { /* by an edge */
+    if (ec_random_unit(random) < 0.25) { /* near an edge */
         double tiny = ec_draw_log(random, 1e-8, 1e-2);
         b[ec_draw_one(random, 3)] = tiny;
         double sum = b[0] + b[1] + b[2];
@@ -113,7 +113,7 @@ void ec_inputs_triangle(uint64_t *random, float *x)
     for (int i = 0; i < 3; i++) ec_put(x + 6 + 3 * i, v[i]);
 }
 
-/* The rest of a light's record, which starts at word 3. */
+/* Fills the rest of a light's record, which starts at word 3. */
 static void put_emission(uint64_t *random, uint32_t kind, float *x)
 {
     for (int k = 0; k < 3; k++) x[12 + k] = (float)ec_draw_log(random, 1e-3, 1e3);
@@ -121,7 +121,7 @@ static void put_emission(uint64_t *random, uint32_t kind, float *x)
     x[16] = ec_float_of_bits(EC_NO_ID);
 }
 
-/* p at any distance and at any angle; a third of the lamps are far larger than their distance. */
+/* p at any distance and angle. A third of the lamps are far larger than their distance. */
 void ec_inputs_light(uint64_t *random, float *x)
 {
     double v[3][3], b[3], n[3], e1[3], e2[3], away[3], distance = ec_draw_log(random, 1e-5, 1e3);
@@ -137,7 +137,7 @@ void ec_inputs_light(uint64_t *random, float *x)
                             away);
     for (int i = 0; i < 3; i++) ec_put(x + 3 + 3 * i, v[i]);
     double height = 0, coordinate = 1;
-    for (; height < 16 * 0x1p-24 * coordinate; distance *= 4) { /* nearer, its place in the plane is a matter of rounding */
+    for (; height < 16 * 0x1p-24 * coordinate; distance *= 4) { /* nearer points would have positions in the plane that are mere rounding */
         height = coordinate = 0;
         for (int k = 0; k < 3; k++) {
             x[k] = (float)(b[0] * v[0][k] + b[1] * v[1][k] + b[2] * v[2][k] + distance * away[k]);
@@ -165,13 +165,14 @@ void ec_inputs_spot(uint64_t *random, float *x)
     }
     ec_put(x, p);
     ec_put(x + 6, d);
-    x[9] = (float)(1 / fmax(cos(inner) - cos(outer), 0.001)); /* as KHR_lights_punctual bounds it */
+    x[9] = (float)(1 / fmax(cos(inner) - cos(outer), 0.001)); /* the minimum of KHR_lights_punctual */
     x[10] = (float)cos(outer);
     x[11] = (float)(ec_random_unit(random) < 0.5 ? 0 : 1 / (distance * ec_random_between(random, 1.01, 10)));
     put_emission(random, EC_KIND_SPOT, x);
 }
 
-/* Luminances of any contrast, and none; the second linear function is a sine's, and may begin at 0: from there on it is steepest. */
+/* Luminances of any contrast, or none. The second linear function multiplies a sine and may begin at 0, where its relative slope is
+ * steepest. */
 void ec_inputs_patch(uint64_t *random, float *x)
 {
     for (int k = 0; k < 2; k++) x[k] = (float)ec_draw_log(random, 1e-6, 1);
@@ -181,7 +182,7 @@ void ec_inputs_patch(uint64_t *random, float *x)
     x[4] = (float)(ec_random_unit(random) < 0.125 ? 0 : ec_draw_unit(random));
 }
 
-/* 32 bits that are no NaN, two numbers. */
+/* Two numbers of 32 bits that are not NaN. */
 void ec_inputs_sample(uint64_t *random, float *x)
 {
     for (int k = 0; k < 2; k++) x[k] = ec_float_of_bits((uint32_t)(ec_draw_unit(random) * 0x1p32) & 0xbfffffffu); /* not the bits of NaNs */

@@ -1,4 +1,4 @@
-/* How a function is laid open to the precision check. Input i is EC_PRECISION_WORDS words of `in`, its results
+/* Macros that make a library function a kernel of the precision check. Input i is EC_PRECISION_WORDS words of `in`, its results
  * EC_PRECISION_RESULTS words of `out`. */
 #ifndef EC_PRECISION_KERNEL_H
 #define EC_PRECISION_KERNEL_H

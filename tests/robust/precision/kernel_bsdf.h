@@ -51,7 +51,7 @@ PRECISION(ggx_lambda)
     bsdf b = bsdf_of(in);
     PUT(0, ggx_lambda(&b.facets, V(0)));
 }
-/* Over black, its normal the surface's, alpha in 12. */
+/* A coat over black with the surface's normal; alpha is in word 12. */
 PRECISION(coat_over)
 {
     surface s = material_of(in);
@@ -68,7 +68,7 @@ PRECISION(coat_over)
     PUT(0, f.x);
     PUT(1, pdf);
 }
-/* Over black; colour in base, roughness in alpha's place. */
+/* Fibres over black; the colour is in base, the roughness in place of alpha. */
 PRECISION(multiscatter_over)
 {
     multiscatter m = multiscatter_make(X(12), X(2), V(6), X(11), (1.0f - X(11)) * X(13), X(14), X(14) != 1.0f);
@@ -90,7 +90,7 @@ PRECISION(sheen_over)
     PUT(3, pdf);
     PUT(4, s.own);
 }
-/* White light through base, of its colour. */
+/* White light through a sheet of colour base. */
 PRECISION(bsdf_eval_diffuse_transmission)
 {
     bsdf b = bsdf_of(in);
@@ -107,7 +107,7 @@ PRECISION(dispersed_index)
     PUT(0, dispersed_index(X(0), X(1), I(0)));
     PUT(1, dispersed_index(X(0), X(1), I(2)));
 }
-/* Words: cosine, eta, index and nanometres of the film, f0, 0 or 1: refracts. A colour is a difference of what both faces send. */
+/* Words: cosine, eta, the film's index and nanometres, f0, refracts (0 or 1). A colour is a difference of the light from both faces. */
 PRECISION(film_reflectance)
 {
     thin_film m = {F(1.0f), X(2), X(3)};
@@ -115,8 +115,7 @@ PRECISION(film_reflectance)
     PUT_V(0, film_reflectance(&l, v3_splat(X(4)), F(1.0f)));
     PUT(3, F(1.0f));
 }
-/* A share of the light is worth its error against the whole: what 1 - F rounds off is a part of the light that comes. The scale of
- * a value is therefore the value where nothing is reflected. */
+/* The scale of a transmitted share is its value without reflection: the rounding error of 1 - F is relative to the light that arrives. */
 PRECISION(bsdf_eval)
 {
     bsdf b = bsdf_of(in);

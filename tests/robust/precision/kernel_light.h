@@ -15,7 +15,7 @@ EC_FN light_record light_of(global const float *in)
     return light_load(&l, ITEM * (EC_PRECISION_WORDS / EC_LIGHT_WORDS));
 }
 
-/* What is not valid is not looked at. A direction may be off by u edge / height: spherical_triangle.h. */
+/* Results that are not valid are not compared. A direction may be off by u edge / height: spherical_triangle.h. */
 PRECISION(light_sample_triangle)
 {
     geometry g = geometry_of(in, memory);
@@ -31,7 +31,7 @@ PRECISION(light_sample_triangle)
     PUT_V(8, s.end_normal);
     PUT_V(11, s.end_error);
 }
-/* One light for all lanes where it is used, so one lane after the other. */
+/* The function takes one light for all lanes, so lanes are computed one by one. */
 PRECISION(light_from_centre)
 {
     geometry g = geometry_of(in, memory);
@@ -65,7 +65,7 @@ PRECISION(environment_uv)
     PUT(1, F(0.5f));
     PUT(2, v);
 }
-/* Words: the ends of both linear functions, u; the scale of a place is 1. */
+/* Words: the ends of both linear functions, u. The scale of a position is 1. */
 PRECISION(patch)
 {
     PUT(0, patch_across(X(0), X(1), X(4)));
@@ -114,7 +114,7 @@ PRECISION(camera_sample)
     PUT(1, sy);
     PUT(2, F(1.0f));
 }
-/* Words: p 0, q 3, right 6, up 9, forward 12. One triangle a work-item where it is used, so one lane after the other. */
+/* Words: p 0, q 3, right 6, up 9, forward 12. The function takes one triangle a work-item, so lanes are computed one by one. */
 PRECISION(raster_edge)
 {
     for (uint i = (uint)get_global_id(0) * LANES, end = i + LANES; i < end; i++) {

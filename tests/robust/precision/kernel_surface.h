@@ -7,8 +7,8 @@
 #include "lib/scatter.h"
 #include "kernel.h"
 
-/* Words: vertices 0, 3, 6; b1, b2 9; three uv pairs 11; three normals 18. The normals are memory, as of a mesh of one triangle an
- * input. */
+/* Words: vertices 0, 3, 6; b1, b2 9; three uv pairs 11; three normals 18. The normals are in memory, as if each input had a mesh of one
+ * triangle. */
 EC_FN hit_point hit_of(global const float *in)
 {
     hit_point h;
@@ -98,12 +98,12 @@ PRECISION(medium_transmittance)
     PUT_V(0, medium_transmittance(&g, ITEM * EC_PRECISION_WORDS, X(0)));
 }
 
-/* Words: mean cosine 0, light's way 1, where it goes on 4, u 7. */
+/* Words: mean cosine 0, direction of the light 1, direction after scattering 4, u 7. */
 PRECISION(phase_value) { PUT(0, phase_value(X(0), V(1), V(4))); }
 PRECISION(phase_sample) { PUT_V(0, phase_sample(X(0), V(1), X(7), X(8))); }
 /* Words: extinction 0, u 1. */
 PRECISION(scatter_distance) { PUT(0, scatter_distance(X(0), X(1))); }
-/* Words: from 0, along 3, metres to the surface 6. */
+/* Words: origin 0, direction 3, metres to the surface 6. */
 PRECISION(fog_span)
 {
     lane_f from, span = fog_span(params, V(0), V(3), X(6), &from);
@@ -119,8 +119,8 @@ PRECISION(slab)
     PUT(0, near);
     PUT(1, far);
 }
-/* Edge functions are products rounded one by one, so that their signs agree between neighbours (ray_edge): t, a mean of the
- * vertices' depths, may move by their rounding over the triangle's area. Only slivers see it. */
+/* Edge functions are products rounded one by one, so that their signs agree between neighbours (ray_edge). t is a mean of the vertices'
+ * depths and may move by their rounding over the triangle's area, which matters only for slivers. */
 PRECISION(triangle)
 {
     ray r = ray_make(V(0), V(3), 0.0f);

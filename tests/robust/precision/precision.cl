@@ -1,8 +1,8 @@
-/* The library's functions over arrays of inputs, for comparison with the same text in double precision
- * (precision.h, which also has where the inputs come from and what the results are called). */
+/* The library's functions over arrays of inputs, for comparison with the same source in double precision (precision.h, which also describes
+ * the inputs and names the results). */
 #include "shared/features.h"
 
-/* As glTF has it; precision_multiscatter calls what gives back more. */
+/* glTF's single scattering; precision_multiscatter calls the function that adds multiple scattering. */
 #undef FEATURES
 #define FEATURES (EC_FEATURE_ALL & ~EC_FEATURE_MULTISCATTER)
 #include "kernel_bsdf.h"

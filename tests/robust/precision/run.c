@@ -1,4 +1,4 @@
-/* The kernels on the device, all cases. */
+/* Runs all cases' kernels on the device. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -54,7 +54,7 @@ static const ec_precision_reference *find_reference(const char *kernel)
     return reference->name ? reference : NULL;
 }
 
-/* Every case has inputs of its own, whatever others there are. */
+/* The inputs of a case do not depend on the other cases. */
 static void make_inputs(run *r, const ec_precision_case *c)
 {
     uint64_t random = 0;

@@ -1,15 +1,15 @@
-/* How the kernels of precision.cl and the host talk: so many words for each input, so many for each result, and a few
- * tables in one memory. */
+/* Layout of the data between the kernels of precision.cl and the host: words for each input, words for each result, and a few tables in one
+ * memory. */
 #ifndef EC_PRECISION_WORDS_H
 #define EC_PRECISION_WORDS_H
 
 #include "shared/scene_buffers.h"
 
-#define EC_PRECISION_WORDS 48   /* a multiple of 12 and 16: an input can be read as a triangle, or as vertices */
+#define EC_PRECISION_WORDS 48   /* a multiple of 12 and 16: an input can be read as triangles or vertices */
 #define EC_PRECISION_RESULTS 16
 
-/* An environment map with a flat table, a texture seen three ways (repeated, clamped, mirrored), two
- * materials: plain, and with the texture as its normal map. */
+/* Tables: an environment map with a flat distribution; a texture with three wrap modes (repeat, clamp, mirror); two materials, one plain,
+ * one with the texture as its normal map. */
 #define EC_PRECISION_MAP_WIDTH 16
 #define EC_PRECISION_MAP_HEIGHT 8
 #define EC_PRECISION_MAP 0
