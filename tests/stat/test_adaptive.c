@@ -1,20 +1,21 @@
 /* tiers: full, long */
-/* Adaptive sampling: no bias where stopping pixels by their own samples has one, the stated error is the real one, a target is
- * reached with fewer samples where noise is uneven and with hardly more where it is not, and pictures keep their bits. */
+/* Adaptive sampling. It has no bias, though stopping pixels by their own samples would have one; the stated error is the real one; a target
+ * is reached with fewer samples where noise is uneven, and with hardly more where it is even; bits do not change. */
 #include "film/difference.h"
 #include "device/adaptive.h"
 #include "support/gltf_writer.h"
 #include "support/random.h"
 #include "support/render_case.h"
 
-/* ---- synthetic: grey pixels with fireflies 100 times as bright, one sample in 200 on the left, in 10 000 on the right; mean 1 ---- */
+/* ---- synthetic: grey pixels with fireflies 100 times as bright, in one of 200 samples on the left, one of 10 000 on the right; mean 1
+ * ---- */
 
 enum { WIDTH = 48, HEIGHT = 32, PIXELS = WIDTH * HEIGHT, REPEATS = 400 };
 
 static test_random state = {3};
 static double uniform(void) { return test_uniform(&state); }
 
-/* `samples` more of each place, or of all pixels. */
+/* Takes `samples` more for each entry of the list, or for all pixels. */
 static float *draw_batch(const uint32_t *places, uint32_t count, uint32_t samples)
 {
     static float batch[EC_BATCH_FIELDS * PIXELS * EC_REPLICATES];
@@ -28,7 +29,8 @@ static float *draw_batch(const uint32_t *places, uint32_t count, uint32_t sample
     return batch;
 }
 
-/* Each replicate of a pixel goes on where it is: no sample is taken twice, none is left out. taken: by number, as lists have it. */
+/* Each replicate of a pixel continues where it ended: no sample is taken twice, and none is left out. taken: by the replicates' numbers in
+ * lists. */
 static uint32_t count_wrong(const ec_allotment *a, const ec_pass *pass, uint32_t *taken)
 {
     uint32_t wrong = 0;
@@ -76,7 +78,7 @@ static void check_bias(void)
     CHECK_MSG(fabs(mean - 1) <= 4 * se && se < 0.003, "mean %g +- %g", mean, se);
 }
 
-/* A pass of fewer samples is the beginning of the same list, of whole pixels. */
+/* A pass with fewer samples has the first entries of the same list, and only whole pixels. */
 static void check_limited_passes(void)
 {
     static uint32_t whole[EC_LIST_WORDS * PIXELS * EC_REPLICATES];
@@ -89,7 +91,7 @@ static void check_limited_passes(void)
         CHECK_OK(ec_film_add(&film, k, draw_batch(NULL, PIXELS, ec_schedule_batch(EC_REPLICATES, k).samples), &err), err);
     CHECK_OK(ec_allot(&film, &params, &a, &err), err);
     const ec_pass all = ec_allotment_pass(&a, &film, INFINITY);
-    const uint32_t one = EC_REPLICATES * all.samples; /* samples of a pixel's stride */
+    const uint32_t one = EC_REPLICATES * all.samples; /* samples of a pixel in one stride */
     CHECK(all.count > 100 * EC_REPLICATES);
     memcpy(whole, a.list, sizeof *whole * EC_LIST_WORDS * all.count);
     for (uint32_t strides = 0; strides < 100; strides += strides < 5 ? 1 : 19)
@@ -115,7 +117,7 @@ static case_image render(const ec_scene *scene, bool adaptive, uint32_t spp, dou
     return case_render(scene, &o);
 }
 
-/* Means of renders with independent seeds, and their errors against a long one: stated and real. */
+/* Compares renders with independent seeds with a long one: means, and stated and real errors. */
 static void check_renders(const char *path)
 {
     enum { RENDERS = 16 };
@@ -144,7 +146,7 @@ static void check_renders(const char *path)
     ec_scene_free(scene);
 }
 
-/* Samples until the bound is there, over those of uniform sampling. */
+/* Samples until the bound is reached, relative to uniform sampling. */
 static void check_target(const char *path, double target, double most)
 {
     ec_scene *scene = case_load(path, NULL);
@@ -154,8 +156,8 @@ static void check_target(const char *path, double target, double most)
            (double)adaptive.stats.samples / SIZE / SIZE, ratio);
     CHECK(!strcmp(even.stats.stopped_by, "error") && !strcmp(adaptive.stats.stopped_by, "error"));
     CHECK_MSG(ratio <= most, "%s: %.2f of uniform sampling's samples", path, ratio);
-    /* The pilots are the same: error^2 has to fall by so much from there, and by the gain less, each along a slope of its own. Forecasts end
-     * with a round, at most a quarter later each, which the slopes multiply. */
+    /* Both have the same pilot. From there error^2 must fall to the target, less by the gain, and each along its own slope. Forecasts end
+     * with a round, at most a quarter later each, and the slopes multiply that. */
     const ec_forecast *a = &adaptive.stats.forecast, *e = &even.stats.forecast;
     const ec_film_forecast of_even = {.samples = e->pilot_samples, .slope = e->slope}, of_adaptive = {.samples = a->pilot_samples, .slope = a->slope};
     const double fall = ec_film_forecast_fall(&of_even, e->samples) * adaptive.stats.allotment_gain;
@@ -187,7 +189,7 @@ static void check_bits(const char *path)
     ec_scene_free(scene);
 }
 
-/* On the left an environment as bright as there may be, on the right a wall as dark: nothing overflows, whoever's turn it is. */
+/* The left half sees the brightest possible environment, the right half an almost black wall: no allotment overflows. */
 static void check_overflow(void)
 {
     gltf_writer *w = gltf_new();

@@ -1,13 +1,13 @@
 /* tier: quick */
-/* When the clean picture is looked at, and how many samples it is predicted to take: render/clean_goal.h. On pictures whose error falls by a law, looks are
- * few, the end is found at the first round that has it, and forecasts hold it. */
+/* The goal of a denoised picture (render/clean_goal.h): when its error is looked at, and how many samples are predicted. For pictures whose
+ * error follows a law, looks are few, the end is found in the first round that reaches it, and forecasts contain it. */
 #include "render/clean_goal.h"
 #include "render/goal.h"
 #include "support/test.h"
 
 #define WIDER 1.05 /* high95 over error */
 
-/* Samples a pixel at which a render of such a picture ends; looks: how often it was asked. */
+/* Returns the samples a pixel at which a render of such a picture ends; looks: how often its error was asked for. */
 static double run(double error_at_pilot, double slope, double target, int *looks, ec_clean_range *predicted)
 {
     ec_clean_goal goal = {0};
@@ -38,7 +38,7 @@ static void check_law(double slope)
     CHECK_NEAR(log(predicted.expected / real), 0, 0.1);
 }
 
-/* A goal that goes by the clean picture is met by it, and not before a look. */
+/* A goal for the denoised picture is reached only at a look. */
 static void check_goal(void)
 {
     ec_goal goal = {.pixels = 1000, .replicates = EC_REPLICATES};
@@ -52,7 +52,7 @@ static void check_goal(void)
     CHECK(ec_goal_met(&goal, (ec_mark){80, 1}, true, 8) && !strcmp(ec_goal_met(&goal, (ec_mark){80, 1}, true, 8), "error"));
 }
 
-/* Where there is no bound nothing is predicted, and each doubling is looked at. */
+/* Without a bound nothing is predicted, and there is a look at each doubling. */
 static void check_unknown(void)
 {
     ec_clean_goal goal = {0};

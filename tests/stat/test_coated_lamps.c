@@ -1,13 +1,13 @@
 /* tier: full */
-/* A clear coat lies over emission (KHR_materials_clearcoat, "Emission"): what a lamp sends along v is Le (1 - c F(n . v)) with Schlick's F,
- * f0 = 0.04, about the coat's normal. In closed form where it is seen, and where it lights a floor, however it is found. */
+/* A clear coat over emission (KHR_materials_clearcoat, "Emission"): a lamp emits Le (1 - c F(n . v)) along v, with Schlick's F, f0 = 0.04,
+ * about the coat's normal. Closed forms for a lamp in view and for one that lights a floor, for every way to find its light. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
 #define PI 3.14159265358979323846
 
 static double schlick(double cosine) { return 0.04 + 0.96 * pow(1 - cosine, 5); }
-static const double mean_reflectance = 0.04 + 0.96 / 21; /* of all directions, by the cosine: 2 B(2, 6) = 1 / 21 */
+static const double mean_reflectance = 0.04 + 0.96 / 21; /* cosine-weighted mean over all directions: 2 B(2, 6) = 1 / 21 */
 
 static int coated(gltf_writer *w, double radiance, double coat, const char *more)
 {
@@ -30,7 +30,7 @@ static case_image picture(gltf_writer *w, const char *name, ec_integrator integr
     return image;
 }
 
-/* From an angle to the facet; with `turn`, the mesh's normal is turned away from the facet's by so much, towards the eye. */
+/* Seen at an angle to the facet; with `turn`, the mesh's normal is rotated away from the facet's by this angle, towards the eye. */
 static void seen(double degrees, double turn, double coat, double texel)
 {
     for (int i = 0; i < 3; i++) {
@@ -64,14 +64,14 @@ static gltf_writer *grey_floor(void)
     return w;
 }
 
-/* Under a ceiling without end that shines. */
+/* A point under an infinite ceiling that emits. */
 static void lit_from_everywhere(void)
 {
     for (int s = 0; s < 4; s++) {
         gltf_writer *w = grey_floor();
         gltf_quad(w, coated(w, 2, 0.9, ""), (double[3]){-2e4, 1, -2e4}, (double[3]){4e4, 0, 0}, (double[3]){0, 0, 4e4});
         case_image image = picture(w, "ceiling", EC_INTEGRATOR_PATH, (ec_sample)s, 16384);
-        const double expected = 1.2 * (1 - 0.9 * mean_reflectance); /* 2e-5: floats, for triangles 40 000 times as wide as they are far */
+        const double expected = 1.2 * (1 - 0.9 * mean_reflectance); /* 2e-5: floats, for triangles 40 000 times as wide as their distance */
         for (int c = 0; c < 3; c++)
             CHECK_MSG(fabs(image.mean[c] - expected) <= 4 * image.mean_se[c] + 2e-5 * expected && image.mean_se[c] <= 2e-3 * expected,
                       "strategy %d, channel %d: %.7f +- %.1e, expected %.7f", s, c, image.mean[c], image.mean_se[c], expected);
@@ -80,7 +80,7 @@ static void lit_from_everywhere(void)
     }
 }
 
-/* For whitted and raster a lamp is its centre, and a small body a disc of all angles. */
+/* whitted and raster treat a lamp as a point at its centre, and a small body as a disc that faces all directions. */
 static void lit_from_centres(void)
 {
     for (int i = 0; i < 4; i++) {

@@ -1,13 +1,13 @@
 /* tier: full */
-/* Lamps in one plane, over a floor: what lies on a lamp does not shade it. Expected are form factors in closed form (Lambert 1760). A shadow
- * ray that ends behind a twin of its lamp, or starts under a twin of the floor, is lost: in flat scenes, where rays are grazing, that
- * was 20 % of them. */
+/* Lamps in one plane, over a floor: a copy of a lamp in the lamp's own plane does not shade it. Expected values are form factors in closed
+ * form (Lambert 1760). A shadow ray that ends behind a copy of its lamp, or starts below a copy of the floor, is lost: in flat scenes,
+ * where rays are grazing, that was 20 % of them. */
 #include "support/floor_case.h"
 
 enum { SPP = 1024 };
 
 typedef struct plane {
-    double height, half; /* of the lamps: over the origin, from -half to half */
+    double height, half; /* of the lamps: centred above the origin, from -half to half */
 } plane;
 
 static double form_factor(plane p)
@@ -16,7 +16,7 @@ static double form_factor(plane p)
     return lambert(lamp, 4, up) / PI;
 }
 
-/* down: its front is towards the floor. */
+/* down: the front faces the floor. */
 static void lamp(gltf_writer *w, plane p, double lift, int material, bool down)
 {
     const double side = 2 * p.half, u[3] = {side, 0, 0}, v[3] = {0, 0, side};
@@ -38,7 +38,7 @@ static void check(gltf_writer *w, plane p, int samples, const char *name)
     free(w);
 }
 
-/* Three times the same lamp shines once. */
+/* Three copies of one lamp emit as much as one. */
 static void check_twins(plane p)
 {
     for (int sided = 1; sided <= 2; sided++) {
@@ -49,8 +49,8 @@ static void check_twins(plane p)
     }
 }
 
-/* Something above that looks up, before or after the lamp in the file: 64 ulps of the largest coordinate away, where walls are
- * promised to be opaque; and in the lamp's very plane, where a ray meets whichever rounding puts first and only light samples know. */
+/* An object above the lamp that faces up, before or after the lamp in the file. It is 64 ulps of the largest coordinate away, a distance at
+ * which walls must be opaque; or in the lamp's own plane, where rounding decides which of both a ray meets, and only light samples know. */
 static void check_back_to_back(plane p, bool shines)
 {
     for (int i = 0; i < 4; i++) {

@@ -1,5 +1,5 @@
 /* tier: full */
-/* What `eclat cost` measures, against theory.
+/* Measurements of `eclat cost` against theory.
  *
  * Numbers of samples are fixed here, not times, so that the figures are the same in every run. */
 #include "film/clamp.h"
@@ -59,9 +59,8 @@ static ec_cost_row curve(const ec_scene *scene, const ec_render_options *o, cons
     return s.row;
 }
 
-/* Independent samples: error ~ n^-1/2, whatever else. Owen-scrambled points do better on smooth light, never worse. With a reference
- * that is itself a render, the slope would bend where the reference's noise were not taken out; and what converges to the same picture
- * has no bias. */
+/* With independent samples the error falls as n^-1/2. Owen-scrambled points do better for smooth light, and never worse. The reference is a
+ * render too: the slope would bend if its noise were not subtracted. A render that converges to the same picture has no bias. */
 static void slopes(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("cornell-box/cornell-box.gltf"), NULL);
@@ -77,11 +76,11 @@ static void slopes(void)
     CHECK_MSG(independent.fit.se < 0.02, "%g", independent.fit.se);
     CHECK_MSG(sobol.fit.slope < -0.55, "%g", sobol.fit.slope);
     CHECK(fabs(independent.bias2) < 4 * independent.bias2_se && fabs(sobol.bias2) < 4 * sobol.bias2_se);
-    /* mse = variance / n: another way to the same figure, by the spread of the pictures alone */
+    /* mse = variance / n: the same figure computed from the spread of the pictures alone */
     const ec_cost_point *p = &independent.points[4];
     CHECK_NEAR(independent.variance / p->samples, p->mse, 5 * p->mse_se + 0.02 * p->mse);
 
-    /* Cut at two segments there is no indirect light: a bias that is seen, and a curve that ends near its floor. */
+    /* Two segments leave out indirect light: the bias is detected, and the curve ends near its floor. */
     o.max_depth = 2;
     ec_cost_row direct = curve(scene, &o, &reference, 64);
     ec_render_options full = case_options(32, 32, 1024), cut = full;
@@ -97,7 +96,7 @@ static void slopes(void)
     printf("without indirect light: bias %.4f +- %.4f, from long renders %.4f\n", sqrt(direct.bias2), 0.5 * direct.bias2_se / sqrt(direct.bias2), sqrt(square) / luminance);
     CHECK_NEAR(sqrt(direct.bias2), sqrt(square) / luminance, 0.01);
 
-    /* A clamp: the floor is the bias that a render states itself, which is relative to its own mean. */
+    /* With a clamp, the floor is the bias that a render itself states, relative to its own mean. */
     o.max_depth = full.max_depth;
     full.clamp = o.clamp = 0.5;
     full.clamp_luminance = o.clamp_luminance = 0.5 * reference.mean_luminance;
@@ -117,18 +116,18 @@ static void slopes(void)
     ec_scene_free(scene);
 }
 
-/* A point of a matt floor under a square lamp of side s at height 1, seen by all pixels; a black sheet half way up hides one half of the
- * lamp exactly.
- *   Uniform directions, pdf 1 / 2 pi: X = 2 pi f L cos t where the lamp is seen, else 0. With integrals over the seen half,
+/* A point of a matt floor under a square lamp of side s at height 1; all pixels see this point. A black sheet half way up hides exactly one
+ * half of the lamp.
+ *   Uniform directions, pdf 1 / 2 pi: X = 2 pi f L cos t where the lamp is visible, else 0. With integrals over the visible half,
  *     E X^2 / (E X)^2 = 2 pi I2 / I1^2,   I1 = int cos t dw,  I2 = int cos^2 t dw
- *   and the relative variance is that less 1: as good as 1 / area while the lamp is small.
- *   A direction to the lamp, pdf 1 / W for its solid angle W: X = W f L cos t on the seen half, so
+ *   and the relative variance is that minus 1, proportional to 1 / area while the lamp is small.
+ *   A direction to the lamp, pdf 1 / W for its solid angle W: X = W f L cos t on the visible half, so
  *     E X^2 / (E X)^2 = W I2 / I1^2
- *   which is 2 for a small lamp (half of it is hidden) whatever its area: relative variance 1. */
+ *   which is 2 for a small lamp of any area, since half of it is hidden: relative variance 1. */
 static void predict(double side, double *hemisphere, double *light)
 {
     enum { N = 400 };
-    /* From the point, 1e-3 on the lit side, the sheet's edge is seen at x = -2e-3 on the lamp, and its middle at -1e-3. */
+    /* From the point, 1e-3 on the lit side, the sheet's edge appears at x = -2e-3 on the lamp, and its middle at -1e-3. */
     const double edge = -2e-3, ends[2] = {-side / 2 - 1e-3, side / 2 - 1e-3};
     double I1 = 0, I2 = 0, W = 0;
     for (int seen = 0; seen < 2; seen++)
@@ -150,7 +149,7 @@ static ec_scene *lamp_scene(double side, const char *name)
     gltf_quad(w, gltf_lambert(w, 0.5, 0), (double[3]){-1, 0, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
     gltf_quad(w, gltf_lambert(w, 0, 4), (double[3]){-side / 2, 1, -side / 2}, (double[3]){side, 0, 0}, (double[3]){0, 0, side});
     gltf_quad(w, gltf_lambert(w, 0, 0), (double[3]){-2, 0.5, -2}, (double[3]){2, 0, 0}, (double[3]){0, 0, 4});
-    gltf_camera(w, (double[3]){1e-3, 0.2, 0}, (double[3]){1e-3, 0, 0}, 1e-6); /* a hair on the lit side, beside the edge's image */
+    gltf_camera(w, (double[3]){1e-3, 0.2, 0}, (double[3]){1e-3, 0, 0}, 1e-6); /* slightly on the lit side of the edge's image */
     ec_scene *scene = case_load(gltf_write(w, name), NULL);
     free(w);
     return scene;
@@ -173,7 +172,7 @@ static void area_of_the_light(void)
             strategy s = open_strategy(scene, &o, &reference);
             take_level(&s, 16, 128);
             measured[i][k] = s.row.variance;
-            /* 1024 pixels of 2048 samples: an indicator's variance, known from two million draws; 1 + 1 / (p N) for the mean */
+            /* 1024 pixels of 2048 samples: a variance known from two million draws; 1 + 1 / (p N) for the mean */
             double se = expected[k] * sqrt(2 * (expected[k] + 1) / (1024 * 2048.0)) + 0.002 * expected[k];
             printf("lamp of side %.3f, %-10s variance %.4f, expected %.4f +- %.4f\n", sides[i], k ? "light:" : "hemisphere:", measured[i][k], expected[k], se);
             CHECK_NEAR(measured[i][k], expected[k], 4 * se);
@@ -187,8 +186,8 @@ static void area_of_the_light(void)
     CHECK_NEAR(measured[1][1] / measured[0][1], 1, 0.05);
 }
 
-/* Small lamps on rough plates want light sampling, big lamps on smooth plates BSDF sampling: with as many samples both must not beat
- * their combination on the whole picture, by more than three standard errors, neither by MSE nor by relMSE. */
+/* Small lamps and rough plates suit light sampling, large lamps and smooth plates BSDF sampling. With as many samples, neither may beat
+ * their combination on the whole picture by more than three standard errors, by MSE or by relMSE. */
 static void veach(void)
 {
     enum { ROUNDS = 24, SAMPLES = 16 };

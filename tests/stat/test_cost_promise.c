@@ -1,8 +1,8 @@
 /* tier: full */
-/* What `eclat cost` promises, `eclat render --error` keeps: on four scenes pictures of 1, 2, 4, … samples a pixel are measured as a study
- * does, and a render for an error target stops. The error that the study predicts for as many samples, and the one that the render states,
- * agree within their standard errors: 4 of them, which a right program exceeds in one run of ten thousand, and a tenth for the straight
- * line between two points of the curve. */
+/* `eclat render --error` agrees with `eclat cost`. On four scenes, pictures of 1, 2, 4, … samples a pixel are measured as in a study, and a
+ * render stops at an error target. The error that the study predicts for as many samples, and the error that the render states, agree
+ * within 4 of their standard errors, which a correct program exceeds in one run of ten thousand, and a tenth for the straight line between
+ * two points of the curve. */
 #include "support/cost_reference.h"
 
 enum { PICTURES = 12, MOST = 256, REFERENCE = 2048 };
@@ -38,7 +38,7 @@ static ec_cost_row measure(ec_cost_study *study)
     return row;
 }
 
-/* Squared error after so many samples, between two points of the curve; and its relative standard error. */
+/* Squared error after so many samples, interpolated between two points of the curve; and its relative standard error. */
 static double curve_at(const ec_cost_row *row, double samples, double *se)
 {
     uint32_t i = 1;

@@ -1,7 +1,7 @@
 /* tier: quick */
-/* The tally of `eclat cost` on made-up pictures whose bias and noise are known, with a reference as noisy as they are: 60 studies of
- * 4000 pixels, and what they find must scatter about the truth by as much as they state. Fixed seed; each check would fail by chance
- * once in ten thousand seeds at most. */
+/* The tally of `eclat cost` on synthetic pictures of known bias and noise, with a reference as noisy as they are. In 60 studies of 4000
+ * pixels, the estimates must scatter about the truth by their stated errors. The seed is fixed; each check would fail by chance with at
+ * most one of ten thousand seeds. */
 #include "cost/cost_internal.h"
 #include "support/test.h"
 
@@ -102,7 +102,7 @@ static void figures_are_honest(double bias)
     CHECK_NEAR(mean(&spread), noise, 4 * sqrt(variance(&spread) / STUDIES));
 }
 
-/* relMSE: each pixel by itself + 0.01, here of the noisy reference. With a reference without noise it is known exactly. */
+/* relMSE: each pixel relative to itself + 0.01, here of the noisy reference. Without noise in the reference it is known exactly. */
 static void relative_error(void)
 {
     static float rgb[3 * PIXELS];
@@ -120,12 +120,12 @@ static void relative_error(void)
     ec_cost_tally_add(&tally, rgb);
     ec_cost_tally_add(&tally, rgb);
     ec_cost_tally_end(&tally, &row);
-    CHECK_NEAR(row.points[0].relmse, 0.01, 1e-8); /* 0.1 (y + 0.01) off */
+    CHECK_NEAR(row.points[0].relmse, 0.01, 1e-8); /* 0.1 (y + 0.01) of bias */
     ec_cost_tally_free(&tally);
     ec_cost_reference_free(&reference);
 }
 
-/* Curves known in full: where is 5, 2, 1, 0.5 %? */
+/* Fully known curves: times to 5, 2, 1 and 0.5 %. */
 static void times(void)
 {
     ec_cost_row row = {.point_count = 3, .unit = 4, .rung.unbiased = true, .variance = 0.01};
@@ -137,19 +137,19 @@ static void times(void)
         CHECK_NEAR(row.seconds_to[i], 3 * 0.01 / (ec_cost_targets[i] * ec_cost_targets[i]), 1e-6 * row.seconds_to[i]);
         CHECK(row.extrapolated[i] == (i > 0));
     }
-    row.rung.unbiased = false; /* of a floor of 1.5 %: 2 % in finite time, 1 % never */
+    row.rung.unbiased = false; /* with a floor of 1.5 %: 2 % in finite time, 1 % never */
     row.biased = true;
     row.bias2 = 0.015 * 0.015;
     row.bias2_se = 1e-6;
     ec_cost_conclude(&row);
     CHECK_NEAR(row.seconds_to[1], 3 * 0.01 / (0.02 * 0.02 - row.bias2), 1e-6 * row.seconds_to[1]);
     CHECK(isinf(row.seconds_to[2]) && isinf(row.seconds_to[3]));
-    row.biased = false; /* it may have a floor of up to 1.7 %: then under that nothing is known */
+    row.biased = false; /* the floor may be up to 1.7 %: nothing is known below that */
     row.bias2 = 1e-4;
     row.bias2_se = 1e-4;
     ec_cost_conclude(&row);
     CHECK(row.seconds_to[1] > 0 && isfinite(row.seconds_to[1]) && isnan(row.seconds_to[2]));
-    row.points[2].mse_se = row.points[2].mse; /* noise: no figure is made of it */
+    row.points[2].mse_se = row.points[2].mse; /* only noise: gives no figure */
     row.rung.unbiased = true;
     ec_cost_conclude(&row);
     CHECK(isnan(row.efficiency) && isnan(row.seconds_to[3]) && isnan(row.fit.slope));

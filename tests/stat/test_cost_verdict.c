@@ -1,11 +1,11 @@
 /* tier: quick */
-/* What a study says: no winner without evidence, and the sentence agrees with the column's best. On made-up rows. */
+/* Verdicts of a study on synthetic rows: no winner without evidence, and the sentence names the best of the column. */
 #include "cost/cost.h"
 #include "support/test.h"
 
 enum { ROWS = 5 };
 
-/* A curve of independent samples: error 10 % after a second, with this noise of its squared error. */
+/* A curve of independent samples: error 10 % after a second; `noise` is that of its squared error. */
 static ec_cost_row make(const char *id, const char *group, double time, double time_se, double noise)
 {
     ec_cost_row row = {.state = EC_COST_MEASURED, .rung = {.group = group, .unbiased = true}, .relative_time = time, .relative_time_se = time_se, .point_count = 4, .unit = 8};
@@ -48,29 +48,29 @@ int main(void)
     CHECK(says(&study, "An error of 5 % at 64x48 pixels takes 4 s with the default of eclat render. It is the best of 3 ways to render whose time is known"));
     CHECK(says(&study, "without no-indirect 27.0 %."));
     CHECK(says(&study, "No time takes raster under 30.0 %."));
-    /* With 1 % of noise: it is one. */
+    /* With 1 % of noise: a winner. */
     rows[1] = make("rr-0.5", "roulette", 0.9, 0.01, 0.01);
     CHECK(ec_cost_best(&study, to_5) == 1);
     CHECK(says(&study, "With rr rr-0.5 it takes 0.90 ± 0.02 times as long, the least of 3 ways"));
-    /* Where the time is extrapolated the slope's noise counts too, and without a slope there is no evidence. */
+    /* For an extrapolated time the slope's noise counts too; without a slope there is no evidence. */
     rows[0].fit = rows[1].fit = (ec_cost_fit){-0.5, 0.001};
     CHECK(ec_cost_best(&study, to_5 + 1) == 1);
     rows[1].fit.se = 0.05;
     CHECK(ec_cost_best(&study, to_5 + 1) == 0);
     rows[1].fit.se = NAN;
     CHECK(ec_cost_best(&study, to_5 + 1) == 0 && ec_cost_best(&study, to_5) == 1);
-    /* Structures have the default's bits, so their times alone are compared. */
+    /* Structures give the default's bits, so only their times are compared. */
     rows[2].relative_time = 0.8;
     CHECK(ec_cost_best(&study, to_5) == 2);
     CHECK(says(&study, "With bvh2 it takes 0.80 ± 0.02 times as long"));
     rows[2].same_bits = false;
     CHECK(ec_cost_best(&study, to_5) == 1);
-    rows[1].unmet = true; /* its figures are too good */
+    rows[1].unmet = true; /* implausibly good figures */
     CHECK(ec_cost_best(&study, to_5) == 0 && ec_cost_best(&study, EC_COST_TIME) == 0);
-    rows[1].relative_time_se = NAN; /* of too few turns */
+    rows[1].relative_time_se = NAN; /* too few repetitions */
     rows[1].unmet = false;
     CHECK(ec_cost_best(&study, to_5) == 0);
-    /* The default's own errors are not known. */
+    /* The errors of the default itself are unknown. */
     for (int i = 0; i < EC_COST_TARGETS; i++) rows[0].seconds_to[i] = NAN;
     CHECK(ec_cost_best(&study, to_5) == UINT32_MAX);
     CHECK(says(&study, "the budget was too small to tell an error of 5 %"));

@@ -1,12 +1,12 @@
 /* tier: long */
-/* Do the intervals of single pixels hold the truth as often as they say? Each scene is rendered 100 times at 256 samples a pixel;
- * the truth is the mean of the other 99 renders. Counted are values (pixel and channel) that are not exact and
- * whose pixel is not flagged as heavy-tailed: 94 to 96 % of them have to be held.
+/* Checks that the intervals of single pixels contain the truth as often as they claim. Each scene is rendered 100 times at 256 samples a
+ * pixel. The truth for each render is the mean of the other 99. The test counts values (pixel and channel) that are not exact and whose
+ * pixel is not flagged as heavy-tailed: intervals must contain 94 to 96 % of them.
  *
- * The truth's own noise, a hundredth of the render's variance, makes for 0.1 % too few. The count itself is good to 0.1 %.
+ * The truth's own noise, a hundredth of the render's variance, lowers the count by 0.1 %. The count itself is precise to 0.1 %.
  *
- * `lamps` has a bulb smaller than a pixel that lights a whole room from behind a shade: 14 pixels of 15 are flagged, and the few
- * others, of which no neighbour has met the worst paths, hold the truth less often: 91 %. That may not get worse. */
+ * `lamps` has a bulb smaller than a pixel that lights a whole room from behind a shade: 14 of 15 pixels are flagged. Of the few others,
+ * whose neighbours have not met the worst paths, only 91 % contain the truth. That may not get worse. */
 #include "film/interval.h"
 #include "film/statistics.h"
 #include "support/batches.h"
@@ -34,7 +34,7 @@ static void count_values(const case_batches *renders, uint32_t i, const ec_film 
     for (uint64_t k = 0; k < renders->values; k++) {
         const ec_pixel *p = &all[k / 3];
         const double truth = case_truth_without(renders, i, k), mean = p->mean[k % 3];
-        if (p->m2[k % 3] <= 1e-10 * mean * mean) continue; /* exact but for rounding */
+        if (p->m2[k % 3] <= 1e-10 * mean * mean) continue; /* exact except for rounding */
         int is_held = low[k] <= truth && truth <= high[k];
         sum->values++;
         sum->kept += !heavy[k / 3];
@@ -68,7 +68,7 @@ static void check_case(const coverage_case *c)
     printf("%-26s %6.2f %% of %5.1f %% unflagged (t-interval %6.2f %%), flagged %6.2f %%\n", c->name, held, kept,
            100.0 * (double)sum.plain_held / (double)sum.kept, 100.0 * (double)sum.flagged_held / (double)(sum.values - sum.kept));
     CHECK_MSG(held >= c->least && held <= c->most, "%s: %.2f %% of unflagged values", c->name, held);
-    CHECK_MSG(kept >= c->least_kept, "%s: only %.1f %% are unflagged", c->name, kept); /* flagging all would be easy */
+    CHECK_MSG(kept >= c->least_kept, "%s: only %.1f %% are unflagged", c->name, kept); /* flagging all pixels would be easy */
     case_batches_free(&batches);
     ec_scene_free(scene);
 }

@@ -1,9 +1,9 @@
 /* tiers: quick, full */
-/* Direct light against closed forms: Lambert's formula, inverse squares, environments. Scenes are made here, so that every
- * number in a check stands beside its derivation. (Lamps that touch what they light: test_near_lamps.c.) */
+/* Direct light against closed forms: Lambert's formula, inverse squares, environments. Scenes are made here, so that every number in a
+ * check is beside its derivation. (Lamps that touch the surface they light: test_near_lamps.c.) */
 #include "support/floor_case.h"
 
-/* Radiance 1 from triangles on a Lambert floor of albedo 0.5; numbers from Nori's polylum.py. */
+/* Radiance 1 from triangles on a Lambertian floor of albedo 0.5; numbers from Nori's polylum.py. */
 static void check_polylum(uint32_t spp)
 {
     static const double expected[3] = {0.0898394, 0.02292, 0.0534198};
@@ -14,7 +14,7 @@ static void check_polylum(uint32_t spp)
     }
 }
 
-/* Triangles anywhere above the floor, by a fixed sequence. */
+/* Triangles anywhere above the floor, from a fixed sequence. */
 static void check_random_triangles(void)
 {
     uint32_t state = 12345;
@@ -37,14 +37,14 @@ static void check_random_triangles(void)
         gltf_triangles(w, gltf_lambert(w, 0, 2), &(gltf_mesh){3, positions, NULL, NULL, NULL});
         char name[64];
         snprintf(name, sizeof name, "direct-triangle-%d", i);
-        double expected = faces_floor ? 0.6 * 2 / PI * lambert((const double(*)[3])p, 3, up) : 0; /* dark from behind */
+        double expected = faces_floor ? 0.6 * 2 / PI * lambert((const double(*)[3])p, 3, up) : 0; /* no light from behind */
         check_point(gltf_write(w, name), NULL, expected, SKILLED, 8192, 5e-3);
         free(w);
     }
 }
 
-/* A bulb of eight triangles, of which those that face away are never sampled: beside the point, over it, and so near that some of it is under the
- * horizon of others. One side is bright. */
+/* A bulb of eight triangles, whose sides that face away are never sampled. It is beside the point, above it, or so near that some triangles
+ * are below the horizon of others. One side is bright. */
 static void check_bulb(int i)
 {
     static const double middles[3][3] = {{0.4, 1.2, -0.3}, {0, 0.7, 0}, {0.9, 0.35, 0.2}};
@@ -60,7 +60,7 @@ static void check_bulb(int i)
             for (int k = 0; k < 3; k++) p[v][k] = middle[k] + (k == (is_odd ? 2 - v : v) ? sign[k] * r : 0);
         for (int v = 0; v < 9; v++) positions[v] = (float)p[v / 3][v % 3];
         gltf_triangles(w, materials[side == 7], &(gltf_mesh){3, positions, NULL, NULL, NULL});
-        double facing = 0; /* the plane's side of the origin */
+        double facing = 0; /* the side of the plane on which the origin is */
         for (int k = 0; k < 3; k++) facing += sign[k] * (middle[k] + sign[k] * r / 3);
         if (facing < 0) expected += 0.6 * (side == 7 ? 5 : 2) / PI * lambert((const double(*)[3])p, 3, up);
     }
@@ -99,9 +99,9 @@ static void check_punctual(void)
     check_point(gltf_write(w, "direct-point-out-of-range"), NULL, 0, ALL, 16, 1e-5);
     free(w);
 
-    /* Spots turned away by 0.2 rad (within the axis' plane of y): inside the inner cone, between, outside. */
+    /* Spots rotated away by 0.2 rad (within the plane of axis and y): inside the inner cone, between both cones, outside. */
     static const double inner[3] = {0.3, 0.1, 0.05}, outer[3] = {0.5, 0.4, 0.1};
-    double axis[3], length = 3, side[3] = {-2 / sqrt(5), 1 / sqrt(5), 0}; /* perpendicular to towards */
+    double axis[3], length = 3, side[3] = {-2 / sqrt(5), 1 / sqrt(5), 0}; /* perpendicular to `towards` */
     for (int i = 0; i < 3; i++) {
         char json[160], name[64];
         for (int k = 0; k < 3; k++) axis[k] = cos(0.2) * towards[k] / length + sin(0.2) * side[k];
@@ -116,7 +116,7 @@ static void check_punctual(void)
         ec_render_options o = case_options(8, 8, 16);
         o.max_depth = 2;
         case_image image = case_render(scene, &o);
-        /* The extension asks for an angular attenuation squared; cosines near each other cost digits. */
+        /* The extension defines an angular attenuation, squared; close cosines lose digits. */
         CHECK_NEAR(image.mean[1], 90 * plain * t * t, 2e-5 * 90 * plain);
         printf("%-40s %.7f, expected %.7f\n", name, image.mean[1], 90 * plain * t * t);
         case_free(&image);
@@ -124,15 +124,15 @@ static void check_punctual(void)
         free(w);
     }
 
-    w = floor_scene(0.5); /* 5 lx on a plane turned away by cos = 2/3 */
+    w = floor_scene(0.5); /* 5 lx on a plane inclined by cos = 2/3 */
     gltf_light(w, (double[3]){0, 0, 0}, towards, "{\"type\":\"directional\",\"intensity\":5}");
     check_point(gltf_write(w, "direct-directional"), NULL, 0.6 / PI * 5 * 2 / 3, ALL, 16, 1e-5);
-    gltf_quad(w, 0, (double[3]){0.2, 1, 0.7}, (double[3]){0.6, 0, 0}, (double[3]){0, 0, 0.6}); /* in its way */
+    gltf_quad(w, 0, (double[3]){0.2, 1, 0.7}, (double[3]){0.6, 0, 0}, (double[3]){0, 0, 0.6}); /* occludes the light */
     check_point(gltf_write(w, "direct-directional-blocked"), NULL, 0, ALL, 16, 1e-5);
     free(w);
 }
 
-/* A single-sided emitter: its front shines, camera rays pass through its back, and it lights nothing behind itself. */
+/* A single-sided emitter: its front shines, camera rays pass through its back, and it lights nothing behind it. */
 static void check_single_sided(void)
 {
     for (int turned = 0; turned < 2; turned++) {
@@ -144,28 +144,27 @@ static void check_single_sided(void)
             gltf_quad(w, lamp, (double[3]){-1, 1, 1}, (double[3]){2, 0, 0}, (double[3]){0, 0, -2});
         else
             gltf_quad(w, lamp, (double[3]){-1, 1, -1}, (double[3]){2, 0, 0}, (double[3]){0, 0, 2});
-        /* From above: the lamp itself, or through its back the floor that it lights from h = 1. */
+        /* From above the camera sees the lamp itself, or through its back the floor that it lights from h = 1. */
         check_point(gltf_write(w, turned ? "direct-lamp-front" : "direct-lamp-back"), NULL, turned ? 3 : 0.6 * 3 * 0.5541264, SKILLED,
                     8192, 2e-3);
         free(w);
     }
 }
 
-/* A plane that sees nothing but a constant environment L: albedo L. */
+/* A plane that sees only a constant environment L: albedo L. */
 static void check_constant_environment(void)
 {
     gltf_writer *w = floor_scene(0.5);
     check_point(gltf_write(w, "direct-environment"), "2,2,2", 0.6 * 2, ALL, 1024, 2e-3);
-    /* Under an infinite-looking half wall: a wall of height 1 along x at z = -1 hides part of the sky. For a long wall the
-     * hidden part of the irradiance is (1 - d / sqrt(d^2 + h^2)) / 2; here the wall is 2000 long and black:
-     * the ends cost less than 1e-6. */
+    /* A wall of height 1 along x at z = -1 hides part of the sky. For an infinite wall the hidden part of the irradiance is (1 - d /
+     * sqrt(d^2 + h^2)) / 2. Here the wall is 2000 long and black: the ends change less than 1e-6. */
     gltf_quad(w, gltf_lambert(w, 0, 0), (double[3]){-1000, 0, -1}, (double[3]){2000, 0, 0}, (double[3]){0, 1, 0});
     check_point(gltf_write(w, "direct-environment-wall"), "2,2,2", 0.6 * 2 * 0.85355339, ALL, 4096, 2e-3);
     free(w);
 }
 
-/* An environment of `background` with one texel of 1000 at (tx, ty) of 64 x 32. Bilinear look-up makes it a pyramid over
- * 2 x 2 texels: E = pi background + sum of (L - background) cos d(omega) over it, by midpoint quadrature. */
+/* An environment of `background` with one texel of 1000 at (tx, ty) of 64 x 32. Bilinear interpolation makes it a pyramid over 2 x 2
+ * texels: E = pi background + sum of (L - background) cos d(omega) over it, by midpoint quadrature. */
 static void check_hot_texel(uint32_t tx, uint32_t ty, float background)
 {
     enum { WIDTH = 64, HEIGHT = 32, STEPS = 400 };
@@ -205,7 +204,7 @@ int main(void)
     check_random_triangles();
     check_single_sided();
     check_hot_texel(20, 6, 0.1f);
-    check_hot_texel(0, 10, 0); /* across the seam */
-    check_hot_texel(40, 15, 0); /* half of it under the horizon */
+    check_hot_texel(0, 10, 0); /* across the map's seam */
+    check_hot_texel(40, 15, 0); /* half of it is below the horizon */
     TEST_END();
 }

@@ -1,6 +1,6 @@
 /* tier: full */
-/* KHR_materials_dispersion: where a prism sends each line, by Snell's law; and each channel of a picture with dispersion is that of a
- * picture whose glass has that channel's index in all. */
+/* KHR_materials_dispersion: the direction in which a prism refracts each line, by Snell's law. And each channel of a picture with
+ * dispersion equals that channel of a picture whose glass has the channel's index for all. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
@@ -20,23 +20,23 @@ static int add_glass(gltf_writer *w, double ior, double dispersion, double rough
                     "\"KHR_materials_dispersion\":{\"dispersion\":%.9g}}}", roughness, ior, dispersion);
 }
 
-static double passed(double cosine, double n) /* by Fresnel, of light that comes at this cosine from air */
+static double passed(double cosine, double n) /* Fresnel transmittance for light from air at this cosine */
 {
     double beyond = sqrt(1 - (1 - cosine * cosine) / (n * n));
     double s = (cosine - n * beyond) / (cosine + n * beyond), p = (n * cosine - beyond) / (n * cosine + beyond);
     return 1 - (s * s + p * p) / 2;
 }
 
-/* One ray into a prism of 60 degrees at the angle of least deviation of the line d. Each line must meet a strip that emits its colour
- * alone, half as wide as the lines lie apart, and bring what both faces let pass. max_depth leaves out what is reflected inside. */
+/* One ray enters a prism of 60 degrees at the angle of minimum deviation of the line d. Each line must hit a strip that emits only its
+ * colour, half as wide as the distance between lines, with the light that both faces transmit. max_depth leaves out internal reflections. */
 static void prism(double n, double dispersion)
 {
     const double rad = 3.14159265358979323846 / 180, apex = 60 * rad, incidence = asin(n * sin(apex / 2)), far = 40;
     double expected[3], way[3][2];
     gltf_writer *w = gltf_new();
     int glass = add_glass(w, n, dispersion, 0);
-    double into = incidence - apex / 2; /* over the horizon */
-    /* Faces through the apex (0, 1), down to y = -1: x = -+2 tan(apex / 2); outwards. */
+    double into = incidence - apex / 2; /* above the horizon */
+    /* Faces through the apex (0, 1) down to y = -1, outwards: x = -+2 tan(apex / 2). */
     double half = 2 * tan(apex / 2);
     gltf_quad(w, glass, (double[3]){0, 1, -5}, (double[3]){-half, -2, 0}, (double[3]){0, 0, 10});
     gltf_quad(w, glass, (double[3]){0, 1, -5}, (double[3]){0, 0, 10}, (double[3]){half, -2, 0});
@@ -44,8 +44,9 @@ static void prism(double n, double dispersion)
     double foot[2] = {-half / 2, 0};
     for (int k = 0; k < 3; k++) {
         double index = index_of(k, n, dispersion), one = asin(sin(incidence) / index), two = apex - one, out = asin(index * sin(two));
-        double inside = into - (incidence - one); /* over the horizon; the left face's inner normal points apex / 2 below it */
-        /* From the foot to the right face, x = half / 2 (1 - y), and away, out off its normal, which is apex / 2 over the horizon. */
+        double inside = into - (incidence - one); /* above the horizon; the left face's inner normal points apex / 2 below it */
+        /* The ray goes from the base to the right face, x = half / 2 (1 - y), and leaves it away from its normal, which points apex / 2
+         * above the horizon. */
         double t = (half / 2 * (1 - foot[1]) - foot[0]) / (cos(inside) + half / 2 * sin(inside));
         double x = foot[0] + t * cos(inside), y = foot[1] + t * sin(inside), leaves = apex / 2 - out;
         way[k][0] = x + far * cos(leaves), way[k][1] = y + far * sin(leaves);
@@ -109,7 +110,7 @@ static void channels_are_their_own(void)
     for (int k = 0; k < 3; k++) {
         scene = balls(index_of(k, 1.5, 2), 0);
         case_image plain = picture(scene, 1024, 10 + (uint64_t)k, EC_SAMPLE_MIS, 8);
-        for (size_t i = 0; i < 3 * 256; i++) /* the other channels: as they are */
+        for (size_t i = 0; i < 3 * 256; i++) /* the other channels stay as they are */
             if (i % 3 != (size_t)k) plain.rgb[i] = parted.rgb[i], plain.se[i] = parted.se[i];
         char name[48];
         snprintf(name, sizeof name, "channel %d and index %.4f", k, index_of(k, 1.5, 2));
@@ -124,7 +125,7 @@ static void channels_are_their_own(void)
     case_free(&few_wide);
 }
 
-/* A block that reflects all of its middle colour, in white light: the index of blue must not have it return more than comes in. */
+/* A block that reflects all of its middle colour, in white light: with the index of blue it must not return more light than arrives. */
 static void reflects_no_more(void)
 {
     gltf_writer *w = gltf_new();

@@ -1,6 +1,6 @@
 /* tiers: full, long */
-/* Random scenes: does the scan miss an effect? A few tens of scenes of few sets of effects, half with multiple
- * scattering and a smooth terminator; test_effects_fuzz_many.c has more. */
+/* Random scenes, to find effects that the scan misses. A few tens of scenes with few sets of effects, half of them with multiple scattering
+ * and a smooth terminator; test_effects_fuzz_many.c has more. */
 #include "support/effect_fuzz.h"
 
 int main(void)
@@ -14,7 +14,7 @@ int main(void)
     const int many = test_tier("long") ? 15 : 8;
     int lit = 0;
     for (uint64_t i = 0; i < 2; i++) lit += ef_run(1000 * i, many, EF_SHARED, EC_INTEGRATOR_PATH, (ec_scattering)i, sets[i]);
-    for (uint64_t i = 0; i < 2; i++) /* whether there are panes or bodies in bodies is for the scan alone to find here */
+    for (uint64_t i = 0; i < 2; i++) /* only the scan decides here about panes and nested bodies */
         lit += ef_run(5000 + i, 1, EF_EXACT, EC_INTEGRATOR_PATH, (ec_scattering)i, ef_few(5000 + i) | (i ? EC_FEATURE_TRANSMISSION : 0));
     CHECK_MSG(lit == 2 * many + 2, "only %d of %d scenes are lit", lit, 2 * many + 2);
     TEST_END();

@@ -1,5 +1,5 @@
 /* tier: long */
-/* Hundreds of random scenes: what they nearly call for, through each integrator, and each with its own kernels. */
+/* Hundreds of random scenes with all the effects that they nearly need, in each integrator, and with kernels of their own. */
 #include "support/effect_fuzz.h"
 
 int main(void)
@@ -7,7 +7,7 @@ int main(void)
     const ec_integrator integrators[] = {EC_INTEGRATOR_PATH, EC_INTEGRATOR_WHITTED, EC_INTEGRATOR_PATH, EC_INTEGRATOR_RASTER};
     int lit = 0;
     for (uint64_t i = 0; i < 8; i++) {
-        uint64_t set = ec_random_mix(2 * i + 1) & ec_random_mix(2 * i + 2) & EC_FEATURE_ALL; /* a quarter of them, and what these need */
+        uint64_t set = ec_random_mix(2 * i + 1) & ec_random_mix(2 * i + 2) & EC_FEATURE_ALL; /* a quarter of the effects, and those that these need */
         lit += ef_run(10000 + 1000 * i, 25, EF_SHARED, integrators[i % 4], i % 4 ? EC_SCATTERING_MULTIPLE : EC_SCATTERING_SINGLE, set);
     }
     for (uint64_t seed = 50000; seed < 50100; seed++)

@@ -1,10 +1,10 @@
 /* tier: full */
-/* Environments that are turned and made brighter: against maps that are drawn that way. */
+/* Environments with --env-rotate and --env-strength, against maps that are drawn rotated and brighter. */
 #include "support/floor_case.h"
 
 enum { WIDTH = 16, HEIGHT = 8, TEXELS = WIDTH * HEIGHT };
 
-/* A map with a bright texel, its columns moved to the left. */
+/* A map with a bright texel, its columns shifted to the left. */
 static void set_map(ec_scene *scene, int moved)
 {
     ec_environment *e = &scene->environment;
@@ -28,7 +28,7 @@ static ec_render_options options(ec_sample sample)
     return o;
 }
 
-/* What the camera sees of the sky itself has no noise but that of pixels' own width, and the same numbers on both sides. */
+/* The camera sees the sky itself. Noise comes only from the width of pixels, and both sides have the same random numbers. */
 static void check_seen(ec_scene *scene, ec_scene *other, const char *what)
 {
     ec_render_options o = options(EC_SAMPLE_MIS);
@@ -37,7 +37,7 @@ static void check_seen(ec_scene *scene, ec_scene *other, const char *what)
     double worst = 0;
     for (int i = 0; i < 3 * 16 * 16; i++) worst = fmax(worst, fabs((double)a.rgb[i] - b.rgb[i]));
     printf("%s: seen itself, off by %.1e of 40\n", what, worst);
-    CHECK_MSG(worst < 40 * 16 * 1e-6, "%s: off by %g", what, worst); /* u is good to some 1e-6, a texel is 1 / 16 of it wide */
+    CHECK_MSG(worst < 40 * 16 * 1e-6, "%s: off by %g", what, worst); /* u is precise to about 1e-6, and a texel is 1 / 16 wide */
     case_free(&a);
     case_free(&b);
 }
@@ -57,7 +57,7 @@ int main(void)
     gltf_writer *w = gltf_new();
     int grey = gltf_lambert(w, 0.6, 0);
     gltf_quad(w, grey, (double[3]){-3, 0, 3}, (double[3]){6, 0, 0}, (double[3]){0, 0, -6});
-    gltf_quad(w, grey, (double[3]){0.5, 0, -0.5}, (double[3]){0, 0, 1}, (double[3]){0, 1, 0}); /* its shadow shows where light is from */
+    gltf_quad(w, grey, (double[3]){0.5, 0, -0.5}, (double[3]){0, 0, 1}, (double[3]){0, 1, 0}); /* its shadow shows the light's direction */
     gltf_camera(w, (double[3]){0, 3, 0}, (double[3]){0, 0, 0}, 0.8);
     gltf_camera(w, (double[3]){0, 0.5, -4}, (double[3]){0.3, 1.5, -5}, 1.2);
     const char *path = gltf_write(w, "environment-turn");
@@ -71,12 +71,12 @@ int main(void)
     check_lit(turned, drawn, EC_SAMPLE_MIS, "turned by 90 degrees, mis");
     check_lit(turned, drawn, EC_SAMPLE_LIGHT, "turned by 90 degrees, light");
     check_lit(turned, drawn, EC_SAMPLE_BSDF, "turned by 90 degrees, bsdf");
-    ec_scene_adjust_environment(turned, -67.5, 1, NULL); /* on top of that */
+    ec_scene_adjust_environment(turned, -67.5, 1, NULL); /* in addition to that */
     set_map(drawn, 1);
     check_seen(turned, drawn, "turned twice");
 
     memcpy(turned->environment.turn, (float[9]){0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f}, sizeof turned->environment.turn);
-    check_lit(turned, turned, EC_SAMPLE_LIGHT, "turned about any axis, light"); /* directions to the map and back agree */
+    check_lit(turned, turned, EC_SAMPLE_LIGHT, "turned about any axis, light"); /* the functions from directions to the map and back agree */
     check_lit(turned, turned, EC_SAMPLE_BSDF, "turned about any axis, bsdf");
 
     set_map(turned, 1);

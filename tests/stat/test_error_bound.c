@@ -1,13 +1,13 @@
 /* tiers: full, long */
-/* The stated error against the real one: of 200 renders with different seeds the real relative RMS error, against a converged
- * picture, must lie under error_bound in at least 95 % (190; it aims at 198), and `error` must equal it on average. So must relMSE of the noise equal
- * relMSE as measured where tails are not heavy (see film.h); the other ratios are printed.
+/* The stated error against the real one. In 200 renders with different seeds, the real relative RMS error, measured against a converged
+ * picture, must be below error_bound in at least 95 % (190; the aim is 198), and `error` must equal it on average. relMSE of the noise must
+ * equal measured relMSE where tails are not heavy (see film.h); other ratios are printed.
  *
- * Real error: sqrt(mean_p (Y_p - R_p)^2) / mean R in luminance, by ec_measure_difference, as `eclat compare` does. R has an error of
- * its own, independent of the render's, so its share is taken off the mean square.
+ * The real error is sqrt(mean_p (Y_p - R_p)^2) / mean R in luminance, by ec_measure_difference, as in `eclat compare`. The error of R is
+ * independent of the render's, so its share is subtracted from the mean square.
  *
- * The first case takes 200 seeds and a reference of 512 times the samples. The others take 200 renders from one
- * session (support/batches.h), and the other 199 as the reference. */
+ * The first case has 200 seeds and a reference of 512 times the samples. The others have 200 renders from one session (support/batches.h),
+ * each with the other 199 as its reference. */
 #include "film/difference.h"
 #include "support/batches.h"
 
@@ -17,7 +17,7 @@ typedef struct bound_case {
     const char *name, *path, *environment;
     uint32_t width, height, spp, max_depth;
     ec_sampler_type sampler;
-    double relmse_tolerance; /* of the ratio of stated to real; 0: heavy tails, printed only */
+    double relmse_tolerance; /* tolerance of the ratio of stated to real; 0: heavy tails, printed only */
     const char *tier;
 } bound_case;
 
@@ -34,7 +34,7 @@ static ec_render_options options_of(const bound_case *c)
     return o;
 }
 
-/* own_share: of the mean squares, the part that is the reference's own noise. */
+/* own_share: the part of the mean squares that is the reference's own noise. */
 static void add_render(const float *rgb, const ec_film_error *error, const ec_measured *reference, double own_share, tally *sum)
 {
     ec_measured image = {.width = reference->width, .height = reference->height, .rgb = rgb};
@@ -104,7 +104,7 @@ static void check_case(const bound_case *c, int by_seeds)
     printf("%-25s %4u samples: error %5.2f %%, stated / real %.3f, relMSE %.3f, bound / stated %.3f, under it %d of %d\n", c->name,
            c->spp, 100 * sqrt(sum.real_square), ratio, relmse, sum.bound / sqrt(sum.stated_square), sum.covered, RENDERS);
     CHECK_MSG(sum.covered >= LEAST, "%s: %d of %d under the bound", c->name, sum.covered, RENDERS);
-    /* The mean of 200 squares of relative spread about sqrt(2 / nu), nu of the order of 100, is good to 1 %. */
+    /* The mean of 200 squares has a relative error of sqrt(2 / nu) each, nu about 100: 1 % in all. */
     CHECK_MSG(fabs(ratio - 1) < 0.04, "%s: stated / real error %.4f", c->name, ratio);
     CHECK_MSG(c->relmse_tolerance == 0 || fabs(relmse - 1) < c->relmse_tolerance, "%s: stated / real relMSE %.4f", c->name, relmse);
     ec_scene_free(scene);

@@ -1,10 +1,10 @@
 /* tier: long */
-/* `eclat compare` on renders of one scene that differ in their seeds alone: how often does it say that they differ by more than
- * noise? Stated is at most 1 in 100 at p < 0.01, and 5 in 100 below 0.05. And a picture one per cent brighter is found.
+/* `eclat compare` on renders of one scene that differ only in their seeds: counts how often it reports more than noise. It claims at most 1
+ * in 100 at p < 0.01, and 5 in 100 below 0.05. A picture one per cent brighter must be found.
  *
- * Each scene is rendered 100 times with 256 samples, of which pairs are made: one against one, 50 pairs, and one
- * against the replicates of twenty others joined, 100 pairs, twenty to a reference. Over all scenes more than the stated share and three standard errors
- * would be a fault; in one scene 9 % below 0.05 and 4 % below 0.01, which 150 pairs exceed by chance in one case of 100. */
+ * Each scene is rendered 100 times with 256 samples. Pairs are one against one (50), and one against the replicates of twenty others joined
+ * (100, twenty to a reference). Over all scenes, more than the claimed share and three standard errors is a fault; in one scene 9 % below
+ * 0.05 and 4 % below 0.01, which 150 pairs exceed by chance in one case of 100. */
 #include "film/noise_test.h"
 #include "support/batches.h"
 
@@ -13,7 +13,7 @@ enum { SPP = 256, LONG = 20, ALL = 100 };
 typedef struct alarm_case {
     const char *name, *path, *environment;
     uint32_t width, height, max_depth;
-    uint32_t bright_renders; /* as many as it takes for 1 % to be 4 standard errors of the mean or more; 0: too noisy for that */
+    uint32_t bright_renders; /* so many that 1 % is at least 4 standard errors of the mean; 0: too noisy for that */
 } alarm_case;
 
 typedef struct render {
@@ -21,7 +21,7 @@ typedef struct render {
     float *rgb;
 } render;
 
-/* The mean of renders first to first + n - 1: of their replicates r the mean is replicate r of it. */
+/* The mean of n renders from `first` on: its replicate r is the mean of their replicates r. */
 static render make_render(const case_batches *renders, uint32_t first, uint32_t n)
 {
     const uint32_t replicates = renders->replicates;
@@ -91,7 +91,7 @@ static void brighter(const alarm_case *c, const case_batches *batches)
     if (!c->bright_renders) return;
     render a = make_render(batches, 0, c->bright_renders), b = make_render(batches, ALL / 2, c->bright_renders);
     double before = compare(&a, &b).p;
-    for (uint64_t i = 0; i < 2 * batches->values; i++) a.rgb[i] *= 1.01f; /* its standard errors too */
+    for (uint64_t i = 0; i < 2 * batches->values; i++) a.rgb[i] *= 1.01f; /* its standard errors are brighter too */
     ec_noise_test test = compare(&a, &b);
     printf("%-26s 1 %% brighter, %u renders: p %.2g (before %.2g), mean off by %.1f standard errors\n", c->name, c->bright_renders, test.p,
            before, test.mean_t[1]);

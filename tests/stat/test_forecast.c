@@ -1,8 +1,11 @@
 /* tiers: quick, full */
-/* Forecasts on synthetic films: pixels whose noise is exponential, or fireflies on a grey ground, or in few pixels only, independent from sample
- * to sample; and one whose error falls faster. After the pilot a goal says how many samples it will take; then batches come until the bound is
- * there. The 95 % interval must hold the truth in at least 90 % of the repeats (80 % where six or 14 pixels hold all noise: their own spread is hardly
- * known), the number it names must be near, and the slope must be found. At 95 % of 200, fewer than 180 happen once in 500 seeds; this one is fixed. */
+/* Forecasts on synthetic films. Noise is exponential, or fireflies on grey, or in few pixels only, and independent from sample to sample;
+ * in one film the error falls faster. After the pilot a goal states how many samples it will take; then batches come until the bound is
+ * reached.
+ *
+ * The 95 % interval must contain the truth in at least 90 % of the repeats (80 % where six or 14 pixels have all the noise, since their own
+ * spread is hardly known). The stated number must be near, and the slope must be found. At 95 % of 200, fewer than 180 happen once in 500
+ * seeds; this seed is fixed. */
 #include "render/goal.h"
 #include "support/films.h"
 #include "support/random.h"
@@ -15,17 +18,17 @@ static uint32_t replicates = EC_REPLICATES;
 static test_random state = {1};
 static double uniform(void) { return test_uniform(&state); }
 
-/* Samples of mean 1, all of them. */
+/* Samples of mean 1; fills all of them. */
 static double exponential(uint32_t p) { return (void)p, -log(uniform()); }
 static double fireflies(uint32_t p) { return (void)p, uniform() < 0.01 ? 0.5 / 0.01 + 0.5 : 0.5; }
 static double six(uint32_t p) { return p % 256 ? 1 : -2 * log(uniform()) - 1; }
 static double fourteen(uint32_t p) { return p % 110 ? 1 : -2 * log(uniform()) - 1; }
 
-/* What the samples of each replicate of each pixel came to before the next batch, where they depend on each other. */
+/* Sums of each pixel's replicates before the next batch, for samples that depend on each other. */
 static double sums[PIXELS][EC_REPLICATES_MOST];
 
-/* A replicate's mean of n samples is 1 with a variance of n^-1.6 in the pilot; what the exponent has over 1 falls by e in e^4 times the samples
- * from there on, as it does in pictures. */
+/* A replicate's mean of n samples is 1, with a variance of n^-1.6 in the pilot. After that, the part of the exponent above 1 falls by e for
+ * each factor e^4 in samples, as in real pictures. */
 static double variance(double samples)
 {
     const double pilot = (double)PILOT / replicates, beyond = fmax(log(samples / pilot), 0), fades = 4;
@@ -39,7 +42,7 @@ static double ordered(uint32_t p, ec_batch_range range)
     return (sums[p][range.replicate] - before) / range.samples;
 }
 
-/* sample: NULL for what is ordered. */
+/* sample: NULL for a scrambled sequence. */
 static void add_batch(ec_film *film, double (*sample)(uint32_t))
 {
     static float rgb[3 * PIXELS];
@@ -56,10 +59,10 @@ static void add_batch(ec_film *film, double (*sample)(uint32_t))
 
 static double samples_of(const ec_film *film) { return ec_film_samples_of_all(film); }
 
-/* Eight samples a second, and half a second more for the first batch. */
+/* A clock: eight samples a second, and half a second more for the first batch. */
 static ec_mark mark_of(const ec_film *film) { return (ec_mark){samples_of(film), 0.5 + samples_of(film) / 8}; }
 
-/* As the loop of render_film.c does after a batch; true where the goal is met. */
+/* Does as the loop of render_film.c after a batch; returns true if the goal is reached. */
 static bool judge(ec_film *film, ec_goal *goal, double took, double gain)
 {
     const ec_mark at = mark_of(film);
@@ -122,7 +125,7 @@ static void check(const workload *w)
     CHECK_MSG((w->sample == six || w->sample == fourteen) == (spread > 0.15), "%s: spread %g", w->name, spread);
 }
 
-/* After a pilot of this film, with these limits. */
+/* Returns the forecast after a pilot of this film, with these limits. */
 static ec_forecast forecast_with(double samples, double seconds, double error, double gain, double (*sample)(uint32_t))
 {
     ec_film film = empty();
@@ -138,7 +141,7 @@ static ec_forecast forecast_with(double samples, double seconds, double error, d
 
 static double black(uint32_t p) { return (void)p, 0; }
 
-/* The bound of a picture whose mean is 1 and whose pixels all have this variance. */
+/* The bound of a picture with mean 1 whose pixels all have this variance. */
 static double bound_of(double variance) { return ec_film_error_bound(variance, PIXELS, INFINITY, 0, PIXELS, replicates); }
 
 static void other_limits(void)
@@ -147,7 +150,7 @@ static void other_limits(void)
     CHECK(f.samples == 160 && f.samples_low == 160 && f.samples_high == 160);
     CHECK_NEAR(f.seconds, 20.5, 1e-9);
     CHECK_NEAR(f.error_bound, bound_of(1.0 / 160), 0.1 * bound_of(1.0 / 160)); /* samples of variance 1 */
-    f = forecast_with(160, 0, 0, 0.25, exponential); /* where an allotment of samples makes a quarter of the variance */
+    f = forecast_with(160, 0, 0, 0.25, exponential); /* where adaptive sampling leaves a quarter of the variance */
     CHECK_NEAR(f.error_bound, bound_of(0.25 / 160), 0.1 * bound_of(0.25 / 160));
     CHECK(f.samples == 160);
     f = forecast_with(0, 24.5, 0, 1, exponential);
@@ -158,11 +161,11 @@ static void other_limits(void)
     CHECK_NEAR(f.error_bound, bound_of(1.0 / 192), 0.1 * bound_of(1.0 / 192));
     f = forecast_with(0, 0, 0, 1, exponential);
     CHECK(isinf(f.seconds) && isinf(f.samples));
-    f = forecast_with(0, 0, 0.01, 1, black); /* nothing is known of the dark */
+    f = forecast_with(0, 0, 0.01, 1, black); /* nothing is known about the dark pixels */
     CHECK(isinf(f.samples) && isinf(f.seconds) && isinf(f.error_bound));
 }
 
-/* The order in which limits are asked, and that errors are judged after rounds alone. */
+/* The order in which limits are checked; errors are only judged after rounds. */
 static void limits_are_met(void)
 {
     ec_goal goal = {.samples = 64, .seconds = 10, .error = 0.1, .replicates = replicates, .now = {.error_bound = 0.1}};
@@ -170,14 +173,14 @@ static void limits_are_met(void)
     CHECK(!strcmp(ec_goal_met(&goal, (ec_mark){64, 2}, true, 8), "spp"));
     CHECK(!strcmp(ec_goal_met(&goal, (ec_mark){63, 2}, true, 8), "error"));
     CHECK(!ec_goal_met(&goal, (ec_mark){63, 2}, false, 8));
-    CHECK(!strcmp(ec_goal_met(&goal, (ec_mark){16, 9.8}, false, 8), "time")); /* half of the next eight takes over four seconds */
+    CHECK(!strcmp(ec_goal_met(&goal, (ec_mark){16, 9.8}, false, 8), "time")); /* half of the next eight samples end after four seconds */
     CHECK(!ec_goal_met(&goal, (ec_mark){16, 9.8}, false, 0));
     CHECK(!strcmp(ec_goal_met(&goal, (ec_mark){16, 10.1}, false, 0), "time"));
     ec_goal_set(&goal, 0, 0, 0);
     CHECK(!ec_goal_met(&goal, (ec_mark){1e6, 1e6}, true, 8));
 }
 
-/* Ten seconds of one sample a second, by slow kernels; then a hundred a second: only these predict. */
+/* Ten seconds of one sample a second, by slow kernels, then a hundred a second: only the latter predict. */
 static void slow_kernels_are_forgotten(void)
 {
     ec_goal goal = {.replicates = replicates, .pixels = 1};
@@ -193,7 +196,7 @@ static void slow_kernels_are_forgotten(void)
     CHECK_MSG(fabs(goal.forecast.seconds - 20) < 0.01, "%g s", goal.forecast.seconds);
 }
 
-/* A forecast that turns out too short makes a render longer, and does not take back what was told. */
+/* A forecast that was too short makes the render longer; earlier statements stay. */
 static void fractions_never_fall(void)
 {
     ec_goal goal = {.forecast = {.seconds = 10}};
@@ -201,7 +204,7 @@ static void fractions_never_fall(void)
     goal.forecast.seconds = 20;
     CHECK(ec_goal_fraction(&goal, (ec_mark){9, 6}) == 0.5 && ec_goal_fraction(&goal, (ec_mark){32, 15}) == 0.75);
     CHECK_NEAR(ec_goal_seconds_left(&goal, (ec_mark){9, 6}), 14, 1e-9);
-    ec_goal_set(&goal, 64, 0, 0); /* another goal */
+    ec_goal_set(&goal, 64, 0, 0); /* a different goal */
     CHECK(ec_goal_fraction(&goal, (ec_mark){32, 4}) == 0.2);
 }
 
@@ -211,7 +214,8 @@ int main(void)
         {"exponential", EC_REPLICATES, exponential, 0.064, 1, 1, 0.9, 0.05},
         {"fireflies", EC_REPLICATES, fireflies, 0.3, 1, 1, 0.9, 0.1},
         {"noise in six pixels", 8, six, 0.01, 1, 1, 0.8, 0.5},
-        {"noise in 14 pixels", EC_REPLICATES, fourteen, 0.0153, 1, 1, 0.8, 1}, /* four replicates hardly tell how many noisy pixels there are: off by 0.69 and 0.84 with two seeds */
+        {"noise in 14 pixels", EC_REPLICATES, fourteen, 0.0153, 1, 1, 0.8, 1}, /* four replicates hardly tell how many noisy pixels there
+                                                                                * are: errors of 0.69 and 0.84 with two seeds */
         {"error^2 as n^-1.6 at first", EC_REPLICATES, NULL, 0.02, 1.6, 1.4, 0.9, 0.1},
     };
     for (size_t i = 0; i < sizeof workloads / sizeof *workloads; i++)

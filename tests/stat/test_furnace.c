@@ -5,9 +5,9 @@
 
 enum { SAMPLE_COUNT = EC_SAMPLE_HEMISPHERE + 1 };
 
-/* A closed Lambert box that emits 1 everywhere: each segment k adds albedo^(k-1), so d segments give
- * (1 - a^d) / (1 - a), and unlimited ones 1 / (1 - a). In every pixel, for every strategy, in corners too. */
-/* By every second way to sample, or by all. */
+/* A closed Lambertian box that emits 1 everywhere. Segment k adds albedo^(k-1), so d segments give (1 - a^d) / (1 - a), and all give 1 / (1
+ * - a): in every pixel, for every strategy, in corners too. */
+/* With every second way to sample, or with all. */
 static void check_box(const char *path, double albedo, int step, uint32_t spp)
 {
     static const uint32_t depths[] = {1, 2, 3, 9, 0};
@@ -26,7 +26,7 @@ static void check_box(const char *path, double albedo, int step, uint32_t spp)
             case_image image = case_render(scene, &o);
             double expected = depths[d] ? (1 - pow(albedo, depths[d])) / (1 - albedo) : 1 / (1 - albedo);
             CASE_NEAR(&image, expected, 4, o.sample == EC_SAMPLE_HEMISPHERE || o.sample == EC_SAMPLE_LIGHT ? 0.005 : 0.002);
-            /* And in each pixel, with Sidak's threshold for 768 values at 1 %: t(15 dof) = 6.6. */
+            /* Also in each pixel, with Sidak's threshold for 768 values at 1 %: t(15 dof) = 6.6. */
             for (int i = 0; i < 3 * 16 * 16; i++)
                 CHECK_MSG(fabs(image.rgb[i] - expected) <= 6.6 * image.se[i] + 1e-5 * expected,
                           "%s %s depth %u value %d: %g +- %g, expected %g", path, ec_sample_names[s], depths[d], i,
@@ -39,11 +39,13 @@ static void check_box(const char *path, double albedo, int step, uint32_t spp)
     ec_scene_free(scene);
 }
 
-/* In the closed box BSDF sampling knows each path's radiance before it starts: segment k adds albedo^(k - 1), and no ray leaves.
- * So without roulette the picture is the series cut off after max_depth, with no noise at all, and every sample takes
- * max_depth rays: but for hits so near a concave edge that the other wall is within their error bound, gamma_9 = 5.4e-7 of the box's
- * half side, which may leave through it. That is as large a share of two walls' strips by all edges; half of the segments are then missing. With a constant survival P it is the whole series, and a sample takes 1 / (1 - P) rays in the mean, with
- * variance P / (1 - P)^2: a path may end at its first surface. Its noise is finite, since 0.5^2 is less than P. */
+/* In the closed box, BSDF sampling finds the same radiance by each path: segment k adds albedo^(k - 1), and no ray leaves. So without
+ * roulette the picture is the series up to max_depth, without noise, and every sample takes max_depth rays. Exceptions are hits so near a
+ * concave edge that the other wall is within their error bound, gamma_9 = 5.4e-7 of the box's half side: such a path may leave. That bound
+ * is also the share of two walls' strips by all edges; half of the segments are then missing.
+ *
+ * With a constant survival P the picture is the whole series, and a sample takes 1 / (1 - P) rays on average, with variance P / (1 - P)^2:
+ * a path may end at its first surface. Its noise is finite, since 0.5^2 is less than P. */
 static void check_roulette(void)
 {
     static const uint32_t depths[] = {2, 3, 9, 40};
@@ -52,7 +54,7 @@ static void check_roulette(void)
     ec_scene *scene = case_load(OWN_SCENE("furnace/box-albedo-0.5.gltf"), NULL);
     ec_render_options o = case_options(16, 16, 256);
     o.sample = EC_SAMPLE_BSDF;
-    o.sampler = EC_SAMPLER_INDEPENDENT; /* or rays would vary less than that */
+    o.sampler = EC_SAMPLER_INDEPENDENT; /* otherwise the number of rays would vary less */
     o.survival = 1;
     for (int d = 0; d < 4; d++) {
         o.max_depth = depths[d];
@@ -78,7 +80,7 @@ static void check_roulette(void)
     ec_scene_free(scene);
 }
 
-/* Six emitting walls of different materials: plastics, metals, in between. Strategies must agree. */
+/* Six emitting walls of different materials: plastics, metals, and mixtures. Strategies must agree. */
 static void check_mixed_box(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("furnace/box-materials.gltf"), NULL);
@@ -94,7 +96,7 @@ static void check_mixed_box(void)
     ec_scene_free(scene);
 }
 
-/* Directional albedo in an environment of 1: the table of scenes/furnace/README.md, by quadrature, good to 1e-5. */
+/* Directional albedo in an environment of 1: the table of scenes/furnace/README.md, by quadrature, precise to 1e-5. */
 static void check_plates(void)
 {
     static const double table[3][4] = {
@@ -117,9 +119,9 @@ static void check_plates(void)
     ec_scene_free(scene);
 }
 
-/* White spheres in a white environment: the Lambert one cannot be seen, none gains energy about its middle (what plastic does at its
- * rim: scenes/furnace/README.md). A faceted sphere is convex, so shading normals alone bend paths: below the horizon light is lost,
- * never won. */
+/* White spheres in a white environment. The Lambertian one is invisible, and none gains energy near its centre (for the rim of plastic see
+ * scenes/furnace/README.md). A faceted sphere is convex, so shading normals alone bend paths: light below the horizon is lost, never
+ * gained. */
 static void check_spheres(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("furnace/spheres.gltf"), "1,1,1");
@@ -128,10 +130,10 @@ static void check_spheres(void)
         o.sample = (ec_sample)s;
         case_image image = case_render(scene, &o);
         for (uint32_t ball = 0; ball < 8; ball++) {
-            /* The central half of a ball: x spans 16 pixels each, of which its radius takes 6.4. */
+            /* The central half of a ball: balls are 16 pixels apart in x, and have a radius of 6.4. */
             double se, mean = case_region(&image, (uint32_t[4]){16 * ball + 5, 16 * ball + 11, 5, 11}, 1, &se);
             CHECK_MSG(mean <= 1 + 4 * se + 1e-5, "ball %u, %s: %.6f +- %.6f is more than comes in", ball, ec_sample_names[s], mean, se);
-            if (ball == 0) /* it sees the smooth metal one at its side, whose one direction every strategy follows */
+            if (ball == 0) /* it sees the smooth metal beside it, whose single direction every strategy follows */
                 CHECK_MSG(fabs(mean - 1) <= 4 * se + 1e-3 && se < 5e-3, "Lambert ball, %s: %.6f +- %.6f", ec_sample_names[s], mean, se);
             if (s == 0) printf("ball %u %.5f +- %.5f\n", ball, mean, se);
         }

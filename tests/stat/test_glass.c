@@ -1,16 +1,16 @@
 /* tiers: quick, full */
-/* Glass whose picture is known without rendering it: plates and slabs, of clear and of coloured glass, with something in them, and
- * boxes in a white environment. For every --sample, which must make no difference to what only one direction finds. */
+/* Glass whose picture is known without rendering it: plates and slabs of clear and coloured glass, with objects inside, and boxes in a
+ * white environment. For every --sample, which must not matter for light that only one direction finds. */
 #include "report/names.h"
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
 enum { SAMPLE_COUNT = EC_SAMPLE_HEMISPHERE + 1 };
 
-/* Ways to sample, a bit each. Where scenes differ in several things, each of these meets every way, but not every scene does. */
+/* Ways to sample, as bits. Where scenes differ in several respects, each value meets every way, but not every scene does. */
 enum { EVERY = (1 << SAMPLE_COUNT) - 1, EVERY_OTHER = 1 << EC_SAMPLE_MIS | 1 << EC_SAMPLE_BSDF };
 
-static bool is_quick; /* by one way to sample; renders take less time than fast kernels to compile */
+static bool is_quick; /* one way to sample; renders take less time than compiling fast kernels */
 
 /* All scenes share one program. */
 static ec_render_options shared(ec_render_options options)
@@ -23,7 +23,7 @@ static ec_render_options shared(ec_render_options options)
 
 static const double colour[3] = {0.9, 0.5, 0.2};
 
-/* What is left of light after x metres, where `colour` is left after 0.5 (KHR_materials_volume: Beer-Lambert). */
+/* Transmittance after x metres of a medium that leaves `colour` after 0.5 (KHR_materials_volume: Beer-Lambert). */
 static double left_after(int channel, double x)
 {
     return pow(colour[channel], x / 0.5);
@@ -41,7 +41,7 @@ static double fresnel(double cosine, double ior)
     return (s * s + p * p) / 2;
 }
 
-/* Looks at the origin from `angle` off the z axis, at that far: all of the picture is one direction. */
+/* A camera at this distance looks at the origin from `angle` off the z axis: the whole picture is one direction. */
 static void add_camera(gltf_writer *w, double angle)
 {
     gltf_camera(w, (double[3]){20 * sin(angle), 0, 20 * cos(angle)}, (double[3]){0, 0, 0}, 1e-5);
@@ -50,7 +50,7 @@ static void add_sheet(gltf_writer *w, int material, double z)
 {
     gltf_quad(w, material, (double[3]){-90, -90, z}, (double[3]){180, 0, 0}, (double[3]){0, 180, 0});
 }
-/* A slab, its front at z = 0. */
+/* A slab with its front at z = 0. */
 static void add_slab(gltf_writer *w, const gltf_glass *g, double thickness)
 {
     gltf_box(w, gltf_add_glass(w, g), (double[3]){-90, -90, -thickness}, (double[3]){90, 90, 0});
@@ -60,8 +60,8 @@ static int mirror(gltf_writer *w)
     return gltf_add(&w->materials, "{\"pbrMetallicRoughness\":{\"metallicFactor\":1,\"roughnessFactor\":0}}");
 }
 
-/* The picture's mean, by some strategies: within 4 standard errors, and those small; larger where rough lobes are looked for by
- * directions that know nothing of them. */
+/* The picture's mean with some strategies: within 4 standard errors, which must be small; larger where rough lobes are sampled by
+ * directions that do not follow them. */
 static void expect(gltf_writer *w, const char *name, const char *environment, int ways, const double *expected, double most_se, double most_blind_se)
 {
     char file[96];
@@ -86,7 +86,7 @@ static void expect(gltf_writer *w, const char *name, const char *environment, in
     ec_scene_free(scene);
 }
 
-/* A thin wall reflects Schlick's F with F0 = 0.04 and passes base (1 - F), straight on. Behind it black, then a lamp of 1. */
+/* A thin wall reflects Schlick's F with F0 = 0.04 and transmits base (1 - F) straight on. Behind it is black, then a lamp of 1. */
 static void thin_plates(int count)
 {
     static const double cosines[3] = {0.5, 1, 0.1};
@@ -103,8 +103,8 @@ static void thin_plates(int count)
         }
 }
 
-/* Rough white ones: F + (1 - F) = 1 of what the lobe and its mirror image hold, so that in a white environment they show the
- * albedo of a rough white metal (scenes/furnace/README.md, by quadrature). */
+/* Rough white thin walls: reflection and transmission add up to the albedo of a rough white metal (scenes/furnace/README.md, by
+ * quadrature), F and 1 - F of the lobe and its mirror image. */
 static void rough_plates(void)
 {
     static const double alphas[3] = {0.1, 0.5, 1}, cosines[3] = {1, 0.5, 0.1};
@@ -120,9 +120,9 @@ static void rough_plates(void)
         }
 }
 
-/* A slab reflects light to and fro between its two faces: with A left after one way through it,
+/* A slab reflects light between its two faces: with A left after one passage,
  *   T = (1 - F)^2 A / (1 - F^2 A^2), R = F + (1 - F)^2 F A^2 / (1 - F^2 A^2)
- * Nothing else is in the way; the slab's rim is so far that no light comes from there. */
+ * Nothing else is in the way; the slab is so wide that no light comes from its rim. */
 static void slabs(void)
 {
     static const double cosines[2] = {1, 0.5}, iors[3] = {1.5, 2.4, 1};
@@ -146,9 +146,8 @@ static void slabs(void)
                 }
 }
 
-/* Inside a body light is absorbed on the way from whatever stands in it: a black lamp 0.3 deep, of whose light
- * (1 - F) A gets out, what is reflected back being lost; a mirror there, F + (1 - F)^2 A^2 / (1 - F A^2); a camera 0.3 deep that
- * looks out, (1 - F) A / (1 - F A'), A' for the way across. */
+/* Absorption inside a body. A black lamp 0.3 deep: (1 - F) A of its light gets out, and reflected light is lost. A mirror there: F + (1 -
+ * F)^2 A^2 / (1 - F A^2). A camera 0.3 deep that looks out: (1 - F) A / (1 - F A'), with A' for the way across. */
 static void within(void)
 {
     double F = 0.04, lamp[3], reflected[3], seen[3], point[3];
@@ -157,7 +156,7 @@ static void within(void)
         lamp[c] = (1 - F) * A;
         reflected[c] = F + (1 - F) * (1 - F) * A * A / (1 - F * A * A);
         seen[c] = (1 - F) * A / (1 - F * left_after(c, 0.4));
-        /* Index 1: a point light of I = 2 pi straight over a floor of albedo 0.6, both in the body: I / r^2 x albedo / pi, r = 0.2. */
+        /* Index 1: a point light of I = 2 pi straight above a floor of albedo 0.6, both inside the body: I / r^2 x albedo / pi, r = 0.2. */
         point[c] = 2 * 0.6 / 0.04 * left_after(c, 0.2) * left_after(c, 0.3);
     }
     gltf_glass g = body(1.5, 1), air = body(1, 1);
@@ -185,7 +184,7 @@ static void within(void)
     add_camera(w, 0);
     ec_scene *scene = case_load(gltf_write(w, "glass-point-in-slab"), NULL);
     ec_render_options o = shared(case_options(8, 8, 256));
-    o.max_depth = 3; /* in through the face, and to the light: nothing from the body's other faces */
+    o.max_depth = 3; /* in through the face and to the light: nothing from the other faces */
     case_image image = case_render(scene, &o);
     for (int c = 0; c < 3; c++) CHECK_NEAR(image.mean[c], point[c], 1e-5 * point[c]);
     case_free(&image);
@@ -193,7 +192,7 @@ static void within(void)
     free(w);
 }
 
-/* White glass in a white environment cannot be seen: flat faces lose no light, and each path brings 1. Only roulette makes noise. */
+/* White glass in a white environment is invisible: flat faces lose no light, and each path brings 1. Only roulette makes noise. */
 static void boxes_in_white(void)
 {
     static const double iors[3] = {1, 1.5, 2.4};
@@ -208,8 +207,8 @@ static void boxes_in_white(void)
     }
 }
 
-/* Half of it clear, half of it scattering, and reflecting nothing (KHR_materials_specular) but from inside beyond the critical angle: white
- * too, however long light stays in there. */
+/* Half clear, half scattering glass that reflects nothing (KHR_materials_specular), except inside beyond the critical angle: it is white
+ * too, however long light stays inside. */
 static void half_clear_box_in_white(void)
 {
     gltf_writer *w = gltf_new();
@@ -221,8 +220,8 @@ static void half_clear_box_in_white(void)
     expect(w, "half-clear-box-in-white", "1,1,1", EVERY, (double[3]){1, 1, 1}, 5e-3, 2e-2);
 }
 
-/* A rough white body keeps what it does not lose between microfacets: never more than comes in. (Hardly anything of it is found
- * by uniform directions where it is smoothest.) */
+/* A rough white body loses light only between microfacets, and never returns more than arrives. (Uniform directions hardly find any of the
+ * light where it is smoothest.) */
 static void rough_boxes_in_white(void)
 {
     static const double roughnesses[3] = {0.2, 0.5, 1};
@@ -242,8 +241,8 @@ static void rough_boxes_in_white(void)
         }
 }
 
-/* A body of index 1 cannot be seen: with it in the way of a lamp and of the floor it lights, the picture is the same. Shadow rays
- * end at it, so that light behind it is found by paths that pass straight through, and nowhere twice. */
+/* A body of index 1 is invisible: between a lamp and the floor, it does not change the picture. Shadow rays end at it. So light behind it
+ * is found only by paths that pass straight through, and never twice. */
 static void nothing_of_index_1(void)
 {
     case_image image[1 + SAMPLE_COUNT];

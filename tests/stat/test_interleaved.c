@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Trees that caches do not hold are traced by interleaved rays, and camera rays eight at a time: the same bits, also where each ray has a
- * random number of its own for the coverage that it meets. */
+/* Trees larger than the caches are traversed by interleaved rays, and camera rays eight at a time. Bits stay the same, also where each ray
+ * has a random number of its own for partial coverage. */
 #include "accel/accel.h"
 #include "device/stages.h"
 #include "support/render_case.h"
@@ -31,7 +31,7 @@ static void large_bvhs_are_told_by_what_is_fast(void)
     }
 }
 
-/* A work-item takes 16 or 64 rays of one of the queue's 32 parts; here each part has room for 37, or for 301. */
+/* A work-item takes 16 or 64 rays of one of the queue's 32 parts. Here each part has room for 37, or for 301. */
 static void parts_of_any_size_are_traced_to_their_end(const ec_scene *scene, const case_image *expected)
 {
     const uint64_t cache = case_cl()->info.cache_bytes, caches[] = {UINT64_C(1) << 30, 0};

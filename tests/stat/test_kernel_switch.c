@@ -1,12 +1,12 @@
 /* tiers: quick, full, long */
-/* Kernels change while a picture is rendered, at any wave, and no bit of it changes. */
+/* Kernels change during a render, at any wave: no bit of the picture changes. */
 #include "base/random.h"
 #include "pack/scene_view.h"
 #include "support/render_case.h"
 
 enum { WIDTH = 160, HEIGHT = 120, SPP = 16, SCENES = 10 };
 
-/* A wave of the first kernels is smaller than these pictures are. */
+/* A wave of the first kernels is smaller than these pictures. */
 static ec_render_options options(void)
 {
     ec_render_options o = case_options(WIDTH, HEIGHT, SPP);
@@ -15,7 +15,7 @@ static ec_render_options options(void)
     return o;
 }
 
-/* One of scenes/ by its name, any other by its path. */
+/* A scene by the name of its folder in scenes/, or by its path. */
 static ec_scene *load(const char *name)
 {
     char path[512];
@@ -23,7 +23,7 @@ static ec_scene *load(const char *name)
     return case_load(*name == '/' ? name : path, NULL);
 }
 
-/* more: effects that are built in though the scene may not call for them, so that scenes share kernels. */
+/* more: effects that are built in though the scene may not need them, so that scenes share kernels. */
 static void check_scene(const char *name, uint64_t more, int moments, uint64_t *random)
 {
     ec_scene *scene = load(name);

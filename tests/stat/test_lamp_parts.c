@@ -1,6 +1,6 @@
 /* tier: full */
-/* A lamp of which one texel shines is a small lamp: the picture is that of a square of the texel's size, and so is its noise. With the nearest
- * texel taken the two are the same but for rounding. One of 4 096 even samples of the lamp would meet it: noise 110 times as large. */
+/* A lamp with one bright texel equals a small lamp: picture and noise are those of a square of the texel's size. With nearest-texel lookup
+ * both differ only by rounding. One of 4 096 uniform samples of the lamp would hit the texel: noise 110 times as large. */
 #include "support/render_case.h"
 #include "support/texel_lamp.h"
 
@@ -11,7 +11,7 @@ static case_image render(bool textured, ec_sample sample, uint64_t seed)
     gltf_quad(w, gltf_lambert(w, 0.7, 0), (double[3]){-2, 0, 2}, (double[3]){4, 0, 0}, (double[3]){0, 0, -4});
     gltf_quad(w, gltf_lambert(w, 0.7, 0), (double[3]){-2, 0, -0.7}, (double[3]){4, 0, 0}, (double[3]){0, 2, 0}); /* beside the lamp */
     gltf_add(&w->samplers, "{\"magFilter\":9728}");
-    gltf_quad(w, gltf_lambert(w, 0, 0), (double[3]){-0.5, 1.0001, -0.5}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1}); /* the shadow of the rest */
+    gltf_quad(w, gltf_lambert(w, 0, 0), (double[3]){-0.5, 1.0001, -0.5}, (double[3]){1, 0, 0}, (double[3]){0, 0, 1}); /* shadows the rest */
     if (textured) texel_lamp_add(w, "stat-parts", 0, 0, 255, 100);
     else gltf_quad(w, gltf_lambert(w, 0, 100), at, (double[3]){texel, 0, 0}, (double[3]){0, 0, texel});
     gltf_camera(w, (double[3]){0, 1.5, 2.5}, (double[3]){0, 0.4, -0.5}, 0.9);

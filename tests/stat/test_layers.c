@@ -1,6 +1,6 @@
 /* tier: full */
-/* Materials with layers in whole pictures: tiles of each on a floor, between a lamp and a sky. Ways of finding light must agree, and the
- * picture is the same bits for all lanes and with every effect built in. */
+/* Layered materials in whole pictures: tiles of each on a floor, between a lamp and a sky. All ways to find light must agree, and bits do
+ * not depend on lanes or on built-in effects. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
@@ -19,7 +19,7 @@ static const char *const tiles[] = {
 };
 enum { TILES = sizeof tiles / sizeof *tiles };
 
-/* Matt ones, then metals of roughness 0.3. */
+/* Matt bases, then metals of roughness 0.3. */
 static const char *floor_of_tiles(void)
 {
     gltf_writer *w = gltf_new();
@@ -54,7 +54,7 @@ static void same_bits(const ec_scene *scene)
     for (int i = 0; i < 5; i++) case_free(&image[i]);
 }
 
-/* Light sampling alone is left out: its rare bright paths off the metals' lobes want many more samples. */
+/* Light sampling alone is left out: its rare bright paths from the metals' lobes need many more samples. */
 static void strategies_agree(const ec_scene *scene)
 {
     static const struct {

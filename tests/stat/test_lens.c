@@ -1,7 +1,7 @@
 /* tier: full */
-/* The thin lens: what it makes of a small square lamp, pixel by pixel. A point at depth z seen from the lens' point p lies where the
- * pinhole sees it, moved by p (1 / D - 1 / z) along the plane at distance 1: that is the thin-lens formula's circle of confusion,
- * A |z - D| v / (z D) across on the sensor at distance v. */
+/* The thin lens and a small square lamp, pixel by pixel. A point at depth z, seen from the point p of the lens, appears where the pinhole
+ * sees it, moved by p (1 / D - 1 / z) in the plane at distance 1. That is the thin-lens formula's circle of confusion, A |z - D| v / (z D)
+ * across on a sensor at distance v. */
 #include "support/lamp_picture.h"
 
 static ec_render_options lens(double fstop, double focus)
@@ -14,7 +14,7 @@ static ec_render_options lens(double fstop, double focus)
 
 static double overlap(double low, double high, int pixel) { return fmax(fmin(high, pixel + 1) - fmax(low, pixel), 0); }
 
-/* The mean over an aperture of radius r of the lamp's square, which each of its points sees elsewhere. */
+/* Mean over an aperture of radius r; each of its points sees the lamp's square at another place. */
 static const float *expected_picture(double z, double r, double focus, double *blur)
 {
     enum { STEPS = 1200 };
@@ -46,7 +46,7 @@ static void check_blur(double z, double focus)
     char what[64];
     snprintf(what, sizeof what, "lamp at %g, focus at %g", z, focus);
     check_squares(&image, expected, 4, what);
-    check_squares(&image, expected, SIDE, what); /* no light is lost, none made */
+    check_squares(&image, expected, SIDE, what); /* the total light stays the same */
     for (int i = 0; i < SIDE * SIDE; i++)
         if (image.rgb[3 * i] > 0) furthest = fmax(furthest, hypot(i % SIDE + 0.5 - x, i / SIDE + 0.5 - y));
     double corner = sqrt(2) * half_lamp / z * SIDE / 2 / tan(0.5 * yfov), pixel = sqrt(0.5);
@@ -56,7 +56,7 @@ static void check_blur(double z, double focus)
     ec_scene_free(scene);
 }
 
-/* A lens without width is a pinhole, bit for bit, whatever is in focus; and any lens gives the same bits in every lane width. */
+/* A lens without width equals a pinhole, bit for bit, for any focus; and every lens gives the same bits in every lane width. */
 static void check_bits(void)
 {
     ec_scene *scene = lamp_at(0.05, -0.1, 4, "lens-bits");
@@ -91,9 +91,9 @@ static void check_refused(void)
 
 int main(void)
 {
-    check_blur(4, 1.5); /* behind what is in focus */
+    check_blur(4, 1.5); /* behind the plane of focus */
     check_blur(2, 8);   /* before it */
-    check_blur(3, 3);   /* in it: as sharp as a pinhole's */
+    check_blur(3, 3);   /* in it: as sharp as with a pinhole */
     check_bits();
     check_refused();
     TEST_END();

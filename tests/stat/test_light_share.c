@@ -1,11 +1,11 @@
 /* tier: quick */
-/* Light samples are shared between an environment and a lamp. Whatever the share, the picture is the same; the chosen one has less noise than halves where
- * one of both lights reaches next to nothing that the camera sees. */
+/* Light samples are divided between an environment and a lamp. The picture is the same for any share. Where one of the lights hardly
+ * reaches anything in view, the chosen share has less noise than halves. */
 #include "device/light_share.h"
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
-/* A floor and a block under an environment of 1; below the floor or, if `over`, above it a lamp of 1 x 1. */
+/* A floor and a block under an environment of 1; a lamp of 1 x 1 below the floor or, if `over`, above it. */
 static ec_scene *load_floor(bool over)
 {
     gltf_writer *w = gltf_new();
@@ -55,7 +55,7 @@ static void noise_is_less(void)
     const double less = chosen.stats.film.error / halves.stats.film.error;
     printf("environment's share %g: error %.4f, with halves %.4f\n", chosen.stats.far_share, chosen.stats.film.error, halves.stats.film.error);
     CHECK(chosen.stats.far_share == 0.875);
-    CHECK_MSG(less < 0.85, "the error is %.2f times that with halves", less); /* sqrt(4 / 7) = 0.76 where samples are in no order */
+    CHECK_MSG(less < 0.85, "the error is %.2f times that with halves", less); /* sqrt(4 / 7) = 0.76 for independent samples */
     case_free(&halves);
     case_free(&chosen);
     ec_scene_free(scene);

@@ -1,5 +1,5 @@
 /* tiers: quick, full */
-/* Lamps chosen by the tree light the same picture as those chosen by power, whichever way they are found, with less noise. */
+/* Lamps chosen by the light tree give the same picture as lamps chosen by power, for every way to find them, with less noise. */
 #include "support/lantern_hall.h"
 
 static ec_render_options options(ec_light_choice choice, ec_sample sample, uint32_t spp, uint64_t seed)
@@ -12,8 +12,8 @@ static ec_render_options options(ec_light_choice choice, ec_sample sample, uint3
     return o;
 }
 
-/* Inside a box whose walls all emit 1 and reflect half of what comes: 1 / (1 - 0.5) wherever one looks. Each wall is 5 x 5 lamps, so
- * large that most are found both ways: shares that do not add up show. */
+/* Inside a box whose walls emit 1 and reflect half of the light: 1 / (1 - 0.5) in every direction. Each wall has 5 x 5 lamps, so large that
+ * most are found both ways: weights that do not add up would show. */
 static void check_furnace(void)
 {
     ec_error err = {0};

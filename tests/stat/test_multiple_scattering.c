@@ -1,6 +1,6 @@
 /* tier: full */
-/* --scattering multiple in whole pictures: rough metal and rough glass under a lamp and a sky. Ways of finding light agree, what is
- * given back is seen, and white metal in white light returns no more than comes in. */
+/* --scattering multiple in whole pictures: rough metal and rough glass under a lamp and a sky. All ways to find light agree, the regained
+ * light shows, and white metal in white light returns no more than arrives. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
@@ -34,7 +34,7 @@ static case_image picture(const ec_scene *scene, ec_sample sample, ec_scattering
     return case_render(scene, &o);
 }
 
-/* Light sampling alone is left out: what passes through glass is not found by it. */
+/* Light sampling alone is left out: it does not find light through glass. */
 static void strategies_agree(void)
 {
     ec_scene *scene = case_load(boxes(), "0.4,0.5,0.6");
@@ -49,7 +49,7 @@ static void strategies_agree(void)
     ec_scene_free(scene);
 }
 
-/* A white metal quad in a sky of 1, by way of all the kernels: at most 1, and next to it. */
+/* A white metal quad in a sky of 1, rendered by all kernels: at most 1, and nearly 1. */
 static void furnace_stays_at_one(void)
 {
     for (int i = 0; i < 2; i++) {

@@ -1,14 +1,14 @@
 /* tier: full */
-/* Lamps that touch what they light, fill its sky, or are smaller than it can tell: the mean in closed form, and
- * a relative standard deviation of one sample that stays under 2 wherever the lamp is. By area the latter goes as 1 / distance.
- * (A lamp of two triangles of which one fills the sky has 1.2 from choosing between them.) */
+/* Lamps that touch the surface they light, fill its sky, or are smaller than floats resolve. The mean is known in closed form. The relative
+ * standard deviation of one sample stays below 2 wherever the lamp is; with uniform samples of the area it would grow as 1 / distance. (A
+ * lamp of two triangles, one of which fills the sky, has 1.2 from choosing between them.) */
 #include "support/floor_case.h"
 
 enum { SPP = 2048, PIXELS = 64 };
 
 static double worst_deviation;
 
-/* Light sampling alone and with MIS, independent samples. slack: of the mean, for what floats cannot tell. */
+/* Light sampling alone and with MIS, independent samples. slack: relative tolerance of the mean for float rounding. */
 static void check_lamp(const char *path, double expected, double slack, double most_deviation)
 {
     static uint64_t seed;
@@ -32,7 +32,7 @@ static void check_lamp(const char *path, double expected, double slack, double m
     ec_scene_free(scene);
 }
 
-/* Turned by 5-12-13 and 3-4-5 triangles if the scene is askew: then no edge runs along an axis, and nothing is exact. */
+/* A skewed scene is rotated by 5-12-13 and 3-4-5 triangles: no edge is parallel to an axis, and nothing is exact. */
 static void turn(int askew, const double *from, double *to)
 {
     static const double rows[3][3] = {{15, -60, 20}, {36, 25, 48}, {-52, 0, 39}};
@@ -49,7 +49,7 @@ static void quad(gltf_writer *w, int askew, int material, const double *at, cons
     gltf_quad(w, material, a, b, c);
 }
 
-/* The floor_scene, turned. */
+/* The floor_scene, rotated. */
 static gltf_writer *near_scene(int askew, double camera_height)
 {
     if (!askew) return floor_scene(camera_height);
@@ -66,15 +66,15 @@ static double form_factor(const double (*corners)[3])
     return lambert(corners, 4, up) / PI;
 }
 
-/* A lamp of 2 x 2 and radiance 3 at height h, its centre over (x, z). Over the middle the form factors are known in closed form.
- * A point of the lamp is the sum of three rounded products: 1.5e-7 off, it turns its direction from a height h by 1.5e-7 / h, and the
- * mean of many by about the square of that. */
+/* A lamp of 2 x 2 and radiance 3 at height h, its centre above (x, z). At the middle the form factors are known in closed form. A point of
+ * the lamp is a sum of three rounded products, with an error of 1.5e-7. From a height h this turns its direction by 1.5e-7 / h, and changes
+ * the mean of many by about the square of that. */
 static void check_above(int askew, double x, double z, double h)
 {
     double lamp[4][3] = {{x - 1, h, z - 1}, {x + 1, h, z - 1}, {x + 1, h, z + 1}, {x - 1, h, z + 1}};
     double expected = form_factor((const double(*)[3])lamp);
     gltf_writer *w = near_scene(askew, 0.5 * h);
-    quad(w, askew, gltf_lambert(w, 0, 3), lamp[0], (double[3]){2, 0, 0}, (double[3]){0, 0, 2}); /* x cross z = -y: down */
+    quad(w, askew, gltf_lambert(w, 0, 3), lamp[0], (double[3]){2, 0, 0}, (double[3]){0, 0, 2}); /* x cross z = -y: faces down */
     char name[64];
     snprintf(name, sizeof name, "near-%s%g-%g-%g", askew ? "askew-" : "", x, z, h);
     check_lamp(gltf_write(w, name), 0.6 * 3 * expected, 1e-6 + pow(1.5e-7 / h, 2), 2);
@@ -89,13 +89,13 @@ static void check_heights(void)
         if (i < 4) CHECK_NEAR(form_factor((const double(*)[3])lamp), known[i], 1e-7);
         check_above(0, 0, 0, h);
         check_above(0, 0.31, -0.17, h);
-        check_above(0, 1 - h, 0.17, h); /* by its edge */
+        check_above(0, 1 - h, 0.17, h); /* near its edge */
         if (h > 0.5e-4) check_above(1, 0.31, -0.17, h);
     }
 }
 
-/* A lamp that stands on the floor, or through it, at a distance x from the point. What the floor hides of it is sampled too, to half:
- * that doubles the second moment 1 + 2^2. */
+/* A lamp that stands on the floor, or passes through it, at a distance x from the point. The part below the floor is sampled too, half of
+ * the samples: that doubles the second moment 1 + 2^2. */
 static void check_wall(double x, double below)
 {
     double lamp[4][3] = {{x, 0, -1}, {x, 0, 1}, {x, 2, 1}, {x, 2, -1}};
@@ -107,7 +107,7 @@ static void check_wall(double x, double below)
     free(w);
 }
 
-/* In the floor's own plane: beside the point and touching it; no light at all. */
+/* A lamp in the plane of the floor, beside the point or touching it, gives no light. */
 static void check_level(double x)
 {
     gltf_writer *w = gltf_new();
@@ -120,7 +120,7 @@ static void check_level(double x)
     free(w);
 }
 
-/* A millionth of the distance wide: L A cos cos / d^2 = L A. */
+/* A lamp a millionth as wide as its distance: L A cos cos / d^2 = L A. */
 static void check_tiny(void)
 {
     gltf_writer *w = near_scene(0, 0.5);
@@ -129,7 +129,7 @@ static void check_tiny(void)
     free(w);
 }
 
-/* A box that shines inwards, however large: irradiance pi L. */
+/* A box of any size that shines inwards: irradiance pi L. */
 static void check_inside(double size)
 {
     gltf_writer *w = near_scene(0, 0.5);

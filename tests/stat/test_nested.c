@@ -1,16 +1,16 @@
 /* tier: full */
 /* Bodies in bodies: slabs of glass with liquids, ice and air between them, whose picture is that of a stack of layers (Fresnel and
- * Beer-Lambert in double), and balls in balls. Light goes to and fro between layers, so a stack is added up layer by layer. */
+ * Beer-Lambert in double); and balls in balls. Light is reflected between layers, so a stack is added up layer by layer. */
 #include "report/names.h"
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
 static const double colour[3] = {0.9, 0.5, 0.2}, clear[3] = {1, 1, 1};
 
-/* What is left of light after x metres, where `colour` is left after 0.5. */
+/* Transmittance after x metres of a medium that leaves `colour` after 0.5. */
 static double left_after(int coloured, int channel, double x) { return coloured ? pow(colour[channel], x / 0.5) : 1; }
 
-/* Unpolarised reflectance from index n1 to n2 (Fresnel); sine: n1 sin(angle), which Snell keeps. 1 beyond the critical angle. */
+/* Unpolarised reflectance from index n1 to n2 (Fresnel); sine: n1 sin(angle), which refraction keeps. 1 beyond the critical angle. */
 static double fresnel(double sine, double n1, double n2)
 {
     if (sine >= n2) return 1;
@@ -24,8 +24,8 @@ typedef struct layer {
     int coloured;
 } layer;
 
-/* Reflectance and transmittance of a stack in air, from the last layer up (adding method): what is below reflects R, and
- * R' = F + (1 - F)^2 A^2 R / (1 - F A^2 R),   T' = (1 - F) A T / (1 - F A^2 R) */
+/* Reflectance and transmittance of a stack in air, from the last layer up (adding method). If the layers below reflect R and transmit T,
+ *   R' = F + (1 - F)^2 A^2 R / (1 - F A^2 R),   T' = (1 - F) A T / (1 - F A^2 R) */
 static void add_up(const layer *layers, int count, double sine, int channel, double *reflected, double *passed)
 {
     double R = 0, T = 1;
@@ -51,7 +51,7 @@ static gltf_glass body(double ior, int coloured)
     const double *c = coloured ? colour : clear;
     return (gltf_glass){1, 0, 1, ior, {c[0], c[1], c[2]}, coloured ? 0.5 : 0};
 }
-/* From z = top down to z = bottom; wide enough that no light comes from its rim. */
+/* A slab from z = top down to z = bottom, so wide that no light comes from its rim. */
 static void add_slab(gltf_writer *w, double ior, int coloured, double top, double bottom, double half)
 {
     gltf_glass g = body(ior, coloured);
@@ -81,7 +81,7 @@ static ec_render_options options_for(int sample, uint32_t spp)
     return o;
 }
 
-/* All of the picture is one direction. `exact`: rounding, or what is left out by design, of each channel. */
+/* The whole picture is one direction. `exact`: tolerance of each channel for rounding, or for light left out by design. */
 static void expect(gltf_writer *w, const char *name, const char *environment, const ec_render_options *o, const double want[3], double exact)
 {
     char file[96];
@@ -97,8 +97,8 @@ static void expect(gltf_writer *w, const char *name, const char *environment, co
     case_free(&image);
 }
 
-/* A slab in a slab is three layers. Its own neighbours are what it lies in: ice in water, an air gap (from its critical angle on, total
- * reflection at an inner wall), diamond, the same index (which cannot be seen) and nearly the same. */
+/* A slab in a slab makes three layers. The inner one is ice in water; an air gap, with total reflection beyond its critical angle; diamond;
+ * a medium of the same index, which is invisible; or of nearly the same. */
 static void slabs(void)
 {
     static const double outer[6] = {1.5, 1.33, 1.5, 1.5, 1.5, 1.5}, inner[6] = {1.33, 1.31, 1, 2.4, 1.5, 1.5 * (1 + 1e-6)};
@@ -119,13 +119,13 @@ static void slabs(void)
                     add_camera(w, angles[a]);
                     ec_render_options o = options_for(EC_SAMPLE_MIS, whitted ? 4 : 256);
                     o.integrator = whitted ? EC_INTEGRATOR_WHITTED : EC_INTEGRATOR_PATH;
-                    if (whitted) o.max_depth = 40, o.cutoff = 1e-6; /* of branches that are left out there are some dozens */
+                    if (whitted) o.max_depth = 40, o.cutoff = 1e-6; /* some dozens of branches are left out */
                     expect(w, name, lit ? NULL : "1,1,1", &o, want, whitted ? 3e-4 : 3e-6);
                 }
 }
 
-/* A liquid overlaps the glass that holds it by 1e-3: what is less displaces what is more, whichever wall comes first. The slabs differ in
- * width. And ice across the surface of water. */
+/* A liquid overlaps the glass around it by 1e-3: the body of smaller volume displaces the other, whichever wall comes first. The slabs
+ * differ in width. And ice across the surface of water. */
 static void overlaps(void)
 {
     for (int s = 0; s <= EC_SAMPLE_HEMISPHERE; s += EC_SAMPLE_HEMISPHERE)
@@ -153,9 +153,9 @@ static void overlaps(void)
         }
 }
 
-/* 32 boxes in boxes, of 32 materials: 64 walls, 63 layers. Of index 1 they only absorb. Without roulette, which is most of the noise
- * then; what comes after 400 segments is less than 1e-6. Rays start 9 u |z| beyond a wall, and of index 1 all walls together keep
- * 64 x 9 u x 0.7 x 3.2 = 8e-5 of blue from being absorbed. */
+/* 32 nested boxes of 32 materials: 64 walls, 63 layers. With index 1 they only absorb. No roulette, which would be most of the noise; light
+ * after 400 segments is less than 1e-6. Rays start 9 u |z| beyond a wall: for index 1, all walls together keep 64 x 9 u x 0.7 x 3.2 = 8e-5
+ * of blue from being absorbed. */
 static void deep(void)
 {
     for (int bare = 0; bare < 2; bare++) {
@@ -178,8 +178,8 @@ static void deep(void)
     }
 }
 
-/* A camera in water in glass, 0.1 under its surface and 0.2 over a black lamp, looks up: what passes water's surface and glass is white,
- * what they reflect is the lamp. It looks down: there is nothing but water in between. Then attenuation distances of 1e30 and 1e-6. */
+/* A camera in water in glass, 0.1 below the surface and 0.2 above a black lamp. Looking up, it sees white through water's surface and
+ * glass, and the lamp in their reflections. Looking down, there is only water in between. Then attenuation distances of 1e30 and 1e-6. */
 static void within(void)
 {
     double want[3], seen[3], other, Fu = fresnel(0, 1.33, 1.5), Fg = fresnel(0, 1.5, 1);
@@ -217,7 +217,7 @@ static void within(void)
     }
 }
 
-/* By latitude and longitude. */
+/* A ball by latitude and longitude. */
 static void add_ball(gltf_writer *w, int material, double radius)
 {
     enum { M = 24, N = 48 };
@@ -237,9 +237,9 @@ static void add_ball(gltf_writer *w, int material, double radius)
     gltf_triangles(w, material, &(gltf_mesh){count, p, NULL, NULL, NULL});
 }
 
-/* Balls in balls of white glass in white light: no path loses any, whatever lies in what. Gaps down to 4e-5 of the radius, and the
- * same with the inner one larger by that. Light in a layer so thin, between total reflections on both sides, takes 0.13 / 4e-5 = 3000
- * of them to the end of a facet: of those few paths (there are 2 in 1024) the rest is cut off. */
+/* Nested balls of white glass in white light: no path loses light, in any order of priorities. Gaps are as small as 4e-5 of the radius, or
+ * overlap by as much. In such a thin layer with total reflection on both sides, light needs 0.13 / 4e-5 = 3000 reflections to the end of a
+ * facet. The rest of those few paths (2 in 1024) is cut off. */
 static void balls(void)
 {
     static const double radii[3] = {0.6, 1 - 4e-5, 1 + 4e-5};
@@ -251,7 +251,7 @@ static void balls(void)
         add_ball(w, gltf_add_glass(w, &bubble), 0.3);
         gltf_camera(w, (double[3]){2, 3, 4}, (double[3]){0, 0, 0}, 0.4);
         ec_render_options o = options_for(EC_SAMPLE_MIS, 4);
-        o.survival = 1; /* roulette would be all the noise */
+        o.survival = 1; /* roulette would make all the noise */
         o.max_depth = 1000;
         case_image image = case_render_file(gltf_write(w, "nested-balls"), "1,1,1", &o);
         free(w);
@@ -261,7 +261,7 @@ static void balls(void)
     }
 }
 
-/* A ball like what it lies in changes nothing in a picture with lamp and floor. */
+/* A ball of the medium around it changes nothing in a picture with a lamp and a floor. */
 static void not_seen(void)
 {
     case_image image[2];

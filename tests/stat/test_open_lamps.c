@@ -1,12 +1,12 @@
 /* tier: full */
-/* A lamp with holes, or one that is half there, gives what its coverage leaves, however it is found: a path meets it as seldom as that, and a
- * light sample knows. In closed form under a ceiling without end that shines. */
+/* A lamp with holes, or with partial coverage, emits its light times its coverage, for every way to find it: a path hits it as rarely as
+ * that, and a light sample has that weight. Closed form under an infinite ceiling that emits. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
 enum { ALBEDO = 6 /* tenths */, RADIANCE = 2 };
 
-/* Alpha by a factor, and by the corners' colours: `left` at -x, `right` at +x. */
+/* Alpha from a factor, and from the corners' colours: `left` at -x, `right` at +x. */
 static void lit(const char *name, const char *mode, double factor, double left, double right, double coverage)
 {
     for (int s = 0; s < 4; s++) {
@@ -31,7 +31,7 @@ static void lit(const char *name, const char *mode, double factor, double left, 
     }
 }
 
-/* Lamps as points at their centres are as bright as their alpha, too, at any lane width. */
+/* Lamps that count as points at their centres also have their alpha's brightness, in every lane width. */
 static double by_centre(ec_integrator integrator, double alpha, uint32_t lanes)
 {
     gltf_writer *w = gltf_new();

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* What small lit patches bring, from vertices of paths near them: the nearest twelve of a patch's plane and side count, those that the camera sees
- * apart from those that are only on the way. */
+/* Predicted light of small lit patches, from path vertices near them. The nearest twelve on the patch's plane and side count; vertices that
+ * the camera sees count separately from others on a path. */
 #include "rare/openings.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static void add_vertex(const ec_rare_patch *patch, double distance, double heigh
                                           .direction = {0, 0, up}, .beta = beta, .segment = segment};
 }
 
-/* Neither the nearest nor the farthest first; and nearer than all of them one that leaves the other side, and one that is not in the plane. */
+/* Vertices in no order of distance. Nearer than all of them are one on the other side, and one off the plane. */
 static void surround(const ec_rare_patch *patch, double seen, double on_the_way)
 {
     add_vertex(patch, 0.5 * seen, 0, -1, 1, 99);
@@ -33,7 +33,7 @@ static void surround(const ec_rare_patch *patch, double seen, double on_the_way)
     }
 }
 
-/* The kind of so much light whose nearest vertices have that spacing. */
+/* The kind of light of this amount whose nearest vertices have this spacing. */
 static void check_kind(const ec_rare *rare, const ec_rare_patch *patch, double spacing, bool seen)
 {
     const double farthest = NEAREST * spacing, chance = NEAREST * patch->area / (PI * farthest * farthest) / PATHS;

@@ -1,22 +1,22 @@
 /* tiers: quick, full */
-/* Light behind panes: thin, smooth walls and those of bodies of index 1, which shadow rays pass. What points, spots, suns and lamps give a floor through any number
- * of them, in closed form or by integration in double, for every --sample: nothing is lost or counted twice. */
+/* Light behind panes: thin, smooth walls, and those of bodies of index 1, which shadow rays pass. Light of points, spots, suns and lamps on
+ * a floor through any number of them, in closed form or by integration in double, for every --sample: no light is lost or counted twice. */
 #include "support/floor_case.h"
 
 #define INTENSITY 6.28318530717958648 /* 2 pi cd */
 #define POINT "{\"type\":\"point\",\"intensity\":6.28318530717958648}"
 
-/* Lights are 2 off to the side, not above where two triangles of a sheet meet: panes are passed at an angle. */
+/* Lights are 2 to the side, not above the edge between a sheet's two triangles: rays pass panes at an angle. */
 static const double at[3] = {1.2, 1.6, 0}, down[3] = {-1.2, -1.6, 0}, cosine = 0.8;
 
-/* What a pane of index 1.5 lets pass at this cosine: base (1 - F), Schlick's F as glTF asks. */
+/* Transmittance of a pane of index 1.5 at this cosine: base (1 - F), with glTF's Schlick F. */
 static double pane_passes(double base, double cosine) { return base * (1 - (0.04 + 0.96 * pow(1 - cosine, 5))); }
 
 static void add_pane(gltf_writer *w, int material, double height)
 {
     gltf_quad(w, material, (double[3]){-30, height, 30}, (double[3]){60, 0, 0}, (double[3]){0, 0, -60});
 }
-/* What passes is the base colour's: other panes here are grey. */
+/* Transmitted light has the base colour: other panes here are grey. */
 static const double tint[3] = {0.9, 0.5, 0.2};
 static int tinted(gltf_writer *w)
 {
@@ -45,7 +45,7 @@ static void expect_colour(ec_scene *scene, const char *name, const ec_render_opt
     ec_scene_free(scene);
 }
 
-/* The floor's light by way of `depth` segments, everywhere in the picture the same. One pane less does not see it. */
+/* The floor's light by paths of `depth` segments, uniform over the picture. With one segment less the camera does not see it. */
 static void expect(gltf_writer *w, const char *name, ec_integrator integrator, int sample, uint32_t depth, uint32_t spp, double expected, double most_se)
 {
     char file[96];
@@ -64,8 +64,8 @@ static void expect(gltf_writer *w, const char *name, ec_integrator integrator, i
     case_free(&image);
 }
 
-/* A point, a spot and a sun along the same way. I / r^2 cos albedo / pi. No
- * sampling is involved: every path brings the same. 64 panes leave each time 64 roundings more. */
+/* A point, a spot and a sun in the same direction: I / r^2 cos albedo / pi. No sampling is involved: every path brings the same light. 64
+ * panes cause 64 roundings more. */
 static void punctual(void)
 {
     static const int counts[4] = {0, 1, 3, 64};
@@ -89,7 +89,7 @@ static void punctual(void)
             }
 }
 
-/* With a wall between them no light comes, whatever the order; a MASK wall under its cut-off is not there; BLEND leaves its share. */
+/* An opaque wall among the panes blocks all light, in any order. A MASK wall below its cut-off has no effect, and BLEND leaves its share. */
 static void mixed(void)
 {
     const struct {
@@ -110,8 +110,8 @@ static void mixed(void)
             }
 }
 
-/* A lamp of 1 x 1 at height 1: its radiance times the integral of cos cos' / d^2 and what n panes let pass, by the midpoint rule on
- * 400 x 400 (it errs by 1e-6). Light sampling aims through the panes, directions pass them, and MIS weighs the two. */
+/* A lamp of 1 x 1 at height 1: its radiance times the integral of cos cos' / d^2 and the transmittance of n panes, by the midpoint rule on
+ * 400 x 400 (error 1e-6). Light sampling aims through the panes, BSDF directions pass them, and MIS weighs both. */
 static void lamp(void)
 {
     for (int n = 1; n < 4; n += 2) {
@@ -134,8 +134,8 @@ static void lamp(void)
     }
 }
 
-/* Coloured panes before a point, a sun and the sky: base colour^n each. Of the sky, all directions: the integral of 2 c (1 - F(c)) is
- * 0.96 (1 - 2 / 42). Panes reach to a cosine of 2e-4. */
+/* Coloured panes before a point, a sun and the sky: base colour^n each. For the sky, over all directions: the integral of 2 c (1 - F(c)) is
+ * 0.96 (1 - 2 / 42). Panes extend to a cosine of 2e-4. */
 static void colours(void)
 {
     static const char *const lights[3] = {POINT, "{\"type\":\"directional\",\"intensity\":6.28318530717958648}", NULL};
@@ -154,7 +154,7 @@ static void colours(void)
             for (int i = 0; i < n; i++)
                 gltf_quad(w, material, (double[3]){-3000, 0.5 + 0.2 * i, 3000}, (double[3]){6000, 0, 0}, (double[3]){0, 0, -6000});
             if (lights[kind]) gltf_light(w, at, down, lights[kind]);
-            else /* what the pane reflects is dark */
+            else /* the pane reflects a dark environment */
                 gltf_quad(w, gltf_lambert(w, 0, 0), (double[3]){-3000, -0.01, 3000}, (double[3]){6000, 0, 0}, (double[3]){0, 0, -6000});
             for (int c = 0; c < 3; c++)
                 want[c] = lights[kind] ? INTENSITY / (kind ? 1 : 4) * cosine * 0.6 / PI * pow(pane_passes(tint[c], cosine), n)
@@ -171,8 +171,8 @@ static void add_body(gltf_writer *w, const double left[3], double low, double hi
     gltf_box(w, gltf_add_glass(w, &g), (double[3]){-half, low, -half}, (double[3]){half, high, half});
 }
 
-/* Bodies of index 1 before a point and a sun, rough ones too: 0.9 a wall, and what they absorb. 1: one; 2: one in another, which it displaces; 3: around the
- * point itself. */
+/* Bodies of index 1 before a point and a sun, also rough ones: 0.9 for each wall, times their absorption. 1: one; 2: one in another, which
+ * it displaces; 3: around the point itself. */
 static void bodies(int first, int last, int ways)
 {
     static const double outer[3] = {0.9, 0.6, 0.3}, inner[3] = {0.2, 0.5, 0.8};
@@ -200,7 +200,7 @@ static void bodies(int first, int last, int ways)
             }
 }
 
-/* A texture's alpha in the way: of 51 and 204 in two texels, 0.68 where the light passes, at u = 0.65: 0.2 x 51 / 255 + 0.8 x 204 / 255. */
+/* A texture's alpha in the way: texels of 51 and 204. The light passes at u = 0.65, where alpha is 0.68: 0.2 x 51 / 255 + 0.8 x 204 / 255. */
 static void textured_alpha(void)
 {
     static const struct {

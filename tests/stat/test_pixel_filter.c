@@ -1,8 +1,8 @@
 /* tier: full */
-/* Blackman and Harris' filter: a square lamp's picture pixel by pixel, the light in it, the bits, and whether errors are what is said. */
+/* The Blackman-Harris filter: a square lamp's picture pixel by pixel, its total light, its bits, and the stated errors. */
 #include "support/lamp_picture.h"
 
-/* The filter's distribution: the integral of its cosines, from -width to x. */
+/* The filter's cumulative distribution: the integral of its cosines from -width to x. */
 static double distribution(double x, double width)
 {
     const double a[4] = {0.35875, 0.48829, 0.14128, 0.01168}, t = fmin(fmax(0.5 + 0.5 * x / width, 0), 1), pi = 3.14159265358979323846;
@@ -33,8 +33,8 @@ static void check_picture(double width)
     ec_scene_free(scene);
 }
 
-/* Pixels' errors are independent and stated right: over renders the mean of the picture, whose lamp lies within it, is as far from what
- * was predicted as its standard error says. The sum of 40 squared z is over 73.4 or under 16.9 in 1 run of 1 000 each. */
+/* Pixels' errors are independent and stated correctly. The lamp is inside the picture: over renders, the picture's mean differs from the
+ * prediction by its standard error. The sum of 40 squared z is over 73.4 or under 16.9 in 1 run of 1 000 each. */
 static void check_error(void)
 {
     ec_scene *scene = lamp_at(0.05, -0.1, 4, "filter-error");

@@ -1,6 +1,6 @@
 /* tiers: quick, full */
-/* Rare paths as they are predicted: against closed forms where a flat mirror shows a small light, and against long renders where a mirror
- * throws it onto a floor. */
+/* Predictions of rare paths: against closed forms where a flat mirror shows a small light, and against long renders where a mirror reflects
+ * it onto a floor. */
 #include "rare/paths.h"
 #include "render/session.h"
 #include "support/gltf_writer.h"
@@ -10,7 +10,7 @@
 
 enum { WIDTH = 256, HEIGHT = 128 };
 
-/* Radiance `dark`, and `bright` in one texel. */
+/* A map of radiance `dark` with one texel of `bright`. */
 static void set_map(ec_scene *scene, int width, int height, int x, int y, float dark, float bright)
 {
     ec_environment *e = &scene->environment;
@@ -48,7 +48,7 @@ static ec_rare predict(const ec_scene *scene, const ec_render_options *options)
     return rare;
 }
 
-/* The light of all kinds, and the chance of the one that brings the most. */
+/* The light of all kinds, and the probability of the kind with most light. */
 static double light_of(const ec_rare *rare, double *chance, const char *name)
 {
     double sum = 0, most = 0;
@@ -63,7 +63,7 @@ static double light_of(const ec_rare *rare, double *chance, const char *name)
     return sum;
 }
 
-/* The texel lies at that angle from the zenith. */
+/* The texel is at this angle from the zenith. */
 static void check_plane(const char *what, double metallic, double angle, bool is_seen)
 {
     const double half = 0.4;
@@ -74,7 +74,7 @@ static void check_plane(const char *what, double metallic, double angle, bool is
     const ec_render_options o = case_options(40, 40, 16);
     const ec_rare rare = predict(scene, &o);
     const double theta = PI * (y + 0.5) / HEIGHT, omega = solid_angle(WIDTH, HEIGHT, y);
-    const double expected = omega / (4 * tan(half) * tan(half) * pow(cos(theta), 3)); /* of the camera's directions, by the picture's area */
+    const double expected = omega / (4 * tan(half) * tan(half) * pow(cos(theta), 3)); /* share of the camera's directions, by the picture's area */
     double chance;
     printf("%s, %.3g rad from the zenith:\n", what, theta);
     const double light = light_of(&rare, &chance, "plane");
@@ -96,7 +96,7 @@ static double light_above(ec_scene *scene)
     return light_of(&rare, &chance, "plane");
 }
 
-/* The mirror's square view reaches farther into its corners: a texel that lies beyond an edge is seen once the map is turned by 45 degrees. */
+/* The mirror's square view extends farther into its corners: a texel beyond an edge becomes visible when the map is turned by 45 degrees. */
 static void check_turned(void)
 {
     ec_scene *scene = load_plane(1, 0.4);
@@ -109,7 +109,7 @@ static void check_turned(void)
     ec_scene_free(scene);
 }
 
-/* Two suns of one radiance are not one between them: the mirror shows one, and nothing of the other. */
+/* Two suns of one radiance stay separate: the mirror shows one, and nothing of the other. */
 static void check_two_suns(void)
 {
     ec_scene *scene = load_plane(1, 0.4);
@@ -123,7 +123,7 @@ static void check_two_suns(void)
     ec_scene_free(scene);
 }
 
-/* Counts of samples that were dropped are the render's: predicting leaves them alone. */
+/* Dropped samples are counted in the render only: predicting does not change the counts. */
 static void check_invalid_counts(void)
 {
     const uint32_t wanted[EC_STAGE_COUNT] = {1, 2, 3, 4, 5};
@@ -150,7 +150,7 @@ static void check_invalid_counts(void)
     ec_scene_free(scene);
 }
 
-/* A wall beside a matt floor, in the light of a patch of sky that lies behind neither. */
+/* A wall beside a matt floor, in the light of a patch of sky that neither hides. */
 static double floor_light(double wall, const char *name, ec_rare *rare)
 {
     gltf_writer *w = gltf_new();
@@ -162,7 +162,7 @@ static double floor_light(double wall, const char *name, ec_rare *rare)
     gltf_camera(w, (double[3]){-1, 6, 0}, (double[3]){-1, 0, 0}, 0.25);
     ec_scene *scene = case_load(gltf_write(w, name), "1,1,1");
     free(w);
-    set_map(scene, 64, 32, 2, 10, 0, 1000); /* from -x, which the mirror faces */
+    set_map(scene, 64, 32, 2, 10, 0, 1000); /* light comes from -x, which the mirror faces */
     ec_render_options o = case_options(16, 16, 16384);
     o.max_depth = 3;
     *rare = predict(scene, &o);
@@ -173,7 +173,7 @@ static double floor_light(double wall, const char *name, ec_rare *rare)
     return mean;
 }
 
-/* A mirror throws light onto the floor: as much as the difference that it makes. */
+/* A mirror reflects light onto the floor: the predicted light is the difference that the mirror makes. */
 static void check_floor(void)
 {
     ec_rare rare, none;
@@ -184,13 +184,13 @@ static void check_floor(void)
     CHECK_MSG(light > 0.6 * expected && light < 1.6 * expected, "light %g by way of the mirror, %g in a long render", light, expected);
 }
 
-/* A lamp in a glass bulb that is too small for the first look's paths to meet it, in a room with a window of light that they do. */
+/* A lamp in a glass bulb that is too small for the paths of the first look, in a room with a bright window, which those paths find. */
 static void check_bulb(double size, bool is_glass)
 {
     gltf_writer *w = gltf_new();
     const int grey = gltf_lambert(w, 0.5, 0), panel = gltf_lambert(w, 0, 1), filament = gltf_lambert(w, 0, 1 / (6 * size * size * 0.16));
     const int bulb = is_glass ? gltf_add_glass(w, &(gltf_glass){.base = 1, .transmission = 1, .ior = 1.5}) : grey;
-    for (int k = 0; k < 3; k++) { /* walls that look inwards */
+    for (int k = 0; k < 3; k++) { /* walls that face inwards */
         const double u[3] = {4 * (k == 1), 4 * (k == 2), 4 * (k == 0)}, v[3] = {4 * (k == 2), 4 * (k == 0), 4 * (k == 1)};
         const double at[3] = {-2, -2, -2}, far[3] = {-2 + 4 * (k == 0), -2 + 4 * (k == 1), -2 + 4 * (k == 2)};
         gltf_quad(w, grey, at, u, v);
@@ -211,8 +211,8 @@ static void check_bulb(double size, bool is_glass)
     ec_scene_free(scene);
 }
 
-/* What a sun of one texel brings by way of a chrome cube so small that a few of the first look's paths meet it. It stands on a floor, beside a wall
- * if there is one, at +x or -x; eye: the camera looks from there at the cube; row, column: the texel. */
+/* Light of a sun of one texel reflected by a chrome cube that only a few of the first look's paths meet. The cube stands on a floor, beside
+ * a wall, if there is one, at +x or -x. eye: the camera's position; row, column: the texel. */
 static double small_mirror_light(const char *what, int wall, const double eye[3], int column, int row)
 {
     gltf_writer *w = gltf_new();
@@ -234,19 +234,19 @@ static double small_mirror_light(const char *what, int wall, const double eye[3]
     return light;
 }
 
-/* Where the sun is in sight of the cube its light may be missing, of that side too that the first look's paths do not meet; behind a wall it is
- * not. */
+/* If the sun is visible from the cube, its light may be missing, also by a side that the first look's paths do not meet. Behind a wall it
+ * may not. */
 static void check_small_mirror(void)
 {
     const double beside[3] = {-1.5, 1.5, 1.5}, across[3] = {1.5, 1, 0};
-    const double seen = small_mirror_light("in sight", 0, beside, 32, 12); /* towards +x, 0.35 rad over the horizon */
+    const double seen = small_mirror_light("in sight", 0, beside, 32, 12); /* towards +x, 0.35 rad above the horizon */
     const double hidden = small_mirror_light("behind a wall", 1, beside, 32, 12);
     const double own = small_mirror_light("behind the cube itself", 0, across, 0, 12); /* towards -x */
     const double both = small_mirror_light("behind the cube and a wall", -1, across, 0, 12);
     CHECK_MSG(seen > 0.01 && hidden == 0 && own > 0 && both == 0, "light %g, %g, %g, %g", seen, hidden, own, both);
 }
 
-/* Most of this map's light comes from no direction in particular, and no ray can be aimed at that: rays without a direction ended the program. */
+/* Most of this map's light has no main direction, so no ray can be aimed at it. Rays without a direction once ended the program. */
 static void check_all_around(void)
 {
     static const char model[] = SHARED("assets/gltf/MetalRoughSpheresNoTextures/glTF-Binary/MetalRoughSpheresNoTextures.glb"),
@@ -260,7 +260,7 @@ static void check_all_around(void)
     ec_scene_free(scene);
 }
 
-/* The brightest tile is 255 of 255, however its quotient rounds: in this picture it came out as 256, which a byte takes for none. */
+/* The brightest tile is 255 of 255 however its quotient is rounded: in this picture it was 256, which a byte stores as 0. */
 static void check_tiles(void)
 {
     ec_scene *scene = case_load(OWN_SCENE("lamps/lamps.gltf"), NULL);

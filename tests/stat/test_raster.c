@@ -1,7 +1,7 @@
 /* tiers: quick, full */
-/* The rasteriser sees what camera rays see: first-hit depth and coverage of the same samples, one a pixel, in at least 99.9 % of
- * the pixels (only samples within rounding of a silhouette may differ). And its picture does not depend on the order of the
- * triangles or on how the work is cut. */
+/* The rasteriser sees the same as camera rays: first-hit depth and coverage of the same samples, one a pixel, in at least 99.9 % of the
+ * pixels (only samples within rounding of a silhouette may differ). Its picture does not depend on the order of triangles or on how the
+ * work is divided. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
@@ -87,7 +87,7 @@ static void check_same_bits(const char *path)
     ec_scene_free(scene);
 }
 
-/* No highlight is narrower than alpha 0.02. One that is stretched to alpha 1 stays so, however narrow it is across. */
+/* No highlight is narrower than alpha 0.02. One stretched to alpha 1 along one axis keeps that width, however narrow it is across. */
 static void check_brushed(void)
 {
     case_image image[2];
@@ -120,7 +120,7 @@ int main(void)
     check_agreement(OWN_SCENE("lamps/lamps.gltf"), 0);
     check_agreement(OWN_SCENE("lamps/lamps.gltf"), 1); /* orthographic */
     check_agreement(OWN_SCENE("veach-plates/veach-plates.gltf"), 0);
-    check_agreement(OWN_SCENE("furnace/box-materials.gltf"), 0); /* the camera is inside: walls pass through its plane */
+    check_agreement(OWN_SCENE("furnace/box-materials.gltf"), 0); /* the camera is inside: walls pass through the camera's plane */
     check_agreement(SHARED("assets/classic/gltf/sponza-dabrovic/sponza-dabrovic.gltf"), 0);
     check_agreement(SHARED("assets/gltf/DamagedHelmet/glTF-Binary/DamagedHelmet.glb"), 0);
     check_agreement(SHARED("assets/gltf/AlphaBlendModeTest/glTF-Binary/AlphaBlendModeTest.glb"), 0);

@@ -1,13 +1,13 @@
 /* tiers: quick, full */
-/* The picture is a function of scene, seed and options, not of how it was computed: LANES, acceleration structure, density of its
- * grid, wave size, effects built in, and the time of day change no bit of any number in the film. (Threads: tests/cli/test_render.py.) */
+/* The picture is a function of scene, seed and options, not of how it is computed: LANES, acceleration structure, grid density, wave size,
+ * built-in effects and time of day change no bit of the film. (Threads: tests/cli/test_render.py.) */
 #include "accel/accel.h"
 #include "pack/pack.h"
 #include "support/render_case.h"
 
 enum { WIDTH = 48, HEIGHT = 36, SCENES = 3 };
 
-/* A program of 4 lanes takes two thirds of the time that one of a lane takes to compile. */
+/* A program of 4 lanes compiles in two thirds of the time of a program of one lane. */
 static ec_render_options base_options(void)
 {
     ec_render_options o = case_options(WIDTH, HEIGHT, 8);
@@ -26,7 +26,7 @@ static void check_one(const ec_scene *scene, const case_image *expected, const e
     case_free(&image);
 }
 
-/* Twice, in other waves, and once with another seed, for the comparison to see a difference. */
+/* Renders twice, in other waves, and once with another seed, to see that the comparison finds a difference. */
 static void check_base(const char *what, const ec_scene *scene, const case_image *expected)
 {
     static const uint32_t waves[] = {512, 4096, 5000};
@@ -44,7 +44,7 @@ static void check_base(const char *what, const ec_scene *scene, const case_image
     case_free(&other);
 }
 
-/* Packets have the accelerator whose kernels are as wide as what shades; the others' are of 8 lanes. */
+/* Packets use the accelerator whose kernels are as wide as shading; the others' kernels have 8 lanes. */
 static void check_width(const char *what, const ec_scene *scene, const case_image *expected, uint32_t lanes, uint64_t effects)
 {
     ec_render_options o = base_options();
@@ -54,7 +54,7 @@ static void check_width(const char *what, const ec_scene *scene, const case_imag
     check_one(scene, expected, &o, what);
 }
 
-/* With effects of all the scenes, which so share programs. */
+/* With the effects of all these scenes, so that they share programs. */
 static void check_accels(const char *what, const ec_scene *scene, const case_image *expected, uint64_t all_scenes)
 {
     static const float densities[] = {0.01f, 1.0f, 300.0f, 10000.0f};
@@ -74,7 +74,7 @@ static void check_accels(const char *what, const ec_scene *scene, const case_ima
     check_one(scene, expected, &o, what);
 }
 
-/* The first scene has punctual lights' effect for that of others: alone, it is built for few effects more. */
+/* The first scene gets the effect of punctual lights, which others need; it needs few more effects. */
 int main(void)
 {
     static const char *const names[SCENES] = {"cornell-box", "lamps", "drink"};
@@ -92,7 +92,7 @@ int main(void)
     for (int i = 0; i < count; i++) {
         expected[i] = case_render(scenes[i], &o);
         CHECK(expected[i].mean[0] > 0);
-        all_scenes |= expected[i].stats.effects.built; /* also those that a scene calls for once its lamps are known, such as a light tree */
+        all_scenes |= expected[i].stats.effects.built; /* also effects that a scene needs once its lamps are known, such as a light tree */
     }
     for (int l = 0; l < 2; l++) check_width(names[0], scenes[0], &expected[0], widths[is_full][l], 0);
     for (int i = is_full; i < count; i++) {

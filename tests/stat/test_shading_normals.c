@@ -1,13 +1,12 @@
 /* tiers: full, long */
-/* A faceted ball with a round one's normals: no light gets in, none is won, and with
- * --terminator smooth none is lost. */
+/* A faceted ball with the normals of a round one: no light gets in, none is gained, and with --terminator smooth none is lost. */
 #include "report/names.h"
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
 enum { PARTS = 3, SAMPLE_COUNT = EC_SAMPLE_HEMISPHERE + 1 };
 
-/* An octahedron's sides, each in PARTS^2 triangles, on the unit sphere: 72 facets. */
+/* The sides of an octahedron, each with PARTS^2 triangles, on the unit sphere: 72 facets. */
 static void add_ball(gltf_writer *w, int material, double x, double y, double z)
 {
     static float positions[8 * PARTS * PARTS * 9], normals[8 * PARTS * PARTS * 9];
@@ -17,7 +16,7 @@ static void add_ball(gltf_writer *w, int material, double x, double y, double z)
             for (int j = 0; j < PARTS - i; j++)
                 for (int up = 0; up < (j < PARTS - i - 1 ? 2 : 1); up++) {
                     int corners[3][2] = {{i + up, j + up}, {i + 1, j}, {i, j + 1}};
-                    int flip = (side & 1) ^ (side >> 1 & 1) ^ (side >> 2) ^ up; /* fronts outwards */
+                    int flip = (side & 1) ^ (side >> 1 & 1) ^ (side >> 2) ^ up; /* fronts face outwards */
                     for (int c = 0; c < 3; c++) {
                         const int *at = corners[c && flip ? 3 - c : c];
                         double p[3] = {at[0], at[1], PARTS - at[0] - at[1]}, length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
@@ -51,7 +50,7 @@ static case_image picture(const ec_scene *scene, ec_sample sample, ec_terminator
     return case_render(scene, &o);
 }
 
-/* From inside, with lamps and a sky outside: exactly nothing. */
+/* Seen from inside, with lamps and a sky outside: exactly no light. */
 static void check_inside(uint32_t samples)
 {
     gltf_writer *w = gltf_new();
@@ -72,7 +71,8 @@ static void check_inside(uint32_t samples)
     free(w);
 }
 
-/* In a sky of 1 a ball of albedo 0.8 is 0.8: a ray from its tangent plane meets it no more. From the facets some do, and are lost. */
+/* In a sky of 1, a ball of albedo 0.8 shows 0.8: a ray from its tangent plane does not meet it again. From facets some rays do, and are
+ * lost. */
 static void check_furnace(void)
 {
     gltf_writer *w = gltf_new();
@@ -108,7 +108,7 @@ static ec_scene *two_balls(void)
     return scene;
 }
 
-/* All strategies see the same smooth picture, those that seldom meet the lamp with four times as many samples. */
+/* All strategies give the same smooth picture; those that seldom find the lamp have four times as many samples. */
 static void check_strategies(uint32_t samples)
 {
     ec_scene *scene = two_balls();

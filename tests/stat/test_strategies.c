@@ -1,15 +1,15 @@
 /* tiers: full, long */
-/* Light sampling, BSDF sampling, both together and uniform directions must converge to one picture, whatever emits and
- * whatever stands in the way: they share no code for finding light. Small pictures with many samples, every pair compared by
- * ztest.h with no allowance for a common bias. BSDF sampling and uniform directions meet a lamp seldom, so that 32 batches of
- * a single dark pixel say little of their variance: they are compared in squares of 4 x 4 pixels. (In the full
- * tier there is a quarter of the samples, and squares are of twice the side: they have as many.) Nor must it matter how
- * roulette is played. Each comparison fails by chance once in a hundred seeds at most; the seeds are fixed. */
+/* Light sampling, BSDF sampling, both together and uniform directions must converge to one picture, for all emitters and occluders: they
+ * share no code for finding light. Small pictures with many samples; ztest.h compares every pair without allowance for a common bias.
+ *
+ * BSDF sampling and uniform directions seldom meet a lamp, so that 32 batches of a single dark pixel say little about its variance: these
+ * are compared in squares of 4 x 4 pixels. (The full tier has a quarter of the samples and squares of twice the side, so as many samples in
+ * each.) Roulette must not matter either. Each comparison fails by chance with at most one of a hundred seeds; the seeds are fixed. */
 #include "report/names.h"
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
-/* Built in for scenes that do not call for them all: a program takes longer to compile than a scene takes to render. */
+/* Effects built in for scenes that do not need them all: a program takes longer to compile than a scene to render. */
 #define LIT (EC_FEATURE_EMISSION | EC_FEATURE_AREA_LIGHTS | EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP | EC_FEATURE_CULLING | EC_FEATURE_SPECULAR | EC_FEATURE_SMOOTH)
 #define OPAQUE (LIT | EC_FEATURE_EMISSION_TEXTURE | EC_FEATURE_PUNCTUAL_LIGHTS | EC_FEATURE_SMOOTH_NORMALS | EC_FEATURE_VERTEX_COLORS | EC_FEATURE_NORMAL_TEXTURE | EC_FEATURE_ALPHA)
 #define GLASS (LIT | EC_FEATURE_TRANSMISSION | EC_FEATURE_ABSORPTION | EC_FEATURE_PANES | EC_FEATURE_NESTED)
@@ -23,7 +23,7 @@ static void agree(const char *name, const char *path, const char *environment, u
     case_image image[COUNT];
     for (int s = 0; s < COUNT; s++) {
         ec_render_options o = case_random(16, more[s] * samples, (ec_sample)s, (uint64_t)s + 11);
-        o.lanes = 8; /* for that, too */
+        o.lanes = 8; /* for these settings, too */
         o.more_effects = effects;
         o.max_depth = 5;
         image[s] = case_render(scene, &o);
@@ -39,8 +39,8 @@ static void agree(const char *name, const char *path, const char *environment, u
     ec_scene_free(scene);
 }
 
-/* Most of the light in a white box has gone from wall to wall: what roulette loses is lost here. With walls of 0.73 and
- * P = 0.5 the variance of endless paths would be infinite (0.73^2 > 0.5), so paths have ten segments. */
+/* Most of the light in a white box has passed from wall to wall, so that light lost by roulette shows here. With walls of 0.73 and P = 0.5
+ * endless paths would have infinite variance (0.73^2 > 0.5), so paths have ten segments. */
 static void roulette_agrees(void)
 {
     static const double survival[3] = {0, 0.8, 0.5};
@@ -59,7 +59,7 @@ static void roulette_agrees(void)
     ec_scene_free(scene);
 }
 
-/* Three times by way of dark mirrors, floor, ceiling and floor, to a white sky: each sample is F(45 deg)^3, unless roulette plays for it. */
+/* Reflected three times by dark mirrors (floor, ceiling, floor) to a white sky: each sample is F(45 deg)^3, unless roulette ends it. */
 static void mirrors_are_spared(void)
 {
     gltf_writer *w = gltf_new();
@@ -78,7 +78,7 @@ static void mirrors_are_spared(void)
     free(w);
 }
 
-/* A floor of the given material that fills the picture, a white block on it; a light is still to come. */
+/* A floor of the given material that fills the picture, with a white block on it; a light must be added. */
 static gltf_writer *stage(int (*floor_material)(gltf_writer *))
 {
     gltf_writer *w = gltf_new();
@@ -141,7 +141,7 @@ static const char *write_environment(void)
     return ECLAT_TEST_OUT "/strategies-sky.exr";
 }
 
-/* Pictures of `size` squared for texture `index` of the scene NAME. */
+/* Gives texture `index` of the scene NAME a picture of `size` squared. */
 static int add_texture(gltf_writer *w, const char *name, uint32_t size, const uint8_t *rgb)
 {
     char path[512];
@@ -167,7 +167,7 @@ static void textured_emission(void)
     run(w, "textured-emission", NULL, OPAQUE);
 }
 
-/* What a lamp under a clear coat sends goes by the angle, about a bent normal, and by a texture of the coat. */
+/* The light of a lamp under a clear coat depends on the angle, on a bent normal, and on a texture of the coat. */
 static void coated_lamp(void)
 {
     static const float normals[12] = {-0.6f, -0.8f, 0, 0.6f, -0.8f, 0, 0, -0.8f, -0.6f, 0, -0.8f, 0.6f};
@@ -189,7 +189,7 @@ static int see_through(gltf_writer *w, const char *mode, double alpha)
                     alpha, mode);
 }
 
-/* Coverage between lamp and floor: from 0 to 1 across the panel by vertex colour. BLEND lets a share through, MASK half. */
+/* Coverage between lamp and floor: from 0 to 1 across the panel, by vertex colour. BLEND lets a share through, MASK half. */
 static void panels(const char *mode)
 {
     static const float colors[16] = {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0};
@@ -200,7 +200,7 @@ static void panels(const char *mode)
     run(w, !strcmp(mode, "MASK") ? "mask-panel" : "blend-panel", NULL, OPAQUE);
 }
 
-/* Between lamp and floor. What passes through glass is found by paths alone, as if nobody aimed at the lamp: a wide one. */
+/* Glass between lamp and floor. Only paths find light through glass, as if light sampling did not exist: the lamp is wide. */
 static void glass_before_a_lamp(const char *name, const gltf_glass *glass)
 {
     gltf_writer *w = stage(matt);
@@ -211,7 +211,8 @@ static void glass_before_a_lamp(const char *name, const gltf_glass *glass)
     run(w, name, NULL, GLASS);
 }
 
-/* A lamp in a body of coloured glass: aimed at from within, met through its faces from without. And the block beside it. */
+/* A lamp in a body of coloured glass: light samples reach it from within, paths through the body's faces from outside. The block is beside
+ * it. */
 static void lamp_in_glass(void)
 {
     gltf_writer *w = stage(matt);
@@ -222,7 +223,7 @@ static void lamp_in_glass(void)
     run(w, "lamp-in-glass", NULL, GLASS);
 }
 
-/* Water that no glass holds: a single face with a volume beneath it, from which rays get out sideways. */
+/* Water without a glass: a single face with a volume below it, which rays leave sideways. */
 static void water_without_sides(const char *sky)
 {
     gltf_writer *w = stage(matt);
@@ -231,8 +232,8 @@ static void water_without_sides(const char *sky)
     run(w, "water-without-sides", sky, GLASS);
 }
 
-/* In closed form: a black BLEND sheet of coverage 0.4 (and behind it one of 0.5) before all the light leaves 0.6 x 0.5 of it,
- * however it is found. The sheets are far wider than the lamp. */
+/* Closed form: a black BLEND sheet of coverage 0.4 (and behind it one of 0.5) before all light leaves 0.6 x 0.5 of it, for every way to
+ * find it. The sheets are far wider than the lamp. */
 static void blend_in_closed_form(void)
 {
     double bare[3] = {0}, se[3] = {0};
@@ -268,7 +269,7 @@ static void blend_in_closed_form(void)
         }
 }
 
-/* Shading normals far from the geometric ones, by vertex normals and a normal map, with vertex colours. */
+/* Shading normals far from the geometric ones, from vertex normals and a normal map, with vertex colours. */
 static void bent_normals(void)
 {
     static const float normals[12] = {-0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0, 0.8f, -0.6f, 0, 0.8f, 0.6f};
@@ -314,7 +315,7 @@ int main(void)
     w = stage(glossy_metal);
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.5);
     run(w, "glossy-metal", NULL, OPAQUE);
-    w = stage(mirror); /* the lamp's image is in view, and lit by way of the mirror is the block's underside */
+    w = stage(mirror); /* the lamp's image is in view, and light by the mirror reaches the block's underside */
     add_lamp(w, gltf_lambert(w, 0.3, 10), 0.6);
     run(w, "lamp-in-a-mirror", NULL, OPAQUE);
     w = stage(varnish);

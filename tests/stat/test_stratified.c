@@ -1,11 +1,12 @@
 /* tier: quick */
-/* Stratified numbers stay stratified down to a texel of an environment map: with light sampling alone, 256 samples a pixel in one
- * replicate, Sobol's error is under a third of independent numbers'. (0.005; texels picked by hashed numbers, as by an alias table: 0.98.) */
+/* Stratified numbers stay stratified down to a texel of an environment map. With light sampling alone, 256 samples a pixel and one
+ * replicate, Sobol's error is below a third of that of independent numbers. (It is 0.005; with texels picked by hashed numbers, as by an
+ * alias table, it was 0.98.) */
 #include "support/floor_case.h"
 
 enum { WIDTH = 64, HEIGHT = 32, SIZE = 16, SPP = 256 };
 
-/* Radiance 1 + cos(phi) sin(theta) above a floor of albedo 0.6: the odd part cancels. */
+/* Radiance 1 + cos(phi) sin(theta) above a floor of albedo 0.6: the odd part integrates to 0. */
 static void set_map(ec_scene *scene)
 {
     free(scene->environment.rgb);

@@ -1,13 +1,13 @@
 /* tier: quick */
 /* Textures have no footprint: a look-up is bilinear or nearest at full resolution, and pixels are supersampled. So a picture converges to
- * the texture's own mean over a pixel, however small it is shown, and what a file says of minification and mipmaps changes no bit. */
+ * the texture's mean over a pixel, at any scale, and a file's minification filter and mipmaps change no bit. */
 #include "image/image.h"
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
 enum { SIDE = 400, PIXELS = 4, OF_PIXEL = SIDE / PIXELS }; /* each pixel has 100 x 100 texels */
 
-/* A checkerboard, its squares one texel, with noise in it and brighter to the right. */
+/* A checkerboard with squares of one texel, noise in it, and brighter to the right. */
 static uint8_t *texels(void)
 {
     uint8_t *rgb = malloc(3 * SIDE * SIDE);
@@ -20,7 +20,7 @@ static uint8_t *texels(void)
     return rgb;
 }
 
-/* What texel `at` has of pixel `pixel` along one axis. A bilinear look-up spreads a texel over its neighbours, 1/8 of it beyond each edge. */
+/* Weight of texel `at` in pixel `pixel` along one axis. A bilinear look-up spreads a texel over its neighbours, 1/8 of it beyond each edge. */
 static double share(int at, int pixel, bool nearest)
 {
     int first = pixel * OF_PIXEL, last = first + OF_PIXEL - 1, before = (first + SIDE - 1) % SIDE, after = (last + 1) % SIDE;
@@ -29,7 +29,7 @@ static double share(int at, int pixel, bool nearest)
     return at < first || at > last ? 0 : at == first || at == last ? 0.875 : 1;
 }
 
-/* Of the linear radiance, not of what sRGB makes of it. */
+/* Mean of the linear radiance, not of its sRGB code. */
 static double mean_of(const uint8_t *rgb, int px, int py, int channel, bool nearest)
 {
     double sum = 0;
@@ -40,7 +40,7 @@ static double mean_of(const uint8_t *rgb, int px, int py, int channel, bool near
     return sum / OF_PIXEL / OF_PIXEL;
 }
 
-/* An unlit square that the picture shows, exactly; v runs down. */
+/* An unlit square that fills the picture exactly; v runs down. */
 static case_image show(const uint8_t *rgb, const char *sampler)
 {
     gltf_writer *w = gltf_new();
@@ -60,7 +60,7 @@ static case_image show(const uint8_t *rgb, const char *sampler)
     return image;
 }
 
-/* 48 values in 2 pictures, each from 16 batches: 6 standard errors are exceeded 1 time in 500 by one of them. */
+/* 48 values in 2 pictures, each from 16 batches: one of them exceeds 6 standard errors 1 time in 500. */
 static void check(const case_image *image, const uint8_t *rgb, bool nearest)
 {
     double worst = 0, noise = 0;

@@ -1,5 +1,5 @@
 /* tiers: quick, full */
-/* Whitted's ray trees against closed forms: what each is, stands beside its scene. A needle's eye of a camera sees one point. */
+/* Whitted's ray trees against closed forms, which are beside the scenes. A camera with a tiny field of view sees one point. */
 #include "support/gltf_writer.h"
 #include "support/render_case.h"
 
@@ -17,7 +17,7 @@ static case_image look(const char *path, const char *environment, uint32_t max_d
     return image;
 }
 
-/* No noise: nothing is sampled but the place in the pixel. */
+/* There is no noise: only the position in the pixel is sampled. */
 static void check(const char *what, const char *path, const char *environment, uint32_t max_depth, double cutoff, double expected)
 {
     case_image image = look(path, environment, max_depth, cutoff);
@@ -48,7 +48,7 @@ static void box(gltf_writer *w, int id, double x0, double x1, double y0, double 
     gltf_quad(w, id, (double[3]){x0, y0, z0}, (double[3]){x, 0, 0}, (double[3]){0, 0, z});
 }
 
-/* A metal of reflectance 0.6, head-on and at 60 degrees (Schlick). */
+/* A metal of reflectance 0.6, seen head-on and at 60 degrees (Schlick). */
 static void mirrors_reflect_by_fresnel(void)
 {
     for (int tilted = 0; tilted < 2; tilted++) {
@@ -61,7 +61,8 @@ static void mirrors_reflect_by_fresnel(void)
     }
 }
 
-/* Glass slab, head-on, before an environment of 1: R = 0.04 comes back, T^2 R^j passes after j echoes in segment j + 3. */
+/* A slab of glass, head-on, before an environment of 1: R = 0.04 is reflected, and T^2 R^j passes after j internal reflections in segment j
+ * + 3. */
 static void slabs_share_light_out(void)
 {
     const double R = 0.04, T = 0.96;
@@ -77,7 +78,7 @@ static void slabs_share_light_out(void)
     check("slab", path, "1,1,1", 10, 0.05, T * T);          /* T R = 0.0384 and R are left out */
     check("slab", path, "1,1,1", 10, 0.03, R + T * T * (1 + R));
     free(w);
-    w = gltf_new(); /* half of the light is left after 0.1 m */
+    w = gltf_new(); /* half of the light remains after 0.1 m */
     box(w, material(w, 1, 0, 0, PASSES ",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":0.1,"
                                        "\"attenuationColor\":[0.5,0.5,0.5]}"), -5, 5, -5, 5, -0.2, 0);
     gltf_camera(w, (double[3]){0, 0, 1}, (double[3]){0, 0, 0}, 1e-5);
@@ -90,10 +91,10 @@ static void slabs_share_light_out(void)
     free(w);
 }
 
-/* What reaches the eye through `faces` interfaces of which `at` is met next, in segments left. */
+/* Light that reaches the eye through `faces` interfaces, of which `at` comes next, with `left` segments left. */
 static double stack_of_slabs(int at, int step, int faces, int left)
 {
-    if (at < 0 || at >= faces) return 1; /* out at either end: environment */
+    if (at < 0 || at >= faces) return 1; /* outside at either end: environment */
     if (left < 2) return 0;
     return 0.04 * stack_of_slabs(at - step, -step, faces, left - 1) + 0.96 * stack_of_slabs(at + step, step, faces, left - 1);
 }
@@ -109,7 +110,7 @@ static void trees_are_whole(void)
     free(w);
 }
 
-/* A right-angled prism turns the view up to a lamp: its long face is met at 45 degrees, beyond the critical angle of 41.8. */
+/* A right-angled prism turns the view up to a lamp: the ray meets the long face at 45 degrees, beyond the critical angle of 41.8. */
 static void total_reflection_loses_nothing(void)
 {
     const double R = 0.04, T = 0.96;
@@ -136,7 +137,7 @@ static gltf_writer *floor_of(double roughness, const char *extensions)
 
 #define MATT "\"KHR_materials_specular\":{\"specularFactor\":0}"
 
-/* A lamp of 2 x 2 at height 2 shines from its centre with all its area: E = 3 * 4 / 2^2. One ray decides on shadow. */
+/* A lamp of 2 x 2 at height 2 lights from its centre with its whole area: E = 3 * 4 / 2^2. One ray decides on shadow. */
 static void lamps_shine_from_their_centres(void)
 {
     const double lit = 0.6 / PI * 3;
@@ -150,7 +151,7 @@ static void lamps_shine_from_their_centres(void)
               blocker == 1 ? 0 : lit);
         free(w);
     }
-    /* Seen in a mirror it counts as seen, not as lighting. */
+    /* Seen in a mirror, a lamp shows its radiance and does not count as a light. */
     gltf_writer *w = gltf_new();
     gltf_quad(w, material(w, 0.6, 1, 0, ""), (double[3]){-5, 0, 5}, (double[3]){10, 0, 0}, (double[3]){0, 0, -10});
     gltf_quad(w, gltf_lambert(w, 0, 3), (double[3]){-1, 2, -1}, (double[3]){2, 0, 0}, (double[3]){0, 0, 2});
@@ -159,7 +160,7 @@ static void lamps_shine_from_their_centres(void)
     free(w);
 }
 
-/* An octahedron of radius r shines as a point of intensity Le A / 4 with A = 4 sqrt(3) r^2, and not into itself. */
+/* An octahedron of radius r shines as a point of intensity Le A / 4 with A = 4 sqrt(3) r^2, and does not light itself. */
 static void bodies_shine_as_points(void)
 {
     gltf_writer *w = floor_of(1, MATT);
@@ -177,7 +178,7 @@ static void bodies_shine_as_points(void)
     free(w);
 }
 
-/* Roughness 0.5: n = 2 / 0.5^4 - 2 = 30. The light stands at the mirror image of the eye, tilted by 10 degrees. */
+/* Roughness 0.5: n = 2 / 0.5^4 - 2 = 30. The light is at the mirror image of the eye, tilted by 10 degrees. */
 static void highlights_are_blinns(void)
 {
     gltf_writer *w = floor_of(0.5, "");
@@ -190,7 +191,8 @@ static void highlights_are_blinns(void)
     free(w);
 }
 
-/* Seen head-on through water without sides, which takes half of what it lets in (0.96). The light comes in beside it, so none of it is lost. */
+/* Seen head-on through water without sides, which absorbs half of the light that it lets in (0.96). The light enters beside it, without a
+ * loss. */
 static void far_lights_are_not_absorbed(void)
 {
     const double h = 0.2, angle = PI / 4;
@@ -208,12 +210,12 @@ static void far_lights_are_not_absorbed(void)
 static void the_environment_is_ambient_light(void)
 {
     gltf_writer *w = floor_of(1, MATT);
-    box(w, gltf_lambert(w, 0, 0), -4, 4, 0.1, 0.2, -4, 0.05); /* casts no shadow of it */
+    box(w, gltf_lambert(w, 0, 0), -4, 4, 0.1, 0.2, -4, 0.05); /* casts no shadow on it */
     check("ambient light", gltf_write(w, "whitted-ambient"), "2,2,2", 10, 0, 1.2);
     free(w);
 }
 
-/* The same bits however the work is cut, on glass, mirrors and lamps. */
+/* Bits do not depend on how the work is divided, for glass, mirrors and lamps. */
 static void pictures_have_the_same_bits(void)
 {
     gltf_writer *w = floor_of(0.05, "");

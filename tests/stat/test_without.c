@@ -1,13 +1,13 @@
 /* tier: full */
-/* Every effect that --without can leave out, left out of a scene that calls for it: another picture, and the effect is no more among
- * those called for. One build of all effects renders them; what is built for the scene without an effect gives the same bits
+/* Leaves out every effect that --without can leave out, from a scene that needs it: the picture changes, and the scene no longer needs the
+ * effect. One build with all effects renders the pictures; kernels built for the scene without an effect give the same bits
  * (test_effects_fuzz.c). */
 #include "pack/pack.h"
 #include "device/effects.h"
 #include "support/effect_model.h"
 #include "support/render_case.h"
 
-/* What else has to go before nothing calls for it: what reflects too, and what coverage is in. */
+/* Effects that also need this one, and so must go first: other reflections, and effects that contain coverage. */
 static uint64_t with(uint64_t bit)
 {
     const uint64_t over = EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION;
