@@ -1,5 +1,6 @@
-"""Run by an interpreter that has bpy: tests/blender/test_blender.py. Each case renders through bpy.ops.render.render.
-usage: PYTHON cases.py [NAME ...]   Environment: as of tests/cli/support.py."""
+"""Cases for an interpreter that has bpy, run by tests/blender/test_blender.py. Each renders through bpy.ops.render.render.
+
+usage: PYTHON cases.py [NAME ...]   Environment: as in tests/cli/support.py."""
 import contextlib
 import io
 import math
@@ -25,7 +26,7 @@ import eclat_blender  # noqa: E402
 from eclat_blender import final, glb, losses, main_thread  # noqa: E402
 
 eclat_blender.register()
-SINGLE = numpy.float32  # as Blender keeps numbers
+SINGLE = numpy.float32  # Blender keeps 32-bit floats
 WORDS = ["--size=48x32", "--spp=16", "--lanes=4", "--effects=all"]
 
 
@@ -35,7 +36,7 @@ class Scene(Case):
         final.teller = losses.Teller()
 
     def render(self, made, name="a.exr", **how):
-        """Blender's picture, all passes as 32-bit floats: attributes and planes by their names behind the view layer's."""
+        """Returns Blender's picture, all passes as 32-bit floats: attributes, and planes by their names after the view layer's."""
         settings, scene = made.render.image_settings, made
         if hasattr(settings, "media_type"):
             settings.media_type = "MULTI_LAYER_IMAGE"
@@ -53,7 +54,8 @@ class Scene(Case):
         return self.path("kept", f"{layer}.{frame:04d}", name)
 
     def compare(self, planes, words, frame=1, channels=()):
-        """Blender's picture, bit for bit, is what the program makes of the exported file by these words, written here by hand."""
+        """Checks that Blender's picture equals, bit for bit, the program's picture of the exported file with these options, which are
+        written by hand."""
         words = [word.replace("KEPT", os.path.dirname(self.kept("", frame))) for word in words]
         self.assert_ok(eclat("render", self.kept("scene.glb", frame), *WORDS, *words, *(["--channels=default," + ",".join(channels)] if channels else []),
                              "-q", "-o", self.path("b.exr")))
@@ -84,8 +86,8 @@ class Pictures(Scene):
         self.assertEqual(bright, [3 + 16 * (7 - 6)])  # rows from the top
 
     def test_depth_of_field_and_shift(self):
-        """35 mm at f/0.25 is 140 mm wide. The sensor is 36 mm wide and the picture 48x32, so that its half height is 18 / 35 x 32 / 48; a shift
-        counts in widths."""
+        """35 mm at f/0.25 is an aperture of 140 mm. The sensor is 36 mm wide and the picture 48x32, so its half height is 18 / 35 x 32 /
+        48. A shift counts in widths."""
         planes = self.render(scenes.depth_of_field())[1]
         half = 18 / 35 * 32 / 48
         x, y = 2 * 1.5 * 0.125, -2 * 1.5 * 0.25
@@ -117,7 +119,7 @@ class Pictures(Scene):
         self.assertNotIn("Plane.translation", names)
         moved = glb.floats(document, buffer, document["animations"][0]["samplers"][names["Cube.translation"]]["output"])[:, 0]
         self.assertEqual(len(moved), 3)
-        self.assertAlmostEqual(float(moved[1]), -0.4, 5)  # in the middle of its way, as in the middle of the exposure
+        self.assertAlmostEqual(float(moved[1]), -0.4, 5)  # in the middle of its path, as in the middle of the exposure
         self.assertLess(moved[2], moved[0])
         still = scenes.motion_blur()
         still.render.use_motion_blur = False
@@ -178,8 +180,8 @@ class Pictures(Scene):
 
 class Passes(Scene):
     def test_values(self):
-        """A wall that the camera looks at from 5 m: its depth is 5 everywhere, its normal is the camera's -x, and what is known of each pixel is what
-        the program has."""
+        """A wall 5 m before the camera: its depth is 5 everywhere, its normal is the camera's -x, and the data of each pixel are the
+        program's."""
         scene = scenes.fresh(camera=(5, 0, 0), look=(90, 0, 90))
         for name in ("Cube", "Plane"):
             bpy.data.objects.remove(bpy.data.objects[name])
@@ -190,7 +192,8 @@ class Passes(Scene):
         layer.eclat.use_samples = layer.eclat.use_interval = layer.eclat.use_albedo = True
         planes = self.render(scene)[1]
         _, mine = self.compare(planes, ["--env=0.2,0.3,0.4"], channels=("depth", "normal", "albedo", "low95", "high95"))
-        self.assertLess(max(abs(v - 5) for v in planes["Depth.Z"]), 0.01)  # the mean over a pixel of the distance, and that of its centre
+        # one is the mean distance over a pixel, the other that of its centre
+        self.assertLess(max(abs(v - 5) for v in planes["Depth.Z"]), 0.01)
         self.assertGreater(max(mine["depth.Z"]), 5.4)  # in the corners: 5 m x (1 + 0.36^2 + 0.24^2)^1/2 = 5.45 m
         for axis, value in zip("XYZ", (1, 0, 0)):
             self.assertLess(max(abs(v - value) for v in planes[f"Normal.{axis}"]), 1e-3)
@@ -203,7 +206,7 @@ class Passes(Scene):
         self.assertEqual(set(self.plane(planes, "Samples", "X")), {16.0})
 
     def plane(self, planes, name, channel):
-        """Blender 4.2 writes "Diffuse Color" by another name than 5."""
+        """Blender 4.2 writes "Diffuse Color" under another name than 5."""
         for one in (name, {"DiffCol": "Diffuse Color"}.get(name, name)):
             if f"{one}.{channel}" in planes:
                 return planes[f"{one}.{channel}"]
@@ -217,7 +220,7 @@ class Passes(Scene):
 
 class Reports(Scene):
     def reports(self, scene):
-        """What the render reports as {kind: [lines]}, and how often pictures and figures came on the way."""
+        """Returns the render's reports as {kind: [lines]}, and how often pictures and figures arrived before the end."""
         found, stats = {}, []
         with mock.patch.object(final, "report", lambda engine, kind, line: found.setdefault(kind, []).append(line)), \
              mock.patch.object(final, "say", lambda engine, line: stats.append(line)):
@@ -260,7 +263,7 @@ class Reports(Scene):
             self.fails(scenes.fresh(), "internal error: ZeroDivisionError")
 
     def test_cancel(self):
-        """As soon as there is a picture; the picture so far stays."""
+        """Stops as soon as there is a picture; that picture stays."""
         scene = scenes.fresh()
         scene.eclat.spp, scene.eclat.update = 1000000, 0.05
         shown = []
@@ -310,7 +313,7 @@ class Reports(Scene):
 
 
 class Threads(unittest.TestCase):
-    """A render of a window runs beside the main thread, which alone may export: here this test is that thread."""
+    """A render from a window runs in a second thread, but only the main thread may export: this test acts as the main thread."""
 
     def call(self, function, is_cancelled=lambda: False, run=True):
         asked, outcome = queue.Queue(), []
@@ -344,7 +347,7 @@ class Threads(unittest.TestCase):
 
 class Installing(Case):
     def test_the_zip(self):
-        """By Blender's own installer of extensions, in a process of its own, since the add-on is there in this one."""
+        """Installs with Blender's own installer of extensions, in a process of its own, since this process already has the add-on."""
         import subprocess
         addon = os.path.join(HERE, "..", "..", "tools", "blender")
         subprocess.run([sys.executable, os.path.join(addon, "make_zip.py"), self.path("a.zip")], check=True, stdout=subprocess.PIPE)
@@ -366,4 +369,4 @@ if __name__ == "__main__":
     sys.argv[1:] = sys.argv[1:] or ["-v"]
     passed = unittest.main(exit=False).result.wasSuccessful()
     sys.stdout.flush()
-    os._exit(0 if passed else 1)  # PyPI's bpy 4.2.23 crashes at its end once its glTF exporter has run, without this add-on too
+    os._exit(0 if passed else 1)  # PyPI's bpy 4.2.23 crashes at its end once its glTF exporter has run, also without this add-on

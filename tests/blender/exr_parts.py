@@ -1,11 +1,11 @@
-"""All parts of an EXR file that Blender writes; support.read_exr has the first one."""
+"""Reads all parts of an EXR file that Blender writes; support.read_exr reads only the first."""
 import struct
 
 import support
 
 
 def read(path):
-    """(attributes of the first part, {channel: list of float}), channels of all parts by their whole names."""
+    """Returns (attributes of the first part, {channel: list of float}), with the channels of all parts by their full names."""
     with open(path, "rb") as file:
         data = file.read()
     many = data[5] & 0x10

@@ -1,4 +1,4 @@
-"""Run by Blender (test_window.py): steps that are taken one after the other, each once the one before has come to what it waits for."""
+"""Steps for Blender's window (test_window.py), one after the other. Each begins when the condition of the one before has come true."""
 import os
 import sys
 import traceback
@@ -23,18 +23,18 @@ def space():
 
 
 def only():
-    """The one viewport, or None."""
+    """The only viewport, or None."""
     return next(iter(viewport.shown.values()), None)
 
 
 def is_rendered(exported):
-    """The whole picture is there, of so many exports."""
+    """Tells whether the complete picture is there, after so many exports."""
     one = only()
     return one and one.texture and not one.session.is_busy and len(exports) == exported and one.status().startswith("64 samples, error ")
 
 
 def steps():
-    """Yields what is waited for."""
+    """Yields the conditions to wait for."""
     scene = bpy.context.scene
     scene.render.engine = "ECLAT"
     scene.render.resolution_x, scene.render.resolution_y, scene.eclat.viewport_spp = 64, 48, 64
@@ -43,14 +43,14 @@ def steps():
     space().shading.type = "RENDERED"
     yield lambda: is_rendered(1)
     first = only().texture
-    space().region_3d.view_perspective = "PERSP"    # the same scene: nothing is exported
+    space().region_3d.view_perspective = "PERSP"  # the scene is the same: nothing is exported
     yield lambda: is_rendered(1) and only().texture is not first
     second = only().texture
     bpy.data.objects["Cube"].location.z += 2
     yield lambda: is_rendered(2) and only().texture is not second
     space().shading.type = "SOLID"
     yield lambda: not viewport.shown
-    space().shading.type = "RENDERED"               # what has changed meanwhile is seen
+    space().shading.type = "RENDERED"  # changes made meanwhile show
     yield lambda: is_rendered(3)
     space().shading.type = "SOLID"
     yield lambda: not viewport.shown

@@ -1,4 +1,4 @@
-"""Scenes made with bpy, small enough to be rendered in seconds."""
+"""Scenes made with bpy that render in seconds."""
 import math
 
 import bpy
@@ -7,7 +7,7 @@ WIDTH, HEIGHT, SAMPLES = 48, 32, 16
 
 
 def fresh(camera=(3.0, -5.0, 3.0), look=(62, 0, 31)):
-    """A floor, a cube and a camera in an empty file, in a grey world; the kernels of every test are the same."""
+    """A floor, a cube and a camera in an empty file, in a grey world. All tests use the same kernels."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.engine = "ECLAT"
@@ -65,7 +65,7 @@ def cube_and_lamp():
 
 
 def glass_and_hdri():
-    """A picture of the world that is turned and packed into the file."""
+    """A picture for the world, rotated, packed into the file."""
     scene = fresh()
     bpy.ops.mesh.primitive_uv_sphere_add(radius=0.8, location=(-0.6, -0.6, 1))
     bpy.ops.object.shade_smooth()
@@ -94,7 +94,7 @@ def depth_of_field():
 
 
 def motion_blur():
-    """A cube that flies and turns, a wave that a modifier makes, a camera that moves."""
+    """A cube that moves and rotates, a wave from a modifier, and a moving camera."""
     scene = fresh()
     light(scene, "SUN", 2, angle=0).rotation_euler = (0.5, 0.3, 0)
     cube = bpy.data.objects["Cube"]

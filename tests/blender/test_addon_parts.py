@@ -1,6 +1,6 @@
 # tier: full
-"""The add-on without Blender: its manifest and its file, options as words of a command line, cameras, lights, moments of an exposure, pictures, and
-renders of a viewport. tests/blender/test_blender.py has it in Blender."""
+"""The add-on without Blender: its manifest and its file, options as words of a command line, cameras, lights, moments of an exposure,
+pictures, and renders of a viewport. tests/blender/test_blender.py tests it in Blender."""
 import ast
 import importlib.util
 import json
@@ -35,7 +35,7 @@ class Package(Case):
             self.assertIn(name, fields)
         self.assertEqual((fields["id"], fields["type"]), ('"eclat_blender"', '"add-on"'))
         self.assertRegex(fields["version"], r'^"\d+\.\d+\.\d+"$')
-        self.assertLessEqual(len(fields["tagline"]), 66)  # with quotes; Blender allows 64
+        self.assertLessEqual(len(fields["tagline"]), 66)  # including quotes; Blender allows 64
         self.assertNotIn(fields["tagline"][-2], ".")
 
     def test_the_file_to_install(self):
@@ -104,7 +104,7 @@ class Camera(unittest.TestCase):
         self.assertEqual(camera.words(WIDE, camera.Frame(100, 100)), ["--size=100x100"])
 
     def test_a_lens_is_as_wide_as_blenders(self):
-        """50 mm at f/2 is 25 mm wide; eclat's sensor is 24 mm high, so that a view 24 mm high has 50 mm too."""
+        """50 mm at f/2 is an aperture of 25 mm; eclat's sensor is 24 mm high, so a view 24 mm high has a focal length of 50 mm too."""
         words = camera.words(WIDE._replace(fstop=2, focus=3.5), camera.Frame(150, 100))
         self.assertEqual(words, ["--size=150x100", "--fstop=2", "--focus=3.5"])
         self.assertEqual(camera.words(WIDE._replace(fstop=2, focus=3.5), camera.Frame(75, 100))[1], f"--fstop={2 * 24 / 36:.9g}")
@@ -128,7 +128,7 @@ class View(Case):
         self.assertEqual(view.window(parallel), (-3, 1, -4, 4))
 
     def test_the_program_sees_the_same(self):
-        """A viewport that looks through the file's own camera, of 0.8 radians at z = 3: y up in the file is z up in Blender."""
+        """A viewport that looks through the file's own camera, of 0.8 radians at z = 3. y up in the file is z up in Blender."""
         scene = write_glb(self.path("a.glb"), *quad_scene())
         half = math.tan(0.4)
         projection = [[1 / half, 0, 0, 0], [0, 1 / half, 0, 0], [0, 0, -1, -1], [0, 0, -1, 0]]
@@ -155,7 +155,7 @@ class Lights(unittest.TestCase):
         self.assertEqual(max(light["color"]), 1)
 
     def test_a_soft_spot_has_the_power_of_blenders(self):
-        """Both falloffs integrated over the cosine, which is proportional to the solid angle."""
+        """Integrates both falloffs over the cosine, which is proportional to the solid angle."""
         self.add("SPOT", cone=1.0, blend=0.4)
         spot = self.document["extensions"]["KHR_lights_punctual"]["lights"][0]["spot"]
         z = numpy.linspace(math.cos(0.5), 1, 100001)
@@ -170,7 +170,7 @@ class Lights(unittest.TestCase):
                 self.add("AREA", shape=shape, size=size)
                 corners = glb.floats(self.document, self.buffer, 0).reshape(-1, 3, 3)
                 normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
-                self.assertTrue((normals[:, 2] < 0).all())  # it shines along -z
+                self.assertTrue((normals[:, 2] < 0).all())  # the light shines along -z
                 self.assertAlmostEqual(-normals[:, 2].sum() / area, 1, delta=0.002)
                 material = self.document["materials"][0]
                 radiance = material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] * material["emissiveFactor"][0]
@@ -239,7 +239,7 @@ class Pictures(Case):
         exr.write(self.path("a.exr"), rgb)
         planes = exr.read(self.path("a.exr"))[1]
         self.assertTrue((numpy.stack([planes[c] for c in "RGB"], -1) == rgb).all())
-        self.assert_ok(eclat("compare", self.path("a.exr"), self.path("a.exr")))  # others read it too
+        self.assert_ok(eclat("compare", self.path("a.exr"), self.path("a.exr")))  # other programs read it too
 
     def test_passes(self):
         planes = {name: numpy.array([[1, 2], [3, 4]], numpy.float32) for name in ("R", "G", "B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "samples")}
@@ -314,7 +314,7 @@ class Viewport(Case):
         self.assert_ok(eclat("render", self.scene[0], *QUICK, "--eye=0,0,3", "--size=24x16", "--spp=16", "-o", self.path("b.exr")))
         self.assertTrue((exr.read(self.path("b.exr"))[1]["R"] == shot.planes["R"]).all())
         process_before = self.session.number
-        self.session.show(self.scene, ["--eye=0,0,3"], (24, 16), 16)  # the same view: nothing to do
+        self.session.show(self.scene, ["--eye=0,0,3"], (24, 16), 16)  # the view is the same: nothing to do
         self.assertEqual(self.session.number, process_before)
 
     def test_another_view_ends_what_was_begun(self):

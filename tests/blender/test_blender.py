@@ -1,7 +1,9 @@
 # tier: long
-"""The add-on in Blender: every case of cases.py with each interpreter that BPY_PYTHONS names, with colons between them; each has bpy of another version:
-    python3.11 -m venv b42 && b42/bin/pip install bpy==4.2.23
-    BPY_PYTHONS=$PWD/b42/bin/python tools/test -R blender/test_blender"""
+"""The add-on in Blender: every case of cases.py with each interpreter that BPY_PYTHONS names, separated by colons. Each interpreter has
+another version of bpy:
+
+  python3.11 -m venv b42 && b42/bin/pip install bpy==4.2.23
+  BPY_PYTHONS=$PWD/b42/bin/python tools/test -R blender/test_blender"""
 import os
 import subprocess
 import sys

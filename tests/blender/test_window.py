@@ -1,6 +1,6 @@
 # tier: long
-"""The add-on in a window of Blender, on a screen without a monitor: a viewport that shows rendered views, and F12. BLENDER names the program,
-ECLAT eclat's; Xvfb with software OpenGL."""
+"""The add-on in a window of Blender, on a virtual screen: a viewport with rendered shading, and F12. BLENDER names the program, ECLAT
+eclat's; Xvfb with software OpenGL."""
 import os
 import shutil
 import subprocess
@@ -14,7 +14,7 @@ BLENDER = os.environ.get("BLENDER", "")
 if not BLENDER or not shutil.which("Xvfb"):
     print("skipped: BLENDER names no Blender with windows, or Xvfb is not installed")
     sys.exit(77)
-GUARD = 600  # seconds after which all is lost
+GUARD = 600  # seconds until the test gives up
 
 
 class Window(unittest.TestCase):

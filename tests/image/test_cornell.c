@@ -1,14 +1,14 @@
 /* tiers: full, long */
-/* The Cornell box against the Mitsuba 3.9 reference: 256 x 256, depth 8, 16 384 samples in 64 batches, with its
- * standard errors. Every direct-light strategy and both samplers converge to it. BSDF sampling meets the small lamp in one
- * path of fifty, so that 16 batches of a single dark pixel say little of its variance: its squares are of 8 x 8 pixels. */
+/* The Cornell box against the Mitsuba 3.9 reference: 256 x 256, depth 8, 16 384 samples in 64 batches, with standard errors. All strategies
+ * for direct light and both samplers converge to it. BSDF sampling finds the small lamp by one path of fifty, so that 16 batches of a
+ * single dark pixel say little about its variance: it is compared in squares of 8 x 8 pixels. */
 #include "support/render_case.h"
 
 typedef struct cornell_case {
     const char *tier, *name;
     ec_sample sample;
     ec_sampler_type sampler;
-    uint32_t spp, block; /* samples a pixel; pixels along a compared square */
+    uint32_t spp, block; /* samples a pixel; side of a compared square in pixels */
 } cornell_case;
 
 static void compare(const cornell_case *c, const ec_scene *scene, const ztest_picture *reference)
@@ -23,7 +23,7 @@ static void compare(const cornell_case *c, const ec_scene *scene, const ztest_pi
     snprintf(map, sizeof map, "%s/cornell-%s-errors.exr", ECLAT_TEST_OUT, c->name);
     ztest_result r = ztest_compare(&compared, &blocks, NULL, map);
     CHECK_MSG(r.pass, "%s: %s", c->name, r.text);
-    for (int k = 0; k < 3; k++) /* the tolerance must not hide behind noise */
+    for (int k = 0; k < 3; k++) /* the tolerance must not be mere noise */
         CHECK_MSG(r.mean_se[k] < 0.002 * r.reference_mean[k], "%s: standard error of the mean %.3f %%", c->name,
                   100 * r.mean_se[k] / r.reference_mean[k]);
     printf("%-18s %5u spp %5.1f s  %s\n", c->name, c->spp, image.stats.seconds, r.text);

@@ -1,5 +1,5 @@
 /* tier: long */
-/* On every model under shared/assets/gltf the kernels for what it calls for and those for every effect give the same bits. */
+/* For every model under shared/assets/gltf, the kernels for its effects and those for all effects give the same bits. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "support/light.h"
 #include "support/models.h"
@@ -12,11 +12,11 @@ int main(void)
     uint64_t called = 0;
     int compared = 0;
     if (!case_present(folder) || !models_collect(folder)) TEST_SKIP("no %s", folder);
-    case_cl()->keeps_programs = true; /* models that call for the same share them */
+    case_cl()->keeps_programs = true; /* models with the same effects share kernels */
     for (int i = 0; i < model_count; i++) {
         ec_error err = {0};
         ec_scene *scene;
-        if (ec_scene_load(models[i], &scene, NULL, &err) != EC_OK) continue; /* test_models.c judges that */
+        if (ec_scene_load(models[i], &scene, NULL, &err) != EC_OK) continue; /* test_models.c checks that */
         if (!has_light(scene)) CHECK_OK(ec_scene_set_environment(scene, "1,1,1", NULL, &err), err);
         ec_render_options o = case_options(24, 24, 2);
         o.camera = scene->default_camera;

@@ -1,6 +1,6 @@
 /* tier: full */
-/* Every model under shared/assets/gltf that asks for nothing unsupported renders: no failure, no invalid sample, finite, not
- * black. In a child process, so that a crash is one failed check. And the peak memory of one of them. */
+/* Every model under shared/assets/gltf that requires nothing unsupported renders: no failure, no invalid sample, finite, not black. Child
+ * processes render, so that a crash is one failed check. Also checks the peak memory of one model. */
 #define _GNU_SOURCE /* nftw, wait4, MAP_ANONYMOUS */
 #include <signal.h>
 #include <sys/mman.h>
@@ -16,14 +16,14 @@ enum { SIZE = 32 };
 
 enum { NONE, RENDERED, UNSUPPORTED, EMPTY, BAD };
 
-/* In the child. Universal kernels: one build for all models; specialised ones where asked. */
+/* Runs in the child. Universal kernels: one build for all models; specialised ones where asked. */
 static int render_model(const char *path, bool all_effects)
 {
     ec_error err = {0};
     ec_scene *scene;
     if (ec_scene_load(path, &scene, NULL, &err) != EC_OK) {
         if (strstr(err.text, "which eclat does not support") || strstr(err.text, "eclat reads glTF 2.0")) return UNSUPPORTED;
-        if (strstr(err.text, "no triangle")) return EMPTY; /* points and lines only */
+        if (strstr(err.text, "no triangle")) return EMPTY; /* only points and lines */
         fprintf(stderr, "%s\n", err.text);
         return BAD;
     }
@@ -41,11 +41,11 @@ static int render_model(const char *path, bool all_effects)
     return image.stats.invalid_samples == 0 && isfinite(sum) && sum > 0 ? RENDERED : BAD;
 }
 
-/* Models [first, last) in one child. Returns the one after those that have a result: a crash leaves one out. */
+/* Renders models [first, last) in one child. Returns the index after the last result, and skips a model that crashed. */
 static int in_child(char *const *paths, int first, int last, bool all_effects, char *results, long *peak_kib)
 {
     memset(results + first, NONE, (size_t)(last - first));
-    pid_t child = fork(); /* no device is open yet */
+    pid_t child = fork(); /* before any device is opened */
     if (child == 0) {
         case_cl()->keeps_programs = true;
         for (int i = first; i < last; i++) {
@@ -86,7 +86,7 @@ int main(void)
         printf("%s: peak %.0f MiB\n", models[i], (double)peak / 1024);
         CHECK_MSG(results[i] == RENDERED && peak < 600 * 1000 * 1000 / 1024, "%s: peak memory %ld KiB", models[i], peak);
     }
-    /* Specialised kernels on the model with most textures, and on the one whose memory is watched. */
+    /* Specialised kernels for the model with most textures, and for the one whose memory is checked. */
     static const char *const specialised[] = {"DamagedHelmet/glTF-Binary/DamagedHelmet.glb",
                                               "MetalRoughSpheresNoTextures/glTF-Binary/MetalRoughSpheresNoTextures.glb"};
     for (int i = 0; i < 2; i++) {

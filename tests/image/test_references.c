@@ -1,15 +1,16 @@
 /* tier: full */
-/* Pictures of other renderers, and one scene in many guises.
+/* Pictures of other renderers, and one scene in several forms.
  *
- * Bitterli's Cornell box (Tungsten) and Veach's plates come without standard errors, so they are compared in blocks whose
- * own noise is small. Ours agrees to a few parts in a thousand (Cornell) and a few per cent (plates). The plates are Beckmann
- * there and GGX here, whose tails are longer: dark blocks beside a highlight differ by their own size. The hard variants (assets/hard/derived) are the Cornell box scaled, moved and rotated: the same picture. */
+ * Bitterli's Cornell box (Tungsten) and Veach's plates have no standard errors, so they are compared in blocks with little noise. Ours
+ * agree to a few parts in a thousand (Cornell) and a few per cent (plates). The plates are Beckmann there and GGX here, whose tails are
+ * longer: dark blocks beside a highlight differ by as much as their value. The hard variants (assets/hard/derived) are the Cornell box
+ * scaled, moved and rotated: the same picture. */
 #include "support/render_case.h"
 
 #define CORNELL SHARED("assets/classic/gltf/cornell-bitterli/cornell-bitterli-blocked.gltf")
 #define DERIVED SHARED("assets/hard/derived/")
 
-/* Mean of |a - b| over blocks, relative to the mean of b; the largest; and the difference of the means. */
+/* Mean of |a - b| over blocks, relative to the mean of b; its maximum; and the difference of the means. */
 typedef struct block_difference {
     double mean, worst, bias;
 } block_difference;
@@ -47,7 +48,7 @@ static void against_picture(const char *name, const char *scene_path, const char
     CHECK_OK(ztest_load(picture_path, INFINITY, &full, &err), err);
     if (!full.rgb) return;
     ec_render_options o = case_options(width, height, spp);
-    o.seed = 3; /* one whose fireflies on the plates are small */
+    o.seed = 3; /* a strategy with few fireflies on the plates */
     case_image image = case_render_file(scene_path, NULL, &o);
     ztest_picture ours = case_picture(&image), a = case_blocks(&ours, block), b = case_blocks(&full, shrink * block);
     CHECK(a.width == b.width && a.height == b.height);
@@ -113,7 +114,7 @@ static void degenerate(const char *file)
 int main(void)
 {
     if (!case_present(CORNELL)) TEST_SKIP("no %s", CORNELL);
-    /* 1024 x 1024 shrunk to 256 x 256, blocks of 16 x 16 of those; the lamp (17, 12, 4) is clipped away. */
+    /* 1024 x 1024 reduced to 256 x 256, then blocks of 16 x 16; the lamp (17, 12, 4) is clipped. */
     against_picture("cornell-bitterli", CORNELL, SHARED("assets/classic/bitterli/cornell-box/TungstenRender.exr"), 256, 256, 4, 16,
                     128, 2, (block_difference){.mean = 0.01, .worst = 0.06, .bias = 0.005});
     against_picture("veach-mis", SHARED("assets/classic/gltf/veach-mis/veach-mis.gltf"),

@@ -1,4 +1,4 @@
-/* Jobs of a small picture, for tests of the library by its public functions. */
+/* Jobs that render a small picture, for tests of the library by its public functions. */
 #ifndef EC_TESTS_LIBRARY_JOB_H
 #define EC_TESTS_LIBRARY_JOB_H
 
@@ -52,7 +52,7 @@ static inline bool is_alike(const eclat_picture *a, const eclat_picture *b, cons
     return same;
 }
 
-/* Does the work with both standard streams in a file, which stays empty. */
+/* Runs the work with both standard streams redirected to a file, which must stay empty. */
 static inline void check_silence(void (*work)(void), const char *path)
 {
     FILE *printed = fopen(path, "w+");

@@ -52,7 +52,7 @@ static const char *write_moving(void)
     return OUT "moving.gltf";
 }
 
-/* What a job tells. */
+/* Messages of a job. */
 typedef struct told {
     char text[1 << 16];
     int reports, begins, ends, steps, messages;
@@ -178,7 +178,7 @@ static void test_comparing(void)
     eclat_job_free(job);
 }
 
-/* What is gone on with has the bits of one run, and says which one that is. */
+/* A resumed job has the bits of one run, and names the resumed file. */
 static void test_resuming(void)
 {
     eclat_error err;
@@ -205,7 +205,7 @@ static void test_resuming(void)
     eclat_picture_free(whole);
 }
 
-/* A process that no launcher has started. */
+/* Runs as if no launcher had started the process. */
 static void test_alone(void)
 {
     eclat_error err;

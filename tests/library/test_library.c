@@ -14,7 +14,7 @@
 
 #define OUT ECLAT_TEST_OUT "/library-"
 
-/* The picture's mean by its channels, as its error has it. */
+/* The picture's mean over its channels, with weights as in its error. */
 static double mean_luminance(const eclat_picture *p)
 {
     const double weights[3] = {0.2126, 0.7152, 0.0722};
@@ -37,7 +37,7 @@ static void test_options(void)
     CHECK(eclat_job_set(job, "output", OUT "twice.exr", &err) == ECLAT_OK && eclat_job_set(job, "output", OUT "twice.exr", &err) == ECLAT_USAGE);
     CHECK(eclat_job_set(job, "adaptive", NULL, &err) == ECLAT_OK && eclat_job_set(job, NULL, NULL, NULL) == ECLAT_USAGE);
     CHECK(!strcmp(eclat_version(), EC_VERSION));
-    /* What does not go together is said when it runs, and so is a scene that is not there. */
+    /* Incompatible options, and missing scenes, are reported when the job runs. */
     eclat_picture *picture = (eclat_picture *)job;
     CHECK(eclat_job_set(job, "samples", "0:8", &err) == ECLAT_OK);
     CHECK(eclat_job_run(job, &picture, &err) == ECLAT_USAGE && !picture && strstr(err.text, "--adaptive"));
@@ -60,7 +60,7 @@ static void test_picture(void)
     eclat_job *job = make_job("64");
     CHECK(eclat_job_set(job, "seed", "7", &err) == ECLAT_OK);
     eclat_picture *picture = render(job), *other = render(job);
-    eclat_job_free(job); /* pictures outlive it */
+    eclat_job_free(job); /* pictures outlive the job */
     CHECK(eclat_picture_width(picture) == 24 && eclat_picture_height(picture) == 16);
     const eclat_picture_error error = eclat_picture_get_error(picture);
     CHECK(error.error > 0.001 && error.error < 1 && error.error_bound > error.error && isfinite(error.error_bound) && !error.why);
@@ -86,11 +86,11 @@ static void test_picture(void)
     eclat_picture_free(other);
 }
 
-/* What the listener hears, and when it stops the render. */
+/* Records what the listener gets, and how it stops the render. */
 typedef struct heard {
     eclat_job *job;
     atomic_int events;
-    int messages, stops_by; /* 0: not; 1: its answer; 2: eclat_job_stop */
+    int messages, stops_by; /* how to stop: 0: not; 1: by the answer; 2: by eclat_job_stop */
     double first_fraction;
 } heard;
 
@@ -109,7 +109,7 @@ static int count_progress(void *user, const eclat_progress *progress)
     return h->stops_by != 1;
 }
 
-/* Before an error is known nothing of the way to it is done. */
+/* No error is known yet, so progress towards it is 0. */
 static void test_fraction(void)
 {
     eclat_error err;
@@ -146,7 +146,7 @@ static void test_stopping(void)
         eclat_picture_free(picture);
         CHECK(eclat_job_set(job, "spp", "8", NULL) == ECLAT_OK);
         h.stops_by = 0;
-        picture = render(job); /* a stop is of one render */
+        picture = render(job); /* a stop ends one render only */
         CHECK(eclat_picture_get_error(picture).samples_per_pixel == 8);
         eclat_picture_free(picture);
         eclat_job_free(job);
@@ -179,7 +179,7 @@ static void test_files(void)
     for (int i = 0; i < 2; i++) {
         eclat_job *slice = make_job("128");
         CHECK(eclat_job_set(slice, "samples", samples[i], &err) == ECLAT_OK);
-        CHECK(i == 1 || eclat_job_set(slice, "output", slices[i], &err) == ECLAT_OK); /* by the render, or afterwards */
+        CHECK(i == 1 || eclat_job_set(slice, "output", slices[i], &err) == ECLAT_OK); /* by the render, or later */
         eclat_picture *part = render(slice);
         CHECK(eclat_picture_get_error(part).samples_per_pixel == 64);
         CHECK(i == 0 || eclat_picture_write(part, slices[i], &err) == ECLAT_OK);
@@ -191,7 +191,7 @@ static void test_files(void)
     CHECK(eclat_job_run(merge, NULL, &err) == ECLAT_USAGE && strstr(err.text, "-o ALL.exr"));
     CHECK(eclat_job_add(merge, slices[1], &err) == ECLAT_OK);
     CHECK_MSG(eclat_job_run(merge, &merged, &err) == ECLAT_OK && merged, "%s", err.text);
-    eclat_job_free(merge); /* pictures outlive it */
+    eclat_job_free(merge); /* pictures outlive the job */
     CHECK(is_alike(whole, merged, "R") && is_alike(whole, merged, "stderr.B"));
     CHECK(eclat_picture_get_error(merged).error == eclat_picture_get_error(whole).error);
     CHECK(eclat_picture_attribute(merged, "eclat.samplesPerPixel").number == 128);

@@ -13,7 +13,7 @@
 #define SCENE ECLAT_SOURCE_DIR "/scenes/cornell-box/cornell-box.gltf"
 #define OUT ECLAT_TEST_OUT "/live-"
 
-/* What the session tells by itself. */
+/* Messages of the session itself. */
 typedef struct told {
     sem_t news;
     atomic_int saves;
@@ -40,7 +40,7 @@ static eclat_job *make_job(const char *scene, const char *output)
     return job;
 }
 
-/* A session of it, which outlives the job. */
+/* Opens a session for the job; the session outlives the job. */
 static eclat_live *open_live(eclat_job *job, const char *against, told *t)
 {
     eclat_error err;
@@ -79,7 +79,7 @@ static eclat_status settle(eclat_live *live, told *t, eclat_wish *wish)
     return wait_for(live, t, is_settled, 0);
 }
 
-/* How much the latest picture shines; -1: there is none that is new. */
+/* Mean brightness of the latest picture; -1: there is no new one. */
 static double brightness(eclat_live *live, eclat_shown which)
 {
     eclat_image image;
@@ -90,7 +90,7 @@ static double brightness(eclat_live *live, eclat_shown which)
     return sum / (3 * image.width * image.height);
 }
 
-/* The job that a command renders. */
+/* Renders a command's job. */
 static eclat_picture *render_command(char *command)
 {
     eclat_error err;
@@ -152,7 +152,7 @@ static void test_wishes_change_it(void)
     eclat_wish wish = small_wish(live);
     settle(live, &t, &wish);
     const double first = brightness(live, ECLAT_PICTURE);
-    wish.exposure = 200; /* more than there is */
+    wish.exposure = 200; /* more than the picture has */
     wish.env_degrees = NAN;
     settle(live, &t, &wish);
     CHECK(wish.exposure == 100 && wish.env_degrees == 0 && brightness(live, ECLAT_PICTURE) > first + 50);
@@ -170,7 +170,7 @@ static void test_wishes_change_it(void)
     eclat_live_close(live);
 }
 
-/* Where no denoiser can be had the picture stays as it is, and why is told. cli/test_denoise puts one into the build folder. */
+/* Without a denoiser the picture stays noisy, and the status says why. cli/test_denoise puts a denoiser into the build folder. */
 static void test_a_wish_denoises(void)
 {
     told t;

@@ -1,4 +1,4 @@
-"""Debian systems to try packages on, by tools/release/chroots.py; tests skip where there is none."""
+"""Debian systems for trying packages, made by tools/release/chroots.py; tests skip where there is none."""
 import glob
 import importlib.machinery
 import importlib.util
@@ -13,13 +13,13 @@ RELEASE = os.path.join(os.path.realpath(support.SOURCE), "tools", "release")
 sys.path.insert(0, RELEASE)
 os.environ.setdefault("ECLAT_BUILD", os.path.dirname(os.path.abspath(support.ECLAT)))
 
-import chroots  # noqa: E402 (its folder is named above)
+import chroots  # noqa: E402 (the folder of tools/release is added above)
 
 CORNELL = "scenes/cornell-box/cornell-box.gltf"
 
 
 def tool(name):
-    """A program of tools/release as a module."""
+    """Loads a program of tools/release as a module."""
     loader = importlib.machinery.SourceFileLoader("release_" + name, os.path.join(RELEASE, name))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
@@ -27,13 +27,13 @@ def tool(name):
 
 
 def packages(suite):
-    """The folder with the packages for a suite; ECLAT_PACKAGES names one that has a folder for each, made before."""
+    """Returns the folder with the packages for a suite. ECLAT_PACKAGES names a folder with existing ones for each suite."""
     made_before = os.environ.get("ECLAT_PACKAGES")
     return os.path.join(made_before, suite) if made_before else tool("packages").packages(suite)
 
 
 class Case(unittest.TestCase):
-    """A test on a Debian, which is skipped with the reason why there is none."""
+    """A test on Debian; skips with a reason where no Debian can be made."""
 
     def run(self, result=None):
         method = getattr(self, self._testMethodName)
@@ -47,7 +47,7 @@ class Case(unittest.TestCase):
         return super().run(result)
 
     def fresh(self, suite, name):
-        """A minimal Debian that nothing was installed on."""
+        """A minimal Debian without further packages."""
         chroot = chroots.Chroot(f"{name}-{os.getpid()}", chroots.base(suite))
         self.addCleanup(chroot.remove)
         scene = os.path.dirname(CORNELL)
@@ -55,7 +55,7 @@ class Case(unittest.TestCase):
         return chroot
 
     def copy(self, chroot, *files):
-        """Into /root."""
+        """Copies files into /root."""
         for file in files:
             shutil.copy(file, chroot.inside("root"))
 
@@ -73,7 +73,7 @@ class Case(unittest.TestCase):
         return run.stderr
 
     def assert_renders(self, chroot, program="eclat"):
-        """The Cornell box, with the bits that it has on this machine."""
+        """Renders the Cornell box; it must have this machine's bits."""
         words = ["render", CORNELL, "--size", "48x48", "--spp", "16"]
         self.ok(chroot, "sh", "-c", f"cd /root && {program} {' '.join(words)} -o picture.exr -o picture.png")
         here = chroot.inside("root", "here.exr")

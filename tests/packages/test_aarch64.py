@@ -1,5 +1,5 @@
 # tier: long
-"""AArch64 by QEMU: the quick host tests, and the picture that this machine renders, bit for bit."""
+"""AArch64 by QEMU: runs the quick host tests, and renders this machine's picture, bit for bit."""
 import os
 import shutil
 import unittest

@@ -1,5 +1,5 @@
 # tier: long
-"""The archive: it runs on a bare Debian 12, with no package but an OpenCL driver, and on any glibc that the manual names."""
+"""The archive runs on a minimal Debian 12 with an OpenCL driver as the only package, and on every glibc that the manual names."""
 import os
 import re
 import subprocess
@@ -11,7 +11,7 @@ from debian import made
 
 
 def newest(folder, library):
-    """The newest symbol version of a system library that the programs and libraries in a folder ask for."""
+    """The newest symbol version of a system library that the programs and libraries in a folder need."""
     found = set()
     for parent, _, names in os.walk(folder):
         for name in names:

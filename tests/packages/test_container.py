@@ -1,5 +1,5 @@
 # tier: long
-"""The Containerfile: its commands, one by one, each stage in a chroot of its own."""
+"""Runs the Containerfile's commands one by one, each stage in a chroot of its own."""
 import os
 import re
 import shutil
@@ -10,7 +10,7 @@ import support
 
 
 def stages():
-    """Lists of (instruction, words)."""
+    """Returns lists of (instruction, words)."""
     with open(os.path.join(support.SOURCE, "Containerfile"), encoding="utf-8") as file:
         text = re.sub(r"^#.*\n", "", file.read(), flags=re.M)
     for line in filter(None, text.splitlines()):

@@ -1,5 +1,5 @@
 # tier: long
-"""The .deb files, built in a chroot of a Debian and installed by dpkg in another one that has nothing."""
+"""The .deb files, built in a chroot of Debian and installed by dpkg in another, minimal one."""
 import unittest
 
 import debian
@@ -8,7 +8,7 @@ from debian import made
 
 class Packages(debian.Case):
     def install(self, chroot, file):
-        """As a user does: dpkg, then apt for what dpkg misses."""
+        """Installs as a user does: dpkg, then apt for missing dependencies."""
         self.copy(chroot, file)
         chroot.run("sh", "-c", f"dpkg -i /root/{file.split('/')[-1]}")
         self.ok(chroot, "sh", "-c", "apt-get -q update >/dev/null; apt-get -q install -y -f --no-install-recommends >/tmp/log 2>&1 || { cat /tmp/log; exit 1; }")
@@ -22,7 +22,7 @@ class Packages(debian.Case):
         self.assertIn("modules   none\n", self.ok(chroot, "eclat", "--version"))
         self.assertIn("install the package eclat-view", self.one_error(chroot, "eclat", "view", "/root/" + debian.CORNELL))
         self.assertIn("mpi", self.one_error(chroot, "env", "OMPI_COMM_WORLD_SIZE=2", "OMPI_COMM_WORLD_RANK=0", "eclat", "devices"))
-        self.one_error(chroot, "eclat", "devices")  # before there is a driver
+        self.one_error(chroot, "eclat", "devices")  # no driver is installed yet
         self.assertIn("pocl-opencl-icd | opencl-icd", self.ok(chroot, "dpkg-query", "-W", "-f", "${Recommends}", "eclat"))
         chroot.install("pocl-opencl-icd")
         self.assertIn("*  0", self.ok(chroot, "eclat", "devices"))

@@ -1,4 +1,4 @@
-"""What the package does beside pictures: scenes, options, messages, progress, interruption, studies, frames."""
+"""The package except for pictures: scenes, options, messages, progress, interruption, studies, frames."""
 import io
 import json
 import logging
@@ -103,7 +103,7 @@ class Progress(Case):
         self.assertGreater(picture.error, 0)
 
     def test_a_slow_callback_sees_the_latest(self):
-        """Reports come while it is away; afterwards it gets one, not all of them."""
+        """Reports arrive while the caller is busy; afterwards it gets one of them, not all."""
         counts, scene = [], eclat.load(CORNELL)
 
         def look(progress):
@@ -144,7 +144,7 @@ class Progress(Case):
         eclat.load(CORNELL).render(**LONG, progress=look)
         end.set()
         thread.join()
-        self.assertGreaterEqual(len(seen), 3)  # one more report may be under way as the third one is answered
+        self.assertGreaterEqual(len(seen), 3)  # one more report may arrive while the third is being answered
 
 
 class Threads(Case):
@@ -158,7 +158,7 @@ class Threads(Case):
 
 class Interruption(Case):
     def interrupt(self, **options):
-        """Ctrl-C at the second report of progress, while the thread that waits is in the library's hands."""
+        """Ctrl-C at the second report of progress, while the thread waits inside the library."""
         threads, reports = threading.active_count(), []
 
         def press(progress):
@@ -183,7 +183,7 @@ class Interruption(Case):
         self.assertEqual(on.samples, kept + 8)
 
     def test_while_nothing_is_reported(self):
-        """The signal comes to a thread that waits without a callback."""
+        """The signal interrupts a thread that waits without a callback."""
         scene, log = eclat.load(CORNELL), logging.getLogger("eclat")
         begun = logging.Handler()
         begun.emit = lambda record: threading.Thread(target=os.kill, args=(os.getpid(), signal.SIGINT)).start()

@@ -1,4 +1,4 @@
-"""Pictures of the package: the bits of the program, arrays, errors, files, notebooks, comparisons."""
+"""Pictures of the package: equality with the program's bits, arrays, errors, files, notebooks, comparisons."""
 import gc
 import html
 import os
@@ -15,7 +15,7 @@ VARIES = {"eclat.command", "eclat.seconds", "eclat.wave", "eclat.lanes", "capDat
 
 class Bits(Case):
     def check(self, words, **options):
-        """An EXR of the package has every byte of pixels and every attribute that the program's has."""
+        """An EXR of the package equals the program's in all pixels and attributes."""
         options.setdefault("channels", "all")
         mine = self.folder / "mine.exr"
         picture = eclat.load(CORNELL).render(**options)
@@ -72,7 +72,8 @@ class Arrays(Case):
             p.layer("colour")
 
     def test_values(self):
-        """The wall on the left is red and the one on the right green, four columns from the sides; intervals hold the mean and are wider where errors are."""
+        """The left wall is red and the right one green, four columns from the sides. Intervals contain the mean, and are wider where errors
+        are."""
         p = self.picture
         left, right = p.layer("albedo")[8, 5], p.layer("albedo")[8, -6]
         self.assertGreater(left[0], 2 * left[1])
@@ -94,7 +95,7 @@ class Arrays(Case):
         self.assertIn("not known", single.caption)
 
     def test_denoised(self):
-        """Where a denoiser is, cli/test_python names it: what is stated is what attributes say, and the arrays are the channels."""
+        """cli/test_python provides a denoiser where there is one: the report matches the attributes, and the arrays are the channels."""
         self.assertEqual((self.picture.denoised, self.picture.best), (None, None))
         if not os.environ.get("ECLAT_OIDN"):
             self.skipTest("no Open Image Denoise")
@@ -110,7 +111,7 @@ class Arrays(Case):
         self.assertEqual((few.denoised, few.best), (None, None))
 
     def test_no_bound_has_a_reason(self):
-        """A lamp that samples hardly meet: the scene's own README."""
+        """A lamp that samples hardly ever find: see the scene's README."""
         path = os.path.join(os.path.dirname(os.path.dirname(CORNELL)), "pinlamp", "pinlamp.gltf")
         picture = eclat.load(path).render(spp=32, size=(16, 12), light_paths=0)
         self.assertIsNone(picture.bound)
@@ -124,7 +125,7 @@ class Arrays(Case):
         kept = plane.copy()
         del picture
         gc.collect()
-        others = [eclat.load(CORNELL).render(**SMALL, seed=seed) for seed in range(3)]  # who take freed memory
+        others = [eclat.load(CORNELL).render(**SMALL, seed=seed) for seed in range(3)]  # to overwrite freed memory
         np.testing.assert_array_equal(plane, kept)
         self.assertEqual(len({other.attributes["eclat.imageSha256"] for other in others}), 3)
 
@@ -163,7 +164,8 @@ class Files(Case):
             self.assertEqual(eclat.merge([self.folder / "a.exr"], partial=True).samples, 8)
 
     def test_layers_are_weighed_anew(self):
-        """Without indirect light there is the direct one; with gains of 1 the picture; a mix can be mixed, and its errors are upper bounds."""
+        """Without indirect light only the direct light is left; with gains of 1 the picture stays the same; a mix can be mixed again, and
+        its errors are upper bounds."""
         picture = eclat.load(CORNELL).render(**SMALL, channels="default,direct,indirect")
         direct = eclat.mix(picture, {"indirect": 0})
         np.testing.assert_array_equal(direct.radiance, picture.layer("direct"))

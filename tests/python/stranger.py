@@ -1,4 +1,4 @@
-"""What tests of the package share. They run in an environment that has the wheel; cli/test_python.py starts them."""
+"""Shared by the package's tests. They run in an environment that has the wheel; cli/test_python.py starts them."""
 import os
 import sys
 import tempfile
@@ -24,7 +24,7 @@ class Case(unittest.TestCase):
         self.addCleanup(warnings.resetwarnings)
 
     def program(self, *words):
-        """The picture that the program of the build makes: (attributes, planes)."""
+        """Renders with the program of the build; returns (attributes, planes)."""
         path = str(self.folder / "program.exr")
         run = support.eclat(*words, "-q", "-o", path)
         self.assertEqual(run.returncode, 0, run.stderr)

@@ -1,5 +1,5 @@
-/* Many renders of one scene that differ in their seeds alone, for the price of one set-up: each with the replicates and samples that
- * `eclat render` would take, and all others together as its converged picture.
+/* Renders one scene many times with different seeds in a single session. Each render has the replicates and samples that `eclat render`
+ * would take; all others together are its converged picture.
  *
  *     case_batches renders = case_render_many(scene, &options, count);    options.spp samples a pixel in each: whole rounds
  *     ec_film film = case_film_of(&renders, i);
@@ -17,10 +17,11 @@ typedef struct case_batches {
     uint32_t width, height, count, replicates, samples;
     uint64_t values;           /* 3 a pixel */
     float *data;               /* EC_BATCH_FIELDS a pixel, replicate and render */
-    double *sum;               /* of all renders' means, `values` */
+    double *sum;               /* sum of all renders' means, `values` numbers */
 } case_batches;
 
-/* All samples of replicate r of render i in one batch. Sessions of one seed and numbers of replicates that go on are other replicates. */
+/* Takes all samples of replicate r of render i in one batch. In a session of one seed, further replicate numbers are independent
+ * replicates. */
 static inline void case_take_replicate(case_batches *b, ec_session *session, uint32_t seed, uint32_t r, float *into)
 {
     ec_error err = {0};
@@ -62,7 +63,7 @@ static inline void case_batches_free(case_batches *b)
     memset(b, 0, sizeof *b);
 }
 
-/* As a film has it that got these samples batch by batch. */
+/* Converts to the sums that a film has after these samples came batch by batch. */
 static inline ec_film case_film_of(const case_batches *b, uint32_t i)
 {
     ec_error err = {0};

@@ -1,5 +1,5 @@
-/* The promises of a binary tree, verified: every triangle once, or in parts whose boxes reach as far as its own; boxes that hold what is below
- * them; a depth within the kernels' stack. */
+/* Checks the invariants of a binary tree: it has every triangle once, or in parts whose boxes together cover its own; boxes contain their
+ * subtrees; the depth is within the kernels' stack. */
 #ifndef EC_TESTS_BVH_CHECK_H
 #define EC_TESTS_BVH_CHECK_H
 
@@ -12,7 +12,7 @@ typedef struct bvh_checked {
     const ec_bvh *bvh;
     const float *positions;
     const uint32_t *indices;
-    ec_box *seen;       /* by triangle: what its references reach over */
+    ec_box *seen;       /* by triangle: the box around its references */
     uint32_t next;      /* leaves cover the order from left to right */
     uint32_t visited;
     ec_error *err;
@@ -39,7 +39,7 @@ static inline ec_box checked_box(const bvh_checked *c, uint32_t id)
 
 static inline int bvh_is_unseen(const ec_box *box) { return box->lo[0] > box->hi[0] && box->lo[0] == INFINITY; }
 
-/* Adds a reference to what has been seen of a triangle. */
+/* Adds a reference to its triangle's box. */
 static inline int bvh_see(bvh_checked *c, uint32_t i)
 {
     uint32_t id = c->bvh->order[i];
@@ -53,7 +53,7 @@ static inline int bvh_see(bvh_checked *c, uint32_t i)
     return 1;
 }
 
-/* Parts reach as far as the triangle: what a plane cuts off, another reference has. */
+/* Checks that parts together reach as far as the triangle: whatever a plane cuts off is in another reference. */
 static inline ec_result bvh_check_seen(const bvh_checked *c)
 {
     for (uint32_t id = 0; id < c->bvh->triangle_count; id++) {
@@ -88,7 +88,7 @@ static inline ec_result bvh_check_node(bvh_checked *c, uint32_t index, uint32_t 
     c->visited++;
     if (depth > EC_DEPTH_MAX) return ec_fail(c->err, "BVH node %u lies deeper than %u", index, EC_DEPTH_MAX);
     if (node->count || !node->left) return bvh_check_leaf(c, index);
-    /* Children after their parents: the tree has no cycles, and sweeps over the array need no stack. */
+    /* Checks that children follow their parents: the tree has no cycles, and sweeps over the array need no stack. */
     if (node->left <= index || node->left + 1 >= c->bvh->node_count)
         return ec_fail(c->err, "BVH node %u has its children at %u", index, node->left);
     for (uint32_t child = node->left; child <= node->left + 1; child++) {

@@ -1,4 +1,4 @@
-/* What the tests of host/cl share: devices that are none, a folder for the cache, the device under test, a small program. */
+/* Shared by the tests of host/cl: fake devices, a folder for the cache, the device under test, a small program. */
 #ifndef EC_TESTS_SUPPORT_CL_CASE_H
 #define EC_TESTS_SUPPORT_CL_CASE_H
 
@@ -27,14 +27,14 @@ static inline uint32_t fake_devices(ec_device_info devices[4])
     return 4;
 }
 
-/* A new folder for all that a test writes, the cache too; false where there can be none. */
+/* Makes a new folder for everything that a test writes, including the cache; false where it cannot be made. */
 static inline bool cl_folder(char folder[4096])
 {
     snprintf(folder, 4096, "%s/cl-XXXXXX", ECLAT_TEST_OUT);
     return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0;
 }
 
-/* It stays where a test has failed. */
+/* Removes the folder, unless the test has failed. */
 static inline void cl_folder_remove(const char *folder)
 {
     char command[4200];
@@ -42,7 +42,7 @@ static inline void cl_folder_remove(const char *folder)
     if (!test_failures && system(command) != 0) printf("%s stays\n", folder);
 }
 
-/* The device under test; false where a check has failed. */
+/* Opens the device under test; false where a check has failed. */
 static inline bool cl_open(const char *id, ec_cl *cl)
 {
     ec_device_info *devices = NULL;
@@ -57,7 +57,7 @@ static inline bool cl_open(const char *id, ec_cl *cl)
 
 static const char doubler[] = "kernel void doubler(global float *x, float by) { x[get_global_id(0)] *= by; }\n";
 
-/* Runs it, so that a program from the cache is known to work and not just to build. */
+/* Runs the program, to show that one from the cache works and does not just build. */
 static inline void doubles(ec_cl *cl, cl_program program)
 {
     float values[100], by = 2.0f;
@@ -82,7 +82,7 @@ static inline void doubles(ec_cl *cl, cl_program program)
     clReleaseKernel(kernel);
 }
 
-/* Builds and runs it; how the cache answered is then in cl. */
+/* Builds and runs it; afterwards cl has the cache's counts. */
 static inline void build_doubler(ec_cl *cl, const char *options)
 {
     ec_error err = {0};

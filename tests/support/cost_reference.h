@@ -1,4 +1,4 @@
-/* What a cost study compares with: a long render of the same scene, from a seed of its own. */
+/* The reference of a cost study: a long render of the same scene, with a seed of its own. */
 #ifndef SUPPORT_COST_REFERENCE_H
 #define SUPPORT_COST_REFERENCE_H
 

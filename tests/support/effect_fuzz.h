@@ -1,11 +1,11 @@
-/* Random scenes that mix all effects, to find one where the scan missed an effect: a specialised build and a full one must give the
- * same bits.
+/* Random scenes that mix all effects, to find scenes where the scan misses an effect: a specialised build and a full one must give the same
+ * bits.
  *
- * A scene is a function of a seed and of the effects that it may call for. What is not among those it nearly calls for: with a factor
- * of 1 and a texture of zeros, in a material that nothing shows, by a light of no power. Two kinds of runs look for two kinds of misses:
+ * A scene is a function of a seed and of the effects that it may need. An effect that it may not need may nearly be needed: with a factor
+ * of 1 and a texture of zeros, in a material that nothing shows, or by a light without power. Two kinds of runs find two kinds of misses:
  *
- * shared: all scenes get the effects that they may call for, in one build, with what no draw decides. What they nearly call for must change nothing.
- * exact:  each scene gets what the scan found and no more. One material has all effects, so that no other calls for what it misses. */
+ * shared: all scenes get the effects that they may need, in one build. Effects that are nearly needed must change nothing.
+ * exact:  each scene gets what the scan found and no more. One material has all effects, so that none adds what another lacks. */
 #ifndef EC_TESTS_SUPPORT_EFFECT_FUZZ_H
 #define EC_TESTS_SUPPORT_EFFECT_FUZZ_H
 
@@ -18,7 +18,7 @@
 #include "support/render_case.h"
 
 enum { EF_MATERIALS = 7 };
-/* Not a scene's to call for. */
+/* Effects that a scene cannot need by itself. */
 #define EF_NEVER                                                                                                      \
     (EC_FEATURE_SOBOL | EC_FEATURE_TERMINATOR | EC_FEATURE_LENS | EC_FEATURE_PIXEL_FILTER | EC_FEATURE_LIGHT_TREE | EC_FEATURE_LAMP_PARTS | \
      EC_FEATURE_LAMP_PAIRS | EC_FEATURE_ENVIRONMENT_TURN | EC_FEATURE_MULTISCATTER | EC_FEATURE_FOG)
@@ -28,24 +28,24 @@ typedef enum effect_run { EF_SHARED, EF_EXACT } effect_run;
 typedef struct effect_draw {
     uint64_t seed, allowed;
     effect_run run;
-    uint32_t material; /* EF_MATERIALS: of the whole scene */
+    uint32_t material; /* EF_MATERIALS: the whole scene */
 } effect_draw;
 
-/* The same for a purpose whatever else is drawn, so that a scene can be reduced. */
+/* A random number for a purpose, independent of all other draws, so that a scene can be reduced. */
 static inline uint64_t ef_hash(const effect_draw *d, uint64_t purpose)
 {
     return ec_random_mix(ec_random_mix(ec_random_mix(d->seed * EC_RANDOM_STEP + d->material) + purpose) + 1);
 }
 static inline float ef_real(const effect_draw *d, uint64_t purpose) { return (float)((double)(ef_hash(d, purpose ^ 0x5bd1u) >> 40) / (1 << 24)); }
 
-/* One of both ends of what a file may say as often as not, else between least and most. */
+/* A number between least and most, and in half of all cases one of these two. */
 static inline float ef_between(const effect_draw *d, uint64_t purpose, float low, float least, float most, float high)
 {
     const uint64_t end = ef_hash(d, purpose ^ 0xe4d5u) % 4;
     return end == 0 ? low : end == 1 ? high : least + (most - least) * ef_real(d, purpose);
 }
 
-/* Does the material have it? If not, may it nearly have it? */
+/* ef_has: the material has the effect. ef_nearly: it has not, but nearly. */
 static inline bool ef_has(const effect_draw *d, uint64_t feature)
 {
     bool others = d->run == EF_EXACT && d->material < EF_MATERIALS && d->material != 1 + d->seed % (EF_MATERIALS - 1);
@@ -53,7 +53,7 @@ static inline bool ef_has(const effect_draw *d, uint64_t feature)
 }
 static inline bool ef_nearly(const effect_draw *d, uint64_t feature) { return !ef_has(d, feature) && ef_hash(d, feature) >> 32 & 1; }
 
-/* A few effects, for scenes in which each is called for in one way alone. */
+/* Chooses a few effects, for scenes that need each of them for one reason only. */
 static inline uint64_t ef_few(uint64_t seed)
 {
     uint64_t set = 0;
@@ -61,7 +61,7 @@ static inline uint64_t ef_few(uint64_t seed)
     return set;
 }
 
-/* What these effects bring with them. */
+/* Effects that these effects entail. */
 static inline uint64_t ef_close(uint64_t set)
 {
     static const uint64_t needs[][2] = {
@@ -82,11 +82,11 @@ static inline uint64_t ef_close(uint64_t set)
     };
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
         if (set & needs[i][0]) set |= needs[i][1];
-    if (!(set & (EC_FEATURE_EMISSION | EC_FEATURE_ENVIRONMENT | EC_FEATURE_PUNCTUAL_LIGHTS))) set |= EC_FEATURE_ENVIRONMENT; /* or all is black */
+    if (!(set & (EC_FEATURE_EMISSION | EC_FEATURE_ENVIRONMENT | EC_FEATURE_PUNCTUAL_LIGHTS))) set |= EC_FEATURE_ENVIRONMENT; /* light is needed */
     return set & ~EF_NEVER;
 }
 
-/* What else glass calls for by where it stands and how thick it is, which no draw decides. */
+/* Effects that glass also needs, depending on its place and thickness, which no draw decides. */
 static inline uint64_t ef_brought(uint64_t allowed, uint64_t called)
 {
     if (!(allowed & EC_FEATURE_TRANSMISSION)) return 0;
@@ -107,7 +107,7 @@ static inline void ef_base(const effect_draw *d, ec_material *m)
     else if (EF_NEARLY(BASE_COLOR_TEXTURE)) EF_USE(BASE_COLOR, GREY);
     if (EF_HAS(ALPHA) || EF_NEARLY(ALPHA)) m->alpha_mode = ef_hash(d, 110) % 2 ? EC_ALPHA_MASK : EC_ALPHA_BLEND;
     if (EF_HAS(ALPHA)) m->base_color[3] = 0.4f + 0.5f * ef_real(d, 111);
-    if (EF_NEARLY(ALPHA) && m->alpha_mode == EC_ALPHA_MASK) m->alpha_cutoff = 0.3f; /* of 100 / 255 and more */
+    if (EF_NEARLY(ALPHA) && m->alpha_mode == EC_ALPHA_MASK) m->alpha_cutoff = 0.3f; /* texels of 100 / 255 and more */
     if (EF_NEARLY(ALPHA) && m->textures[EC_SLOT_BASE_COLOR].texture >= 0) m->alpha_mode = EC_ALPHA_MASK, m->alpha_cutoff = -1;
     if (EF_HAS(NORMAL_TEXTURE)) EF_USE(NORMAL, NOISE);
     else if (EF_NEARLY(NORMAL_TEXTURE)) EF_USE(NORMAL, NOISE), m->normal_scale = 0;
@@ -138,7 +138,7 @@ static inline void ef_gloss(const effect_draw *d, ec_material *m)
     else if (EF_NEARLY(SPECULAR_TEXTURE)) EF_USE(SPECULAR_COLOR, GREY);
     for (int k = 0; k < 3; k++) m->specular_color[k] = ef_between(d, 135 + (uint64_t)k, 0, 0, 1, 1e4f);
     m->ior = ef_hash(d, 139) % 8 ? 1.2f + ef_real(d, 138) : 0;
-    if (EF_HAS(SMOOTH) && ef_hash(d, 137) % 8 == 0) m->ior = ef_hash(d, 137) % 16 ? 1 : 1.000001f; /* refracts in one direction alone */
+    if (EF_HAS(SMOOTH) && ef_hash(d, 137) % 8 == 0) m->ior = ef_hash(d, 137) % 16 ? 1 : 1.000001f; /* refracts in a single direction */
 }
 
 static inline void ef_layers(const effect_draw *d, ec_material *m)
@@ -154,7 +154,7 @@ static inline void ef_layers(const effect_draw *d, ec_material *m)
     const bool takes_light_in = glass || EF_HAS(DIFFUSE_TRANSMISSION);
     if (EF_HAS(ABSORPTION) || (!takes_light_in && EF_NEARLY(ABSORPTION))) m->absorption[0] = 1, m->absorption[1] = ef_between(d, 142, 0, 0, 1, 1e30f);
     if (EF_HAS(SCATTERING)) m->scatter[1] = ef_between(d, 158, 1e-3f, 0.2f, 1, 1), m->scatter[2] = 0.5f, m->scatter_anisotropy = ef_between(d, 159, -0.999f, -0.5f, 0.9f, 0.999f);
-    else if (EF_NEARLY(SCATTERING)) m->scatter[2] = 1; /* in blue, in which nothing is in the way of light */
+    else if (EF_NEARLY(SCATTERING)) m->scatter[2] = 1; /* in the blue channel, in which nothing blocks light */
     if (coat || EF_NEARLY(CLEARCOAT)) {
         m->coat = 0.2f + 0.8f * ef_real(d, 143);
         m->coat_roughness = EF_HAS(SMOOTH) ? 0 : ef_between(d, 144, 0.05f, 0.2f, 1, 1);
@@ -199,7 +199,7 @@ static inline ec_material ef_material(const effect_draw *d)
     return m;
 }
 
-/* An effect that nothing shows calls for nothing. */
+/* A material with an effect that nothing shows: it needs no effects. */
 static inline void ef_unused(effect_model *e)
 {
     ec_material m = em_plain();
@@ -241,7 +241,8 @@ static inline void ef_colors(const effect_draw *d, ec_scene *s)
     for (size_t i = 0; s->colors && i < 4 * (size_t)s->vertex_count; i++) s->colors[i] = on && i % 4 != 3 ? 0.5f + (float)(i % 5) / 8 : 1;
 }
 
-/* The first half of all triangles drifts, each vertex its own way; or all stands still at two keys that nobody is told of. */
+/* With motion, the first half of all triangles drifts, each vertex in its own way. Without it, lights have an index of keys but no motion
+ * is declared. */
 static inline void ef_motion(const effect_draw *d, ec_scene *s)
 {
     ec_motion *m = &s->motion;
@@ -311,13 +312,13 @@ static inline ec_scene *ef_scene(uint64_t seed, effect_run run, uint64_t allowed
     return scene;
 }
 
-/* Judging ---------------------------------------------------------------------------------------------------------------------- */
+/* Comparing builds -------------------------------------------------------------------------------------------------------------- */
 
 static inline ec_render_options ef_options(ec_integrator integrator, ec_scattering scattering, ec_terminator terminator)
 {
     ec_render_options o = case_options(16, 12, 4);
     o.max_depth = 5;
-    o.lanes = 1; /* compiles quickest; that all give the same bits is another test */
+    o.lanes = 1; /* compiles quickest; another test shows that all widths give the same bits */
     o.accel = "bvh8";
     o.integrator = integrator;
     o.scattering = scattering;
@@ -325,7 +326,7 @@ static inline ec_render_options ef_options(ec_integrator integrator, ec_scatteri
     return o;
 }
 
-/* Do both builds give the same bits? `more` shares kernels among scenes. */
+/* Compares the bits of both builds. `more`: effects by which scenes share kernels. */
 static inline bool ef_same(const ec_scene *scene, ec_render_options o, uint64_t more, double *mean)
 {
     o.more_effects = more;
@@ -333,7 +334,7 @@ static inline bool ef_same(const ec_scene *scene, ec_render_options o, uint64_t 
     o = case_with_all_effects(o);
     case_image full = case_render(scene, &o);
     bool same = case_same_bits(&special.film, &full.film);
-    const uint64_t left_out = EC_FEATURE_ALL & ~(EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS) & ~full.stats.effects.built; /* what makes other pictures is no effect more */
+    const uint64_t left_out = EC_FEATURE_ALL & ~(EC_FEATURES_FROM_LIGHTS | EC_FEATURE_LAYERS) & ~full.stats.effects.built; /* not effects */
     CHECK_MSG(!left_out, "the full build leaves out %llx", (unsigned long long)left_out);
     *mean = full.mean[0] + full.mean[1] + full.mean[2];
     case_free(&special);
@@ -341,7 +342,7 @@ static inline bool ef_same(const ec_scene *scene, ec_render_options o, uint64_t 
     return same;
 }
 
-/* Scene `seed` without as many of its effects as it takes to fail still; then the bits that mend it. */
+/* Prints the smallest set of effects with which scene `seed` still fails, and the effects that repair it. */
 static inline void ef_report(uint64_t seed, effect_run run, const ec_render_options *o, uint64_t allowed)
 {
     char names[EC_EFFECT_NAMES], missed[EC_EFFECT_NAMES];
@@ -365,11 +366,11 @@ static inline void ef_report(uint64_t seed, effect_run run, const ec_render_opti
             (unsigned long long)seed, (int)o->integrator, (int)o->scattering, (int)o->terminator, names, *missed ? missed : "none alone");
 }
 
-/* Scenes of seeds from `first` on; returns how many of them are lit. With shared kernels both effects that options ask for are asked for,
- * or neither; else also one alone. Built in they are in the full build all the same. */
+/* Tests `count` scenes with seeds from `first` on; returns how many of them are lit. With shared kernels, both effects that options control
+ * are on, or neither; otherwise also one alone. The full build has both in any case. */
 static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrator integrator, ec_scattering scattering, uint64_t wanted)
 {
-    const uint64_t allowed = ef_close(integrator == EC_INTEGRATOR_PATH ? wanted : wanted & ~EC_FEATURE_MOTION); /* others refuse that */
+    const uint64_t allowed = ef_close(integrator == EC_INTEGRATOR_PATH ? wanted : wanted & ~EC_FEATURE_MOTION); /* other integrators refuse motion */
     const uint64_t shared = allowed | EC_FEATURE_LIGHT_TREE | (allowed & EC_FEATURE_TRANSMISSION ? EC_FEATURE_PANES | EC_FEATURE_MATCHED | EC_FEATURE_NESTED : 0);
     int lit = 0;
     case_cl()->keeps_programs = true;
@@ -390,7 +391,7 @@ static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrato
         ec_scene_free(scene);
         if (same) continue;
         ef_report(seed, run, &o, allowed);
-        break; /* one is enough to mend */
+        break; /* one failure is enough */
     }
     return lit;
 }

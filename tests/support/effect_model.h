@@ -1,4 +1,4 @@
-/* Scenes for questions about effects: a few quads with textures of known texels. */
+/* Scenes for tests of effects: a few quads with textures of known texels. */
 #ifndef EC_TESTS_SUPPORT_EFFECT_MODEL_H
 #define EC_TESTS_SUPPORT_EFFECT_MODEL_H
 
@@ -8,12 +8,12 @@
 
 #include "gltf/model.h"
 
-/* Textures that every such scene has. MIXED: texels of 0 and of 255 in all channels; DEEP the same with 16 bits;
- * NOISE: values from 100 on. */
+/* Textures that every such scene has. MIXED: texels of 0 and 255 in all channels; DEEP: the same with 16 bits; NOISE: values of 100 and
+ * more. */
 enum { EM_BLACK, EM_WHITE, EM_MIXED, EM_DEEP, EM_GREEN, EM_GREY, EM_NOISE, EM_TEXTURES };
 enum { EM_SIDE = 4, EM_MATERIALS = 64 };
 
-/* A model whose materials may use them: it learns of textures once it is a scene. */
+/* A model whose materials may use these textures; em_scene adds the textures. */
 typedef struct effect_model {
     ec_model *model;
     ec_material materials[EM_MATERIALS];
@@ -27,7 +27,7 @@ static inline void em_use(ec_material *m, int slot, int texture)
     m->textures[slot] = (ec_texture_use){texture, 0, {1, 0, 0, 0, 1, 0}};
 }
 
-/* Pure Lambert, opaque, double-sided: calls for nothing. */
+/* Pure Lambert, opaque, double-sided: needs no effects. */
 static inline ec_material em_plain(void)
 {
     ec_material m = ec_material_lambert(0.5, 0);
@@ -66,7 +66,7 @@ static inline void em_add_textures(ec_scene *s)
     }
 }
 
-/* A quad of 2 x 2 about the origin that faces +z, with texture coordinates; normals and colours (4 a vertex) may be NULL. */
+/* A quad of 2 x 2 about the origin, facing +z, with texture coordinates. Normals and colours (4 a vertex) may be NULL. */
 static inline void em_quad(effect_model *e, int32_t material, const float normals[12])
 {
     static const float positions[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, uv[8] = {0, 1, 1, 1, 1, 0, 0, 0};
@@ -101,8 +101,8 @@ static inline void em_pan(ec_scene *scene)
     scene->motion = (ec_motion){.segments = 1, .camera_count = 1, .cameras = keys};
 }
 
-/* A scene that calls for every effect that --without can leave out, each in a place of its own before a floor, so that the picture is
- * another one without it: 16 squares, 4 in a row, the last with a body in a body. */
+/* A scene that needs every effect that --without can leave out, each in a place of its own before a floor, so that the picture changes
+ * without it: 16 squares, 4 in a row, the last with a body in a body. */
 static inline ec_scene *em_everything(void)
 {
     enum { SQUARES = 15 };
@@ -127,7 +127,7 @@ static inline ec_scene *em_everything(void)
     list[8].film = 1, list[8].film_ior = 1.3f, list[8].film_most = 400;
     list[9].diffuse_transmission = 1;
     list[10].unlit = true;
-    list[11].double_sided = false; /* and its back to the camera */
+    list[11].double_sided = false; /* also seen from behind */
     for (int slot = 0; slot < EC_SLOT_COUNT; slot++) list[13].textures[slot].texture = -1;
     list[13].metallic = list[13].roughness = 0, list[13].transmission = list[13].specular = 1; /* a clear pane */
     glass.metallic = glass.roughness = 0;

@@ -1,4 +1,4 @@
-/* Small films of batches that are the same in each of them.
+/* Small films of repeatable batches.
  *
  *     replicates = 3, sets = 1;                    of the films made from here on
  *     ec_film film = empty(), part = slice(4, 9);  of batches 4 to 8
@@ -15,7 +15,7 @@ enum { W = 3, H = 2, P = W * H, FIELDS = EC_BATCH_FIELDS * P };
 
 static uint32_t replicates = EC_REPLICATES, sets, feature_end = UINT32_MAX;
 
-/* Batch k of every film here. Heavy-tailed, and far from 0, where sums in another order do not round alike. */
+/* Fills batch k of any film. Values are heavy-tailed and far from 0, where sums in another order round differently. */
 static inline const float *batch_of(uint32_t k)
 {
     static float batch[FIELDS];
@@ -33,7 +33,7 @@ static inline const float *batch_of(uint32_t k)
 
 static inline float feature(uint32_t k, uint32_t i) { return (float)(1 + (k * 31 + i * 7) % 97 / 97.0); }
 
-/* Its features. */
+/* Fills its features. */
 static inline const float *features_of(uint32_t k)
 {
     static float features[EC_FILM_FEATURES * P];
@@ -63,7 +63,7 @@ static inline ec_film slice(uint32_t first, uint32_t end)
     return film;
 }
 
-/* Bytes a pixel that the film holds. */
+/* Bytes of the film for each pixel. */
 static inline uint64_t bytes_of(const ec_film *film)
 {
     uint64_t bytes = 0;

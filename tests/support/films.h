@@ -1,5 +1,5 @@
-/* Films of plain values: each R, G, B becomes a batch whose samples are all alike or, in the first stride, a single one. A film of R replicates
- * and R such batches has R independent values a pixel, and is judged by them. */
+/* Films of plain values. Each R, G, B becomes a batch whose samples are all equal or, in the first stride, a single sample. A film of R
+ * replicates and R such batches has R independent values a pixel, from which its errors follow. */
 #ifndef EC_TESTS_SUPPORT_FILMS_H
 #define EC_TESTS_SUPPORT_FILMS_H
 
@@ -9,7 +9,7 @@
 
 #include "film/pixel.h"
 
-/* rgb: 3 a pixel; batch: EC_BATCH_FIELDS a pixel. The tail is that of one sample: squares and fourths are 1 where it is lit. */
+/* rgb: 3 a pixel; batch: EC_BATCH_FIELDS a pixel. The tail is that of one sample: squares and fourth powers are 1 where it is lit. */
 static inline void films_lay_out(const float *rgb, uint64_t pixels, float *batch)
 {
     for (uint64_t p = 0; p < pixels; p++) {
@@ -46,7 +46,7 @@ static inline ec_pixel films_pixel(const ec_film *film, uint64_t p)
     return pixel;
 }
 
-/* Are all figures of all pixels the same bits? Their layout in parts may differ. */
+/* Compares all figures of all pixels bit for bit. The layout in parts may differ. */
 static inline bool films_same_bits(const ec_film *a, const ec_film *b)
 {
     const uint64_t pixels = (uint64_t)a->width * a->height;
@@ -59,7 +59,7 @@ static inline bool films_same_bits(const ec_film *a, const ec_film *b)
     return same;
 }
 
-/* And their features', by halves and in all? */
+/* Compares the features too, in halves and as a whole. */
 static inline bool films_same_features(const ec_film *a, const ec_film *b)
 {
     const uint64_t pixels = (uint64_t)a->width * a->height;

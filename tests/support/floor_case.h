@@ -1,4 +1,4 @@
-/* A point of a matt floor and what a polygon lights it with, in closed form. */
+/* A point of a matt floor, and the light of a polygon on it in closed form. */
 #ifndef EC_TESTS_SUPPORT_FLOOR_CASE_H
 #define EC_TESTS_SUPPORT_FLOOR_CASE_H
 
@@ -10,7 +10,7 @@
 
 enum { SKILLED = 7, ALL = 15 }; /* uniform directions are noisier than most checks here allow */
 
-/* Renders what a camera sees through a needle's eye (8 x 8 pixels of one point). */
+/* Renders the view of a camera with a tiny field of view (8 x 8 pixels of one point). */
 static inline void check_point(const char *path, const char *environment, double expected, int samples, uint32_t spp, double most_se)
 {
     ec_scene *scene = case_load(path, environment);
@@ -29,8 +29,8 @@ static inline void check_point(const char *path, const char *environment, double
     ec_scene_free(scene);
 }
 
-/* Lambert 1760: irradiance / radiance of a polygon above the horizon: half the sum over edges of the angle an edge subtends
- * times the cosine between the normal and the edge plane's. */
+/* Lambert 1760: irradiance / radiance of a polygon above the horizon is half the sum over edges of the angle that an edge subtends, times
+ * the cosine between the normal and that of the edge's plane. */
 static inline double lambert(const double (*p)[3], int count, const double normal[3])
 {
     double sum = 0;

@@ -54,7 +54,7 @@ __attribute__((format(printf, 2, 3))) static inline int gltf_add(gltf_list *list
     return list->count++;
 }
 
-/* One accessor of `count` times `width` floats. */
+/* Adds an accessor of `count` times `width` floats. */
 static inline int gltf_floats(gltf_writer *w, const float *values, int count, int width)
 {
     static const char *const types[5] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -64,7 +64,7 @@ static inline int gltf_floats(gltf_writer *w, const float *values, int count, in
     int view = gltf_add(&w->views, "{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}", w->data_used, bytes);
     w->data_used += bytes;
     char bounds[256] = "";
-    if (width == 3) { /* POSITION must have them */
+    if (width == 3) { /* POSITION requires them */
         float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
         for (int i = 0; i < 3 * count; i++) {
             lo[i % 3] = fminf(lo[i % 3], values[i]);
@@ -77,7 +77,7 @@ static inline int gltf_floats(gltf_writer *w, const float *values, int count, in
                     types[width], bounds);
 }
 
-/* Vertices of separate triangles; streams may be NULL. */
+/* Vertices of separate triangles; the data of normals, coordinates and colours may be NULL. */
 typedef struct gltf_mesh {
     int count;
     const float *positions, *normals, *uv, *colors;
@@ -127,7 +127,7 @@ static inline int gltf_lambert(gltf_writer *w, double albedo, double radiance)
                     albedo, albedo, albedo, radiance > 0, radiance > 0, radiance > 0, radiance);
 }
 
-/* Six quads that look outwards. */
+/* Six quads that face outwards. */
 static inline void gltf_box(gltf_writer *w, int material, const double lo[3], const double hi[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -160,7 +160,7 @@ static inline int gltf_add_glass(gltf_writer *w, const gltf_glass *g)
                     g->base, g->base, g->base, g->roughness, g->transmission, g->ior > 0 ? g->ior : 1.5, volume);
 }
 
-/* A node that looks along `direction` (its -z), at `at`; members is JSON such as "\"camera\":0". */
+/* A node at `at` whose -z points along `direction`; members is JSON such as "\"camera\":0". */
 static inline void gltf_node_looking(gltf_writer *w, const double at[3], const double direction[3], const char *members)
 {
     /* Columns: x = right, y = up, z = backwards. */

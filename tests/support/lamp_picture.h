@@ -1,4 +1,4 @@
-/* A square lamp on black, and how often samples of a pixel see it: pictures that can be predicted pixel by pixel. */
+/* A square lamp on black, and the share of a pixel's samples that see it: pictures that can be predicted pixel by pixel. */
 #ifndef EC_TESTS_SUPPORT_LAMP_PICTURE_H
 #define EC_TESTS_SUPPORT_LAMP_PICTURE_H
 
@@ -8,7 +8,7 @@
 enum { SIDE = 48, LAMP_SPP = 1024 };
 static const double yfov = 0.5, half_lamp = 0.15;
 
-/* A lamp that looks at the camera from depth z: all its samples are 1 or 0. */
+/* A lamp at depth z that faces the camera: every sample is 1 or 0. */
 static inline ec_scene *lamp_at(double x, double y, double z, const char *name)
 {
     gltf_writer *w = gltf_new();
@@ -26,9 +26,9 @@ static inline ec_render_options lamp_options(void)
     return o;
 }
 
-/* A sample sees the lamp, 1, or nothing, so that n of them have a variance of p (1 - p) / n at most: stratified ones less. Sums over
- * squares of pixels within 4.5 standard errors of such samples (of 150 one is further off in 1 000 runs); 2 for what 2-sided
- * counts of few are from normal. */
+/* A sample is 1 or 0, so that n of them have a variance of at most p (1 - p) / n; stratified ones have less. Sums over squares of pixels
+ * agree within 4.5 standard errors of independent samples (one of 150 exceeds that in 1 of 1 000 runs), plus 2 for small counts, which are
+ * not normal. */
 static inline void check_squares(const case_image *image, const float *expected, int side, const char *what)
 {
     double worst = 0;

@@ -1,4 +1,4 @@
-/* Many lamps, of which few matter at any place: a hall of chambers, and in each of them lanterns of many colours and powers. */
+/* Many lamps, few of which matter at any place: a hall of chambers, each with lanterns of many colours and powers. */
 #ifndef EC_TESTS_SUPPORT_LANTERN_HALL_H
 #define EC_TESTS_SUPPORT_LANTERN_HALL_H
 
@@ -6,8 +6,8 @@
 #include "gltf/model.h"
 #include "support/render_case.h"
 
-/* side x side chambers of 2 m, 1.5 m high, open to each other by half of each wall; `each` lanterns in a chamber, octahedra of eight
- * triangles, every third one a two-sided sheet of two. The camera stands in a chamber in the middle; there is no roof. */
+/* side x side chambers of 2 m, 1.5 m high, open to each other by half of each wall. Each chamber has `each` lanterns, octahedra of eight
+ * triangles; every third one is a two-sided sheet of two. The camera is in a chamber in the middle; there is no roof. */
 static inline ec_scene *lantern_hall(int side, int each)
 {
     ec_error err = {0};

@@ -1,4 +1,4 @@
-/* Does anything in a scene give light? */
+/* Tells whether anything in a scene emits light. */
 #ifndef EC_TESTS_SUPPORT_LIGHT_H
 #define EC_TESTS_SUPPORT_LIGHT_H
 

@@ -1,4 +1,4 @@
-/* Every .gltf and .glb below a folder, by name. Define _XOPEN_SOURCE 700 before the first include. */
+/* Lists every .gltf and .glb below a folder, by name. Define _XOPEN_SOURCE 700 before the first include. */
 #ifndef EC_TESTS_SUPPORT_MODELS_H
 #define EC_TESTS_SUPPORT_MODELS_H
 
@@ -25,7 +25,7 @@ static int models_by_name(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* 0: there is none, or no folder */
+/* 0: no such file, or no folder */
 static inline int models_collect(const char *folder)
 {
     if (nftw(folder, models_take, 16, FTW_PHYS) != 0) return 0;

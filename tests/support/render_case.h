@@ -7,7 +7,7 @@
  *     case_free(&image);
  *     ec_scene_free(scene);
  *
- * The device is ECLAT_DEVICE, else the default. What cannot fail in a working tree ends the test at once. */
+ * The device is ECLAT_DEVICE, else the default. An error that cannot happen in a complete source tree ends the test at once. */
 #ifndef EC_TESTS_SUPPORT_RENDER_CASE_H
 #define EC_TESTS_SUPPORT_RENDER_CASE_H
 
@@ -71,7 +71,7 @@ static inline ec_scene *case_load(const char *path, const char *environment)
 }
 
 /* Unlimited depth, Sobol, MIS, seed 0. */
-/* In 16 replicates: 15 degrees of freedom, which the thresholds of single pixels in these tests are made for. */
+/* 16 replicates: 15 degrees of freedom, for which these tests' thresholds of single pixels are made. */
 static inline ec_render_options case_options(uint32_t width, uint32_t height, uint32_t spp)
 {
     return (ec_render_options){.width = width, .height = height, .spp = spp, .replicates = 16};
@@ -83,7 +83,8 @@ static inline ec_render_options case_defaults(uint32_t width, uint32_t height, u
     return (ec_render_options){.width = width, .height = height, .spp = spp};
 }
 
-/* Where compiling takes longer than rendering: narrow kernels are compiled in a third of the time of wide ones, to the same bits (test_same_bits.c). */
+/* For tests where compiling takes longer than rendering: narrow kernels compile in a third of the time of wide ones, with the same bits
+ * (test_same_bits.c). */
 static inline ec_render_options case_quick(ec_render_options options)
 {
     options.lanes = 0;
@@ -91,8 +92,8 @@ static inline ec_render_options case_quick(ec_render_options options)
     return options;
 }
 
-/* Options for kernels with all effects, which every scene can share; narrow ones, since for 4 lanes all effects take 29 s to compile. Building has
- * compiled some of them. The command line's tests have these options as QUICK (tests/cli/support.py). */
+/* Options for kernels with all effects, which every scene can share. They are narrow, since four lanes with all effects compile for 29 s.
+ * Building has compiled some of them. The command line's tests call these options QUICK (tests/cli/support.py). */
 static inline ec_render_options case_with_all_effects(ec_render_options options)
 {
     setenv("ECLAT_KERNELS", ECLAT_TEST_OUT "/../../eclat-kernels", 1);
@@ -103,7 +104,7 @@ static inline ec_render_options case_with_all_effects(ec_render_options options)
     return options;
 }
 
-/* For means that are compared within their standard errors: numbers that do not know of each other, in 16 replicates. */
+/* For means that are compared within their standard errors: independent random numbers, in 16 replicates. */
 static inline ec_render_options case_random(uint32_t size, uint32_t spp, ec_sample sample, uint64_t seed)
 {
     ec_render_options o = case_options(size, size, spp);
@@ -139,7 +140,7 @@ static inline ec_result case_try(const ec_scene *scene, const ec_render_options 
     return EC_OK;
 }
 
-/* Ends the test where the render fails; NaN and Inf are failures of the check, not of the set-up. */
+/* Ends the test if the render fails. NaN and Inf fail the check instead. */
 static inline case_image case_render(const ec_scene *scene, const ec_render_options *options)
 {
     ec_error err = {0};
@@ -173,7 +174,7 @@ static inline void case_free(case_image *image)
     memset(image, 0, sizeof *image);
 }
 
-/* Every number that samples left in the film. */
+/* All numbers that samples left in the film. */
 static inline int case_same_bits(const ec_film *a, const ec_film *b)
 {
     const uint64_t pixels = (uint64_t)a->width * a->height;
@@ -203,8 +204,8 @@ static inline ztest_picture case_picture(const case_image *image)
     return (ztest_picture){image->width, image->height, image->rgb, image->se, ec_film_replicates(&image->film) - 1.0};
 }
 
-/* Means of blocks of n x n pixels (n divides both sides), to be freed by ztest_free. Where single pixels' batches are far
- * from normal (rare bright paths), blocks' are less so; and a reference without standard errors has less noise. */
+/* Means of blocks of n x n pixels (n divides both sides), to be freed by ztest_free. Blocks are closer to normal where single pixels'
+ * batches are not (rare bright paths). The noise of a reference without standard errors is lower in blocks, too. */
 static inline ztest_picture case_blocks(const ztest_picture *p, uint32_t n)
 {
     uint32_t w = p->width / n, h = p->height / n;
@@ -225,7 +226,7 @@ static inline ztest_picture case_blocks(const ztest_picture *p, uint32_t n)
     return out;
 }
 
-/* The mean of a rectangle of pixels [x0, x1) x [y0, y1), one channel, and its standard error. */
+/* The mean of one channel over pixels [x0, x1) x [y0, y1), and its standard error. */
 static inline double case_region(const case_image *image, const uint32_t box[4], int channel, double *se)
 {
     double sum = 0, variance = 0, n = (double)(box[1] - box[0]) * (box[3] - box[2]);
@@ -239,8 +240,8 @@ static inline double case_region(const case_image *image, const uint32_t box[4],
     return sum / n;
 }
 
-/* Mean of the picture against a known number, every channel: within `sigmas` standard errors and 2e-6 for float rounding.
- * The standard error itself must be at most `most_se` of the expected value, or the test would say nothing. */
+/* Compares the picture's mean with a known number, in every channel: within `sigmas` standard errors and 2e-6 for float rounding. The
+ * standard error must be at most `most_se` of the expected value, or the test would prove nothing. */
 #define CASE_NEAR(image, expected, sigmas, most_se)                                                                    \
     do {                                                                                                               \
         for (int c_ = 0; c_ < 3; c_++) {                                                                               \
@@ -251,7 +252,7 @@ static inline double case_region(const case_image *image, const uint32_t box[4],
         }                                                                                                              \
     } while (0)
 
-/* Two renders of one converged picture, in squares of `block` pixels: ztest.h with no allowance for a common bias. */
+/* Compares two renders of one converged picture, in squares of `block` pixels: ztest.h without allowance for a common bias. */
 static inline void case_check_same(const case_image *a, const case_image *b, uint32_t block, const char *what)
 {
     ztest_picture one = case_picture(a), two = case_picture(b);

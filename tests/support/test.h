@@ -10,7 +10,7 @@
 
 static int test_failures, test_checks;
 
-/* Is it the turn of the parts of that tier, in a file of several? ctest says whose; by hand it is that of all. */
+/* In a file of several tiers, tells whether the parts of that tier run. ctest chooses one; without ctest all run. */
 static inline int test_tier(const char *name)
 {
     const char *chosen = getenv("ECLAT_TIER");

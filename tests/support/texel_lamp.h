@@ -1,5 +1,5 @@
-/* A lamp of 1 x 1 that faces down at height 1, about the y axis, with one bright texel in its texture. Texel (x, y) lies at x right of its corner
- * (-0.5, 1, -0.5) and y along z, both of TEXEL_SIDE. */
+/* A lamp of 1 x 1 that faces down at height 1, about the y axis, with one bright texel. Texel (x, y) is x / TEXEL_SIDE from its corner
+ * (-0.5, 1, -0.5) to the right, and y / TEXEL_SIDE along z. */
 #ifndef EC_TESTS_SUPPORT_TEXEL_LAMP_H
 #define EC_TESTS_SUPPORT_TEXEL_LAMP_H
 
@@ -9,7 +9,7 @@
 
 enum { TEXEL_SIDE = 64, TEXEL_X = 40, TEXEL_Y = 9 };
 
-/* Adds it to a scene that is called so. sampler: -1, or glTF's; dark: its other texels, in sRGB; bright: that one. */
+/* Adds the lamp to a scene of this name. sampler: -1, or glTF's; dark: the sRGB code of other texels; bright: that of the one. */
 static inline void texel_lamp_add(gltf_writer *w, const char *name, int sampler, int dark, int bright, double radiance)
 {
     static uint8_t rgb[3 * TEXEL_SIDE * TEXEL_SIDE];

@@ -1,8 +1,8 @@
-/* Are two renders the same picture but for noise? Needs both pictures' standard errors.
+/* Tests whether two renders are the same picture except for noise. Needs both pictures' standard errors.
  *
- * Per value (pixel and channel) a two-sided t-test, alpha = 0.01 with Sidak's correction for the number of values; up to
- * 0.25 % may fail, as in Mitsuba 3's test_renders.py. That cannot see a small bias of the whole picture, so the mean of
- * each channel is tested too: |difference| <= 0.1 % of the reference + 4 standard errors.
+ * Each value (pixel and channel) gets a two-sided t-test, alpha = 0.01 with Sidak's correction for the number of values; up to 0.25 % may
+ * fail, as in Mitsuba 3's test_renders.py. That cannot find a small bias of the whole picture, so the mean of each channel is tested too:
+ * |difference| <= 0.1 % of the reference + 4 standard errors.
  *
  *     ztest_picture reference = {0};
  *     CHECK_OK(ztest_load(ECLAT_SHARED "/reference/x.exr", 31, &reference, &err), err);
@@ -24,18 +24,18 @@
 typedef struct ztest_picture {
     uint32_t width, height;
     float *rgb, *se;   /* 3 per pixel each: mean and its standard error */
-    double dof;        /* degrees of freedom of se: batches - 1; INFINITY if it is known well */
+    double dof;        /* degrees of freedom of se: batches - 1; INFINITY if se is precise */
 } ztest_picture;
 
 /* Zero means the default. */
 typedef struct ztest_options {
-    double significance;   /* of the whole per-value test; 0.01 */
-    double outlier_share;  /* of values that may fail; 0.0025 */
+    double significance;   /* of the whole test of values; 0.01 */
+    double outlier_share;  /* share of values that may fail; 0.0025 */
     double floor;          /* least standard error, relative to |reference| + its mean; 1e-4 (rounding, se = 0 by chance) */
     double mean_tolerance; /* relative to the channel's mean; 0.001 */
-    double mean_sigmas;    /* and on top of it; 4 */
-    /* Reference samples per pixel / image samples per pixel, if both were sampled alike: the image's variance is then
-     * taken as at least the reference's times this. Helps where few batches missed a rare light. Default: unused. */
+    double mean_sigmas;    /* standard errors added to it; 4 */
+    /* Reference samples per pixel / image samples per pixel, if both were sampled alike: the image's variance is then at least this factor
+     * times the reference's. Helps where few batches found a rare light. Default: unused. */
     double variance_ratio;
 } ztest_options;
 
@@ -43,11 +43,11 @@ typedef struct ztest_result {
     int pass;
     uint64_t values, outliers;
     double outlier_share;
-    double dof, threshold;              /* of the per-value tests: a value with |t| > threshold is an outlier */
+    double dof, threshold;              /* threshold of the tests of values: a value with |t| above it is an outlier */
     double worst_z;                     /* the largest |t|, signed */
     uint32_t worst_x, worst_y, worst_channel;
     double mean[3], reference_mean[3], mean_difference[3], mean_se[3], mean_z[3];
-    char text[640];                     /* one line that says it all */
+    char text[640];                     /* one line with the whole result */
 } ztest_result;
 
 static inline void ztest_free(ztest_picture *picture)
@@ -57,7 +57,7 @@ static inline void ztest_free(ztest_picture *picture)
     *picture = (ztest_picture){0};
 }
 
-/* R, G, B and stderr.R, stderr.G, stderr.B of an EXR file; absent standard errors are 0. */
+/* Reads R, G, B and stderr.R, stderr.G, stderr.B of an EXR file; absent standard errors are 0. */
 static inline ec_result ztest_load(const char *path, double dof, ztest_picture *picture, ec_error *err)
 {
     static const char *const names[6] = {"R", "G", "B", "stderr.R", "stderr.G", "stderr.B"};
@@ -88,7 +88,7 @@ static inline ztest_variances ztest_variances_of(const ztest_picture *image, con
     return (ztest_variances){fmax(a, b * o->variance_ratio), b};
 }
 
-/* Channels: the picture, reference.*, difference.* and z.*. */
+/* Writes the channels of the picture, reference.*, difference.* and z.*. */
 static inline ec_result ztest_write_map(const char *path, const ztest_picture *image, const ztest_picture *reference,
                                         const float *z, ec_error *err)
 {
@@ -106,9 +106,9 @@ static inline ec_result ztest_write_map(const char *path, const ztest_picture *i
     return result;
 }
 
-/* Means of the channels, their difference and its standard error (values are independent); and the degrees of freedom of
- * the per-value tests by Welch and Satterthwaite. One figure for the whole picture: taken value by value it would be large
- * just where a standard error came out small by chance, and with few batches 1 % of equal values would be outliers. */
+/* Computes the means of the channels, their difference and its standard error (values are independent); and the degrees of freedom of the
+ * tests of values by Welch and Satterthwaite. There is one number of degrees for the whole picture: by value it would be large just where a
+ * standard error is small by chance, and with few batches 1 % of equal values would be outliers. */
 static inline int ztest_means(const ztest_picture *image, const ztest_picture *reference, const ztest_options *o,
                               ztest_result *r)
 {

@@ -1,5 +1,5 @@
-"""A screen without a monitor, eclat's window on it, and a hand. Xvfb with Mesa's software OpenGL; xdotool; ImageMagick's import;
-openbox where windows are to be minimised; Xorg with its dummy driver where there are to be several monitors."""
+"""A virtual screen, eclat's window on it, and simulated input. Uses Xvfb with Mesa's software OpenGL; xdotool; ImageMagick's import;
+openbox to minimise windows; Xorg with its dummy driver for several monitors."""
 import glob
 import os
 import re
@@ -17,7 +17,7 @@ TOOLS = ["Xvfb", "xdotool", "import", "convert", "xrdb", "xprop", "xrandr", "xwi
 
 
 def why_not():
-    """What is missing for these tests; None: nothing."""
+    """Returns what is missing for these tests, or None."""
     missing = [tool for tool in TOOLS if not shutil.which(tool)]
     if missing:
         return "not installed: " + ", ".join(missing)
@@ -26,8 +26,8 @@ def why_not():
 
 
 class Screen:
-    """An X server of its own, on a display number that it chooses. dpi: what desktops tell of dense monitors; managed: by openbox, else
-    windows have neither frames nor icons."""
+    """An X server of its own, on a display number that it chooses. dpi: as a desktop states it for a dense monitor; managed: by openbox;
+    otherwise windows have neither frames nor icons."""
 
     def __init__(self, size="1280x1024", dpi=None, managed=False):
         self.start(["Xvfb", "-screen", "0", size + "x24"], dpi, managed)
@@ -104,7 +104,7 @@ class Monitors(Screen):
             self.manage()
 
     def add(self, i, width, height):
-        """By a modeline that no monitor would sync to; a dummy does."""
+        """Sets a mode that no real monitor could show; the dummy accepts any."""
         mode = f"dummy{width}x{height}"
         self.places.append((sum(place[2] for place in self.places), 0, width, height))
         self.run("xrandr", "--newmode", mode, "50", *(str(width + k) for k in [0, 8, 16, 24]), *(str(height + k) for k in range(4)))
@@ -114,7 +114,7 @@ class Monitors(Screen):
     def output(self, i, on):
         x, y, width, height = self.places[i]
         self.run("xrandr", "--output", f"DUMMY{i}", *(["--mode", f"dummy{width}x{height}", "--pos", f"{x}x{y}"] if on else ["--off"]))
-        self.run("xrandr")  # looks at what is connected: a dummy is as long as it has a mode
+        self.run("xrandr")  # updates the list of connected outputs: a dummy is connected while it has a mode
 
     def close(self):
         super().close()
@@ -122,7 +122,7 @@ class Monitors(Screen):
 
 
 class Window:
-    """eclat view, started; its folder is the current one."""
+    """A running eclat view; its folder is the current one."""
 
     def __init__(self, screen, folder, *arguments, prefix=(), env=None):
         self.screen = screen
@@ -143,7 +143,7 @@ class Window:
         return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, capture_output=True, text=True, check=False).stdout
 
     def wait_until(self, what, pause=0.1):
-        """what() until it is true; its last value."""
+        """Calls what() until it returns something true; returns its last value."""
         return poll_until(what, self.process, pause)
 
     def appear(self):
@@ -154,7 +154,7 @@ class Window:
         return self
 
     def place(self):
-        """(x, y, width, height) on the screen, without the frame."""
+        """Returns (x, y, width, height) on the screen, without the frame."""
         text = self.screen.run("xwininfo", "-id", self.id)
         return tuple(int(re.search(rf"{what}: *(-?\d+)", text)[1]) for what in ["left X", "left Y", "Width", "Height"])
 
@@ -162,18 +162,19 @@ class Window:
         return self.place()[2:]
 
     def move(self, x, y):
-        """Until it stands there. xdotool's --sync is content with any move, also that by which a window manager first places a window."""
+        """Moves the window and waits until it is there. xdotool's --sync returns after any move, even the first placement by a window
+        manager."""
         self.tool("windowmove", self.id, x, y)
         assert self.wait_until(lambda: self.place()[:2] == (x, y)), f"it does not move to {x}, {y}: {self.place()}"
 
     def key(self, *names):
-        """By the server, as a keyboard does it; events sent to the window itself carry no time, and some get lost. No quicker than a hand:
-        GLFW takes what goes up and down within 20 ms for a key that repeats itself."""
+        """Sends keys through the server, as a keyboard does: events sent to the window itself have no time, and some get lost. Presses last
+        as long as a person's, since GLFW takes a press within 20 ms of a release as auto-repeat."""
         for name in names:
             subprocess.run(["xdotool", "key", "--delay", "60", name], env=self.environment, check=True)
 
     def hold(self, name, crop=None):
-        """Down until the picture is another, of a window at rest; crop: what has no words in it that come and go."""
+        """Holds a key until the picture of a window at rest changes; crop: a part without changing text."""
         before = self.picture(crop)
         self.tool("keydown", name)
         self.wait_until(lambda: mean_difference(self.picture(crop), before) > 4)
@@ -203,7 +204,7 @@ class Window:
         return pixels(self.screenshot(), crop)
 
     def used(self):
-        """(seconds of processor time, times that any thread went to sleep or was put there)"""
+        """Returns (seconds of processor time, number of times that threads went to sleep or were interrupted)."""
         switches = 0
         with open(f"/proc/{self.process.pid}/stat", encoding="utf-8") as file:
             fields = file.read().rsplit(")", 1)[1].split()
@@ -212,18 +213,18 @@ class Window:
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK"), switches
 
     def uses(self, seconds):
-        """As used() tells it, of so long."""
+        """Returns the difference of used() over so many seconds."""
         before, after = over_a_while(self.used, seconds)
         return tuple(b - a for a, b in zip(before, after))
 
     def rest(self):
-        """Until nothing goes on; a thread that only waits for a processor does not rest."""
+        """Waits until nothing runs; a thread that waits for a processor counts as running."""
         def rests():
             return not any(self.uses(0.2)) and all(status["State"].startswith("S") for status in self.statuses())
-        assert self.wait_until(rests, 0), "the window finds no rest"  # a compiler need not wait for anything
+        assert self.wait_until(rests, 0), "the window finds no rest"  # no pause: even a compiler may seem idle briefly
 
     def close(self):
-        """By Q; the exit code."""
+        """Presses Q; returns the exit code."""
         try:
             self.key("q")
             return self.process.wait(GUARD)
@@ -234,7 +235,7 @@ class Window:
             self.kill()
 
     def statuses(self):
-        """What the kernel tells of each thread: {name: value}."""
+        """Returns the kernel's status of each thread: {name: value}."""
         for task in sorted(glob.glob(f"/proc/{self.process.pid}/task/*"), key=len):
             try:
                 with open(task + "/status", encoding="utf-8") as file:
@@ -242,10 +243,10 @@ class Window:
                 with open(task + "/wchan", encoding="utf-8") as file:
                     yield status | {"waits for": file.read()}
             except (FileNotFoundError, ProcessLookupError):
-                pass  # it has ended meanwhile
+                pass  # the thread has ended meanwhile
 
     def threads(self):
-        """A line for each: its state and what it waits for in the kernel."""
+        """Returns a line for each thread: its state, and what it waits for in the kernel."""
         return [" ".join(status[name] for name in ("Name", "State", "waits for")) for status in self.statuses()]
 
     def kill(self):
@@ -257,7 +258,7 @@ class Window:
 
 
 def pixels(path, crop=None):
-    """(width, height, bytes) of a PNG, three a pixel; crop: as ImageMagick takes it."""
+    """Returns (width, height, bytes) of a PNG, three a pixel; crop: as ImageMagick takes it."""
     command = ["convert", path, *(["-crop", crop, "+repage"] if crop else []), "-depth", "8", "ppm:-"]
     data = subprocess.run(command, capture_output=True, check=True).stdout
     _, width, height, _, body = data.split(None, 4) if data[:2] == b"P6" else (None,) * 5
@@ -266,7 +267,7 @@ def pixels(path, crop=None):
 
 
 def mean_difference(a, b):
-    """Of two pictures of one size, in steps of 256."""
+    """Mean difference of two pictures of one size, in steps of 256."""
     assert a[:2] == b[:2], (a[:2], b[:2])
     return sum(abs(x - y) for x, y in zip(a[2], b[2])) / len(a[2])
 
@@ -279,7 +280,7 @@ class ViewCase(Case):
             raise unittest.SkipTest(reason)
 
     def setUp(self):
-        """A screen each: a key that is down as its window goes would type into the next one."""
+        """Each test has a screen of its own: a key still pressed when its window closes would type into the next window."""
         super().setUp()
         self.screen = None
         self.use_screen()
@@ -287,7 +288,7 @@ class ViewCase(Case):
         shutil.copy(os.path.join(os.path.dirname(CORNELL), "cornell-box.bin"), self.folder)
 
     def use_screen(self, *arguments, **options):
-        """Another one than before."""
+        """Waits for a picture that differs from the previous one."""
         if self.screen:
             self.screen.close()
         else:
@@ -300,7 +301,7 @@ class ViewCase(Case):
         return window.appear()
 
     def repeat(self, command, folder):
-        """Runs the command that the window printed, in another folder; {name: path} of its pictures."""
+        """Runs the command that the window printed, in another folder; returns {name: path} of its pictures."""
         words = shlex.split(command)
         self.assertEqual(words[:2], ["eclat", "render"])
         os.makedirs(folder, exist_ok=True)

@@ -1,4 +1,5 @@
-/* Opens and closes a window ten times in one process: under ASan, LSan and UBSan, so that whatever a window leaves behind is named.
+/* Opens and closes a window ten times in one process, under ASan, LSan and UBSan, which report anything that a window leaves behind.
+ *
  * Usage: ten_windows SCENE SCRIPT PICTURE.exr. test_view.py runs it. */
 #include <stdio.h>
 
@@ -24,7 +25,7 @@ int main(int argc, char **argv)
     ec_view_request request = {.job = job, .script = argv[2], .report = print, .user = &stops, .should_stop = is_true};
     for (int i = 0; i < 10; i++)
         if (ec_module.run(&request, &err)) return fprintf(stderr, "window %d: %s\n", i, err.text), 1;
-    /* Without a script it would stay open: whoever asked it to stop before it opened did not ask in vain. */
+    /* A window without a script would stay open: it must also stop if that was asked for before it opened. */
     stops = true;
     request.script = NULL;
     if (ec_module.run(&request, &err)) return fprintf(stderr, "a window that is to stop: %s\n", err.text), 1;

@@ -1,5 +1,5 @@
 # tier: full
-"""Every key that the window's help names does what it says, in the picture or in the command that repeats it."""
+"""Every key in the window's help has its effect, in the picture or in the command that repeats it."""
 import json
 import os
 import re
@@ -23,7 +23,7 @@ class Keys(ViewCase):
         return self.window.picture()
 
     def press(self, *names):
-        """How much the picture differs from before; keeps the new one."""
+        """Returns how much the picture differs from the previous one, and keeps the new one."""
         before = self.picture
         self.window.key(*names)
         self.picture = self.settled()
@@ -63,10 +63,10 @@ class Keys(ViewCase):
         self.press("1", "x")
         self.assertEqual(self.picture, first)
         self.point(20, 45)
-        for keys in ["Tab", "v", "v"]:  # wipe; side by side; one
+        for keys in ["Tab", "v", "v"]:  # wipe, side by side, single
             self.assertGreater(self.press(keys), 1, keys)
         self.assertEqual(self.picture, first)
-        self.press("Tab", "Tab", "Tab")  # samples, another rung
+        self.press("Tab", "Tab", "Tab")  # map of the samples, then another integrator
         self.assertGreater(self.press("g"), 1)
         self.press("v", "v")
         for keys in ["w", "a", "d", "Up", "Down", "Left", "Right", "Prior", "Next", "s"]:
@@ -86,7 +86,7 @@ class Keys(ViewCase):
         self.assertEqual(self.window.close(), 0)
 
     def test_n_denoises(self):
-        """The command that repeats the picture says so, and its files have the best of both."""
+        """The command that repeats the picture has the option, and its files contain the best layers."""
         ENVIRONMENT.update(denoiser.environment())
         self.start("--size", "160x120", "--spp", "32")
         first = self.picture
@@ -112,22 +112,22 @@ class Keys(ViewCase):
             for a, b in zip(self.target(), expected):
                 self.assertAlmostEqual(a, b, delta=1e-3, msg=f"{place} {click}")
         self.press("r")
-        self.point(0, 0)  # from the block to the wall's very corner
+        self.point(0, 0)  # from the block to the wall's corner
         self.press("f")
         self.assertGreater(abs(self.target()[2] - TALL[2]), 0.01)
         self.press("r")
-        self.window.tool("mousemove", "--window", self.window.id, 80, 110, "click", 1, "mousemove", 198, 2)  # without a rest
+        self.window.tool("mousemove", "--window", self.window.id, 80, 110, "click", 1, "mousemove", 198, 2)  # without a pause
         self.press("f")
         self.assertAlmostEqual(self.target()[2], TALL[2], delta=1e-3)
-        self.window.tool("click", 1)  # on nothing
+        self.window.tool("click", 1)  # over the background
         self.press("r")
         self.point(40, 105)
-        self.press("v", "v")  # beside another picture it is half as wide; what is under the resting mouse is the block now
+        self.press("v", "v")  # beside another picture it is half as wide; the resting mouse is now over the block
         self.window.tool("click", 1)
         self.point(198, 2)
         self.press("v", "f")
         self.assertAlmostEqual(self.target()[2], TALL[2], delta=1e-3)
-        self.window.tool("click", 1)  # on nothing
+        self.window.tool("click", 1)  # over the background
         self.window.rest()
         self.press("r", "f")
         self.assertAlmostEqual(self.target()[0], everything[0], delta=1e-3)

@@ -1,5 +1,5 @@
 # tier: full
-"""The preview window among others: at rest, minimised, on several and on dense monitors, on other keyboards, when things break."""
+"""The preview window in its environment: at rest, minimised, on several and on dense monitors, on other keyboards, when something fails."""
 import os
 import re
 import shutil
@@ -21,7 +21,7 @@ class Rest(ViewCase):
         processor, switches = window.uses(4)
         self.assertEqual(switches, 0)
         self.assertLessEqual(processor, 0.02)
-        # From that sleep a file wakes it that comes in another's place by rename, as editors write them.
+        # Changed files wake it: here by a rename over the file, as editors write.
         before = window.picture("200x60+0+0")
         with open(self.scene, encoding="utf-8") as file:
             text = file.read()
@@ -47,7 +47,7 @@ class Rest(ViewCase):
 
 
 class Monitors(ViewCase):
-    """Xvfb has one output, so GLFW knows one monitor; who parts it in two, for windows and full screen, is openbox."""
+    """Xvfb has one output, so GLFW knows one monitor. openbox divides it into two for windows and full screen."""
 
     def test_full_screen_is_that_of_the_monitor_it_is_on(self):
         self.use_screen("900x300", managed=True)
@@ -76,7 +76,7 @@ class Monitors(ViewCase):
             changed = [y for y in range(400) if lines[2][y * row:(y + 1) * row] != plain[2][y * row:(y + 1) * row]]
             heights.append(changed[-1] - changed[0])
             self.assertEqual(window.close(), 0)
-        self.assertGreater(heights[1], 1.8 * heights[0])  # more rows too, where fewer characters fit
+        self.assertGreater(heights[1], 1.8 * heights[0])  # also more rows, since fewer characters fit into one
 
 
 class Keyboards(ViewCase):
@@ -88,11 +88,11 @@ class Keyboards(ViewCase):
         self.screen.run("setxkbmap", "fr")
         window = self.open(self.scene, *SIZE, "--spp", "1")
         window.rest()
-        window.hold("a")  # where a US keyboard has Q
-        self.assertGreater(self.eye(window)[0], 0.279)  # it looks along +z: left is +x
+        window.hold("a")  # Q on a US keyboard
+        self.assertGreater(self.eye(window)[0], 0.279)  # the camera looks along +z: left is +x
         window.key("E", "E", "E")
         self.assertIn("--exposure=1 ", window.save())
-        window.key("super+q")  # a window manager's
+        window.key("super+q")  # for the window manager
         shown = window.picture()
         window.key("question")
         window.rest()
@@ -103,8 +103,8 @@ class Keyboards(ViewCase):
         self.screen.run("setxkbmap", "ru")
         window = self.open(self.scene, *SIZE, "--spp", "1")
         window.rest()
-        window.hold("Cyrillic_ef")  # where a US keyboard has A
-        window.key("Cyrillic_U", "Cyrillic_U", "Cyrillic_U", "Cyrillic_e", "Cyrillic_u")  # E E E, nothing, e
+        window.hold("Cyrillic_ef")  # A on a US keyboard
+        window.key("Cyrillic_U", "Cyrillic_U", "Cyrillic_U", "Cyrillic_e", "Cyrillic_u")  # E three times, a letter without effect, e
         window.rest()
         window.key("Cyrillic_yeru")  # S
         window.wait_until(lambda: "\n" in window.text())
@@ -167,7 +167,7 @@ class Broken(ViewCase):
             self.assertTrue(window.wait_until(lambda: window.picture() == plain))
         self.assertEqual(window.close(), 0)
         os.remove(red)
-        window = self.open(*arguments)  # what it shows then is white, and says so
+        window = self.open(*arguments)  # then it shows white, and says so
         window.key("i", "i")
         window.rest()
         self.assertTrue(tells(), "not told of at first")
@@ -210,7 +210,7 @@ class Broken(ViewCase):
         window = self.open(self.scene, *SIZE, "--spp", "100000", "--replicates", "4",
                            env={"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_CALL": "clEnqueueNDRangeKernel", "FAULT_AT": "3000", "FAULT_LOST": "1"})
         window.rest()
-        self.assertGreater(len(set(window.picture("200x60+0+40")[2])), 8)  # what there was of the picture
+        self.assertGreater(len(set(window.picture("200x60+0+40")[2])), 8)  # the part that was complete
         command = window.save()
         self.assertRegex(command, r"--spp=\d+ --replicates=4 ")
         self.assertEqual(window.close(), 0)

@@ -1,6 +1,5 @@
 # tier: full
-"""The preview window where there are several monitors: Xorg with its dummy driver, which has several outputs; with openbox, and with no
-window manager at all."""
+"""The preview window with several monitors: Xorg's dummy driver has several outputs; with openbox, and without any window manager."""
 import shutil
 import subprocess
 import unittest
@@ -39,12 +38,12 @@ class Unmanaged(ViewCase):
         self.assertTrue(window.wait_until(lambda: window.place() == place), f"{why}: {window.place()}, not {place}")
 
     def is_on(self, window, monitors):
-        """Wholly on one of them?"""
+        """Returns whether the window is wholly on one of them."""
         x, y, width, height = window.place()
         return any(left <= x and x + width <= left + wide and top <= y and y + height <= top + high for left, top, wide, high in monitors)
 
     def assert_works(self, window):
-        """It draws, and what it saves is as large as it is."""
+        """Checks that the window draws, and that a saved picture has the window's size."""
         width, height = window.size()
         self.assertTrue(window.wait_until(lambda: f"--size={width}x{height} " in window.save(), 0.5), window.text())
         self.assertGreater(len(set(window.picture(f"{width // 2}x{height // 3}+{width // 4}+{height // 4}")[2])), 8)
@@ -57,7 +56,7 @@ class Unmanaged(ViewCase):
 
     def test_full_screen_is_all_of_the_monitor_that_it_is_on(self):
         window = self.open(self.scene, "--size", "200x150", "--spp", "1")
-        for monitor, x in [(self.right, 700), (self.left, 300), (self.right, 560)]:  # the last is mostly on the right one
+        for monitor, x in [(self.right, 700), (self.left, 300), (self.right, 560)]:  # most of the last one is on the right monitor
             window.move(x, 90)
             window.rest()
             before = window.place()

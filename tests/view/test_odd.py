@@ -1,5 +1,5 @@
 # tier: full
-"""The preview window in odd hands: wheels turned too far, scripts that wait, cameras by the dozen, places that cannot be written to."""
+"""The preview window with unusual input: extreme scrolling, scripts that wait, dozens of cameras, places that cannot be written to."""
 import json
 import os
 import shutil
@@ -14,7 +14,7 @@ SMALL = ["--size", "16x16", "--spp", "1", "--integrator", "raster"]
 
 
 def moving_quad():
-    """It goes a unit to the right and half a one up within a second."""
+    """The object moves one unit to the right and half a unit up within a second."""
     scene, _ = quad_scene()
     move_node(scene, 0, (0, 0, 0), (1, 0.5, 0))
     return scene
@@ -36,7 +36,7 @@ class Odd(ViewCase):
         return write_gltf(self.scene, scene)
 
     def lower(self, window):
-        """The picture without lines over it."""
+        """The picture without the overlay's lines."""
         window.rest()
         return window.picture("200x100+0+0")
 
@@ -91,7 +91,7 @@ class Odd(ViewCase):
         window.key("i", "i")
         first = self.lower(window)
         window.key("c")
-        self.assertGreater(mean_difference(self.lower(window), first), 1)  # it says why
+        self.assertGreater(mean_difference(self.lower(window), first), 1)  # the message says why
         window.key("c")
         self.assertEqual(self.lower(window), first)
         self.assertEqual(window.close(), 0)
@@ -168,14 +168,14 @@ class Odd(ViewCase):
         window.rest()
         crop = "190x90+10+0"
         plain = window.picture(crop)
-        window.key("v")  # the error, which one sample has none of
+        window.key("v")  # the error, which is unknown after one sample
         window.rest()
         self.assertEqual(window.picture(crop), plain)
 
         def is_even():
             values = window.picture(crop)[2]
             return values == values[:3] * (len(values) // 3)
-        window.key("Tab", "i", "i", "i")  # how many samples
+        window.key("Tab", "i", "i", "i")  # the number of samples
         self.assertTrue(window.wait_until(is_even), "not as many samples everywhere")
         window.tool("keydown", "d")
         self.assertTrue(window.wait_until(lambda: not is_even(), 0.05), "samples of another camera")
@@ -199,7 +199,7 @@ class Odd(ViewCase):
         self.assertEqual((run.returncode, run.stderr, run.stdout.count("\n")), (0, "", 1))
         self.assertNotIn("--eye", run.stdout)
         self.assertNotIn("--exposure", run.stdout)
-        # So large that its first sample takes more than the frame between the two steps.
+        # The picture is so large that its first sample takes longer than the frame between the two steps.
         run = self.script(self.scene, ["key Save", "turn 40 0 0", "settle", "quit"], "--size", "2400x1800", "--spp", "1")
         self.assertIn("moved", self.assert_one_error(run, 1))
         self.assertEqual(run.stdout, "")
@@ -221,7 +221,7 @@ class Odd(ViewCase):
         self.assertLess(files[4]["eclat.error"], 10)
 
     def test_the_camera_that_a_changed_file_left_behind_repeats_too(self):
-        def stand(*place):  # near the middle floats have more digits than in the file's coordinates
+        def stand(*place):  # near the centre, floats have more digits than in the file's coordinates
             self.change_scene(lambda scene: next(n for n in scene["nodes"] if "camera" in n).update(translation=place))
         stand(0.2781234567, 0.2731234567, -0.8)
         window = self.open(self.scene, *SIZE, "--spp", "1")
@@ -255,7 +255,7 @@ class Odd(ViewCase):
         self.assertTrue(window.wait_until(lambda: mean_difference(window.picture("200x60+0+0"), plain) > 1))
         self.assertEqual(window.close(), 1)
         self.assertRegex(window.text("err"), rf"\Aeclat: error: .*{name}.*\n\Z")
-        window = self.open(self.scene, *SIZE, "--spp", "2")  # where that mends itself nothing is left to tell
+        window = self.open(self.scene, *SIZE, "--spp", "2")  # if the problem has gone meanwhile, there is no message
         self.assertEqual((window.save() != "", window.close()), (True, 0))
         run = self.script(self.scene, ["quit"], "-o", name)
         self.assertIn(name, self.assert_one_error(run, 1))  # at once, not after an hour

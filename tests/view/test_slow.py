@@ -9,7 +9,7 @@ WIDTH, HEIGHT = 8192, 4096
 
 class Slow(ViewCase):
     def grey_map(self):
-        """A large one, in few bytes: 400 MB once read. --env-strength goes over each of its values once more."""
+        """A map that is large once read, 400 MB, from a small file. --env-strength processes all of its values again."""
         row = b"".join(bytes([128 + min(127, WIDTH - x), value]) for value in (128, 128, 128, 129) for x in range(0, WIDTH, 127))
         path = self.path("grey.hdr")
         with open(path, "wb") as file:
@@ -34,7 +34,7 @@ class Slow(ViewCase):
     def test_keys_count_before_the_scene_is_there(self):
         slow = ["--size", "300x200", "--spp", "2", "--env", self.grey_map(), "--env-strength", "1.5"]
         window = self.open(self.scene, *slow)
-        window.key("3", "c", "f", "r", "comma", "x", "1", "x", "E", "F5")  # some need the scene, and do nothing; none is in the way
+        window.key("3", "c", "f", "r", "comma", "x", "1", "x", "E", "F5")  # some need the scene and do nothing without it; none blocks
         window.rest()
         command = window.save()
         self.assertIn("--integrator=raster", command)

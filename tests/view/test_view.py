@@ -1,5 +1,5 @@
 # tiers: quick, full
-"""The preview window, by a hand that is not there: start, orbit, compare with eclat render, save and repeat, reload, resize, close."""
+"""The preview window with simulated input: start, orbit, compare with eclat render, save and repeat, reload, resize, close."""
 import os
 import re
 import subprocess
@@ -22,7 +22,7 @@ class View(ViewCase):
         command = window.save()
         self.assertRegex(command, r"--eye=\S+ --look-at=\S+ --up=0,1,0 --fov=\S+ ")
         self.assert_repeats(window, command)
-        # What is on the screen is that picture too, but for the noise of other samples.
+        # The screen shows that picture, too, except for the noise of other samples.
         settled = re.sub(r"--spp=\d+", "--spp=64", command) + " --seed 5"
         reference = self.repeat(settled, self.path("other-seed"))["box.png"]
         window.tool("mousemove", "--window", window.id, 190, 140)
@@ -52,7 +52,7 @@ class View(ViewCase):
         changed = window.wait_until(lambda: (lambda c: c if "whitted" in c else None)(window.save()), 0.5)
         for word in ["--exposure=1", "--tonemap=none", "--integrator=whitted", "--eye="]:
             self.assertIn(word, changed)
-        self.assertNotIn("--rr", changed)  # a path tracer's
+        self.assertNotIn("--rr", changed)  # the path tracer's
         self.assert_repeats(window, changed)
         window.key("r", "1")
         again = window.wait_until(lambda: (lambda c: c if "whitted" not in c else None)(window.save()), 0.5)
@@ -82,9 +82,9 @@ class View(ViewCase):
         eyes = {None}
         for move in [lambda: window.hold("w", PLAIN), lambda: window.drag(2, 100, 75, 120, 75), lambda: window.hold("s", PLAIN)]:
             def moves():
-                window.key("r")  # from where the scene fills the view: far away one picture is like another
+                window.key("r")  # where the scene fills the view: from far away, all pictures are alike
                 window.rest()
-                move()  # again where S was a tap, since the picture was another for some other reason
+                move()  # again if the first S came too late, since the picture changed for another reason
                 window.rest()
                 eye = re.search(r"--eye=(\S+)", window.save())
                 return eye and eye[1] not in eyes and not eyes.add(eye[1])
@@ -111,7 +111,7 @@ class View(ViewCase):
         self.assertNotEqual(dark, text)
         with open(self.scene, "w", encoding="utf-8") as file:
             file.write(dark)
-        red = lambda picture: sum(picture[2][::3])  # the new lamp has none; the message, which is white, goes with the old picture
+        red = lambda picture: sum(picture[2][::3])  # the new lamp is black; the white message disappears with the old picture
         self.assertTrue(window.wait_until(lambda: red(pixels(window.screenshot(), PLAIN)) < 0.2 * red(lit), 0.5))
         window.rest()
         after = window.save()
@@ -173,7 +173,7 @@ class Leaks(ViewCase):
         run = subprocess.run([os.environ["ECLAT_TEN_WINDOWS"], CORNELL, script, self.path("a.exr")], capture_output=True, text=True, timeout=GUARD, check=False,
                              env=dict(ENVIRONMENT, DISPLAY=self.screen.display, LIBGL_ALWAYS_SOFTWARE="1", LSAN_OPTIONS="exitcode=0"))
         self.assertEqual((run.returncode, run.stdout.splitlines()[-1]), (0, "ten windows"), run.stderr[-4000:])
-        # Drivers keep things until the process ends. What was allocated by or for eclat has one of its functions on the stack.
+        # Drivers keep some memory until the process ends. Memory allocated by or for eclat has one of its functions on the stack.
         ours = [leak for leak in run.stderr.split("\n\n") if "leak of" in leak and re.search(r" in (ec_|eclat_|main)\w*", leak)]
         self.assertEqual(ours, [])
 
@@ -183,7 +183,7 @@ class Refusals(ViewCase):
         run = eclat("view", CORNELL, env={"DISPLAY": "", "WAYLAND_DISPLAY": ""})
         self.assertIn("no preview window", self.assert_one_error(run, 1))
         run = eclat("view", CORNELL, env={"DISPLAY": self.screen.display, "LIBGL_ALWAYS_SOFTWARE": "1", "LIBGL_DRIVERS_PATH": "/nowhere"})
-        run.stderr = "".join(line + "\n" for line in run.stderr.splitlines() if not line.startswith("libGL error:"))  # Mesa's own
+        run.stderr = "".join(line + "\n" for line in run.stderr.splitlines() if not line.startswith("libGL error:"))  # Mesa's own message
         self.assertIn("OpenGL", self.assert_one_error(run, 1))
         for arguments, says, code in [(["no.gltf"], "no.gltf", 1), ([CORNELL, "--script", "no.txt"], "no.txt", 1),
                                       ([CORNELL, "--script", self.folder], self.folder, 1),
