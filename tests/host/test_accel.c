@@ -1,5 +1,5 @@
 /* tier: quick */
-/* The binary tree: its promises on easy and hostile meshes, the same bits for any number of threads, its cost. */
+/* The binary tree: its invariants on easy and hostile meshes, equal bits for any number of threads, and its cost. */
 #include "accel/bvh.h"
 #include "support/bvh_check.h"
 #include "test_accel_meshes.h"
@@ -13,7 +13,7 @@ static void check_promises(const mesh *m, const ec_bvh *bvh, const ec_bvh_stats 
     CHECK_MSG(stats->leaf_fill <= 1.0 && (stats->leaf_fill > 0.1 || m->triangle_count < 2), "%s: fill %g", m->name, stats->leaf_fill);
 }
 
-/* -0 would make equal boxes differ in their bits, by the order in which cores deliver them. */
+/* -0 would make the bits of equal boxes differ, depending on the order in which threads finish. */
 static void test_no_negative_zeros(void)
 {
     ec_error err;
@@ -32,7 +32,7 @@ static void test_no_negative_zeros(void)
     mesh_free(&m);
 }
 
-/* The loader should not let such vertices through; if they come, the tree is poor but whole. */
+/* The loader should drop such vertices. If it does not, the tree is poor but complete. */
 static void test_not_numbers(void)
 {
     ec_error err;
@@ -77,7 +77,7 @@ static int is_in(const ec_box *box, const double p[3], double slack)
     return 1;
 }
 
-/* No point of a triangle is lost where it has been cut: not in it, not on its edges, not at its corners. */
+/* Every point of a triangle is in one of its parts: inner points, and points on its edges and corners. */
 static void check_coverage(const mesh *m, const ec_bvh *bvh)
 {
     uint32_t *first = calloc(m->triangle_count + 2, sizeof *first), *refs = malloc(bvh->ref_count * sizeof *refs);
@@ -122,7 +122,7 @@ static void test_cuts(void)
         ec_bvh_free(&bvh);
         mesh_free(&m);
     }
-    for (int k = 0; k < 3; k++) { /* nothing to gain, or too little to matter */
+    for (int k = 0; k < 3; k++) { /* cutting gains nothing, or too little */
         mesh m = mesh_make(&whole[k]);
         ec_bvh bvh;
         CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, NULL, &err), err);
@@ -132,7 +132,7 @@ static void test_cuts(void)
     }
 }
 
-/* The checker itself must see what is wrong. */
+/* The checker must find errors. */
 static void test_check_sees_damage(void)
 {
     ec_error err;
@@ -140,7 +140,7 @@ static void test_check_sees_damage(void)
     ec_bvh bvh;
     CHECK_OK(ec_bvh_build(m.positions, m.indices, m.triangle_count, 0, &bvh, NULL, &err), err);
 
-    uint32_t leaf = bvh.node_count - 1; /* the last node is one */
+    uint32_t leaf = bvh.node_count - 1; /* the last node is a leaf */
     uint32_t *ids = bvh.order + bvh.nodes[leaf].first, id = ids[0];
     CHECK(bvh.nodes[leaf].count >= 2);
     ids[0] = ids[1];
@@ -171,7 +171,7 @@ static void test_check_sees_damage(void)
         float hi_0 = bvh.boxes[i].hi[0];
         if (bvh.order[i] % 10) continue;
         for (int k = 0; k < 3; k++) bvh.boxes[i].hi[0] = nextafterf(bvh.boxes[i].hi[0], -1.0f);
-        if (bvh_check(&bvh, m.positions, m.indices, &err) != EC_OK) break; /* the part that has the far end */
+        if (bvh_check(&bvh, m.positions, m.indices, &err) != EC_OK) break; /* the part with the far end */
         bvh.boxes[i].hi[0] = hi_0;
     }
     CHECK(strstr(err.text, "does not hold all of triangle"));
@@ -179,7 +179,7 @@ static void test_check_sees_damage(void)
     mesh_free(&m);
 }
 
-/* A reference that weighs every plane between neighbours, with the builder's costs: a visit 1, a block of 8 two. */
+/* A reference that tests every plane between neighbours, with the builder's costs: 1 for a visit, 2 for a block of 8. */
 typedef struct reference {
     float (*lo)[3], (*hi)[3];
     int axis;

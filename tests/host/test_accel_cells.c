@@ -15,7 +15,7 @@ static ec_accel build(const char *name, const mesh *m, uint32_t threads, float d
     return accel;
 }
 
-/* The references that cells must hold: those of the BVH over the same mesh, which may be parts of triangles. */
+/* The references that cells must contain: those of the BVH over the same mesh, which may be parts of triangles. */
 typedef struct parts {
     ec_bvh bvh;
     uint32_t count;
@@ -43,7 +43,7 @@ static void box_of(const mesh *m, const parts *parts, uint32_t ref, float lo[3],
 
 /* ---- grid ---- */
 
-/* Which cells hold a triangle: their range along each axis, and how many they are. */
+/* The cells of a triangle: their range along each axis, and their number. */
 typedef struct held {
     uint32_t first[3], last[3], count;
 } held;
@@ -64,7 +64,7 @@ static held *grid_held(const ec_accel *accel, const parts *parts)
                                 4 * (b / grid->blocks[0] / grid->blocks[1]) + bit / 16};
             CHECK(starts[next] < starts[next + 1]);
             for (uint32_t i = starts[next]; i < starts[next + 1]; i++) {
-                CHECK(i == starts[next] || entries[i] > entries[i - 1]); /* none twice */
+                CHECK(i == starts[next] || entries[i] > entries[i - 1]); /* no triangle twice */
                 held *one = &h[entries[i]];
                 CHECK(triangles[entries[i]].id == triangle_of(parts, entries[i]));
                 for (int axis = 0; axis < 3; axis++) {
@@ -80,7 +80,7 @@ static held *grid_held(const ec_accel *accel, const parts *parts)
     return h;
 }
 
-/* What the proof in traverse_grid.h asks for: along each axis cells that cover the box, and their whole product. */
+/* The requirements of the proof in traverse_grid.h: cells that cover the box along each axis, and all of their product. */
 static void check_grid(const mesh *m, float density)
 {
     ec_accel accel = build("grid", m, 0, density);
@@ -118,7 +118,7 @@ typedef struct walk {
     const parts *parts;
     const ec_kd_node *nodes;
     const ec_tri8 *blocks;
-    uint32_t *marks;  /* by triangle: the last leaf that held it */
+    uint32_t *marks;  /* by triangle: the last leaf that contained it */
     uint32_t leaves, wrong, visited;
 } walk;
 
@@ -134,8 +134,8 @@ static void check_leaf(walk *w, uint32_t child, const uint32_t *ids, uint32_t co
 
 static uint32_t check_node(walk *w, uint32_t index, const uint32_t *ids, uint32_t count);
 
-/* The children [slot, slot + 2^levels) below a node's plane: those of ids whose boxes reach over a plane must be on both sides, others
- * on theirs. A box that lies in a plane may be on either and is not followed. Returns the stack that a traversal needs. */
+/* Checks the children [slot, slot + 2^levels) below a node's plane: ids whose boxes cross a plane must be on both sides, others on their
+ * own. A box that lies in a plane may be on either side and is not followed. Returns the stack size that a traversal needs. */
 static uint32_t check_below(walk *w, const ec_kd_node *n, uint32_t plane, uint32_t slot, int levels, const uint32_t *ids, uint32_t count)
 {
     if (levels == 0) {
@@ -143,12 +143,12 @@ static uint32_t check_below(walk *w, const ec_kd_node *n, uint32_t plane, uint32
         return n->child[slot] & EC_LEAF_BIT ? 0 : check_node(w, n->child[slot], ids, count);
     }
     uint32_t axis = n->axes >> 2 * plane & 3, half = 1u << (levels - 1), deepest = 0;
-    if (axis == EC_KD_NO_PLANE) { /* whatever is below belongs together: one child, or parts of a large leaf */
+    if (axis == EC_KD_NO_PLANE) { /* everything below belongs together: one child, or parts of a large leaf */
         uint32_t used = 0, only = slot;
         for (uint32_t k = slot; k < slot + 2 * half; k++)
             if (n->child[k] != EC_NO_CHILD) used++, only = k;
         if (used <= 1) return check_below(w, n, plane, only, 0, ids, count);
-        return 8; /* parts: what they hold is checked by the count of all triangles alone */
+        return 8; /* parts: only the count of all triangles checks their contents */
     }
     uint32_t *part = malloc((count + 1) * sizeof *part);
     for (uint32_t side = 0; side < 2; side++) {
@@ -212,7 +212,7 @@ static void check_threads(const mesh *m)
     }
 }
 
-/* The loader should not let such vertices through; if they come, every builder comes to an end. */
+/* The loader should drop such vertices. If it does not, every builder still finishes. */
 static void test_not_numbers(void)
 {
     mesh m = mesh_make(&(mesh_kind){"not numbers", triangle_small, 3000});
@@ -275,7 +275,7 @@ static void test_brute_force_is_refused(void)
     mesh_free(&m);
 }
 
-/* More triangles than any structure can number, which is found before one is looked at: all of them fail, and leave nothing behind. */
+/* More triangles than any structure can number: each builder finds this before it reads any, fails, and leaves nothing behind. */
 static void test_too_many(void)
 {
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
@@ -290,7 +290,7 @@ static void test_too_many(void)
 
 int main(void)
 {
-    static const float densities[] = {0.0f, 0.01f, 10000.0f}; /* the default, and the ends of what --grid-density takes */
+    static const float densities[] = {0.0f, 0.01f, 10000.0f}; /* the default, and the limits of --grid-density */
     for (size_t k = 0; k < MESH_KIND_COUNT; k++) {
         mesh m = mesh_make(&mesh_kinds[k]);
         if (!test_tier(m.triangle_count > 5000 ? "long" : "quick")) {

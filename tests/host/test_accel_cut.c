@@ -1,12 +1,12 @@
 /* tier: quick */
-/* A triangle cut by a plane: the boxes of its parts against points calculated by hand, and in whole numbers, where nothing is
- * rounded. They must hold the exact parts, and be larger by a few ulps only. */
+/* A triangle cut by a plane: the boxes of its parts against points calculated by hand, and in whole numbers, where nothing is rounded. They
+ * must contain the exact parts, and be larger by a few ulps only. */
 #include <float.h>
 
 #include "accel/build_internal.h"
 #include "test_accel_meshes.h"
 
-/* Where an edge's ends are of size |a| + |b|: 4 FLT_EPSILON of margin, and as much for the roundings that it is there for. */
+/* For an edge with ends of size |a| + |b|: 4 FLT_EPSILON of margin, and as much for the rounding errors that it covers. */
 #define ULPS 8.0
 
 static ec_v4 vertex(double x, double y, double z) { return (ec_v4){(float)x, (float)y, (float)z, 0.0f}; }
@@ -24,10 +24,10 @@ static ec_box4 box_of(const ec_v4 v[3])
  * z 0 to 1. The part above is B and they: x 1 to 3, y 1/3 to 5/3, z 0 to 2/3. In thirds: */
 static const double corners[3][3] = {{0, 0, 0}, {3, 1, 0}, {0, 2, 1}};
 static const double thirds[2][2][3] = {{{0, 0, 0}, {3, 6, 3}}, {{3, 1, 0}, {9, 5, 2}}};
-/* |a| + |b| along each axis, of the longer of the two edges cut. */
+/* |a| + |b| along each axis, for the longer of the two cut edges. */
 static const double sizes[3] = {3, 3, 1};
 
-/* In the frame where axis k of the example is axis order[k], and mirrored where sign is -1; vertices in another order. */
+/* The example with its axis k as axis order[k], mirrored where sign is -1, and with its vertices in another order. */
 static void check_hand(const int order[3], const double sign[3], int first, int step)
 {
     ec_v4 v[3];
@@ -78,13 +78,13 @@ static void check_exactly(const ec_box4 *got, const double lo[3], const double h
 
 static int is_empty(const ec_box4 *box) { return box->lo[0] > box->hi[0] || box->lo[1] > box->hi[1] || box->lo[2] > box->hi[2]; }
 
-/* The same triangle; no edge is cut between its ends, or the box is a part already. */
+/* This triangle where no edge is cut between its ends, or where the box is already that of a part. */
 static void test_at_vertices(void)
 {
     const ec_v4 v[3] = {vertex(0, 0, 0), vertex(3, 1, 0), vertex(0, 2, 1)};
     const ec_box4 whole = box_of(v), quarter = {vertex(0, 0.5, 0), vertex(2, 1.5, 1)};
     ec_box4 part[2];
-    ec_triangle_cut(v, &whole, 0, 0.0f, part); /* in the plane lies the edge AC */
+    ec_triangle_cut(v, &whole, 0, 0.0f, part); /* the edge AC is in the plane */
     check_exactly(&part[0], (double[3]){0, 0, 0}, (double[3]){0, 2, 1}, "AC below");
     check_exactly(&part[1], (double[3]){0, 0, 0}, (double[3]){3, 2, 1}, "all above");
     ec_triangle_cut(v, &whole, 0, 3.0f, part); /* B */
@@ -93,17 +93,17 @@ static void test_at_vertices(void)
     ec_triangle_cut(v, &whole, 0, 4.0f, part);
     check_exactly(&part[0], (double[3]){0, 0, 0}, (double[3]){3, 2, 1}, "all below, nothing above");
     CHECK(is_empty(&part[1]));
-    /* Half-way up AC lies (0, 1, 1/2), and on BC, since B is at y = 1, B itself. */
+    /* The middle of AC is (0, 1, 1/2); on BC the point is B itself, since B is at y = 1. */
     ec_triangle_cut(v, &whole, 1, 1.0f, part);
     check_exactly(&part[1], (double[3]){0, 1, 0}, (double[3]){3, 2, 1}, "above B");
     CHECK(part[0].lo[2] == 0.0f && part[0].hi[2] >= 0.5f && part[0].hi[2] <= 0.5f + (float)ULPS * FLT_EPSILON);
-    ec_triangle_cut(v, &quarter, 0, 1.0f, part); /* never out of the box it is given: of y = 1/3 to 5/3 is left 1/2 to 3/2 */
+    ec_triangle_cut(v, &quarter, 0, 1.0f, part); /* never outside the given box: of y = 1/3 to 5/3, 1/2 to 3/2 is left */
     CHECK(part[1].lo[0] == 1.0f && part[1].hi[0] == 2.0f && part[1].lo[1] == 0.5f && part[1].hi[1] == 1.5f);
     CHECK(part[0].lo[0] == 0.0f && part[0].hi[0] == 1.0f && part[0].lo[1] == 0.5f && part[0].hi[1] == 1.5f);
 }
 
 /* ---- in whole numbers ----
- * Corners and plane are whole; where an edge is cut the point is a fraction of two whole numbers under 2^23, and a float times its
+ * Corners and plane are whole numbers. Where an edge is cut, the point is a fraction of two whole numbers below 2^23, and a float times its
  * denominator is exact in double. */
 typedef struct exact {
     double lo[3], hi[3], size[3];

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Structures that follow what moves: kept where nothing does, refitted or built again by what is clocked, never wrong; and trees of meshes
- * that stand elsewhere are not built again. That refitted trees find every hit is kernel/test_refit's matter. */
+/* Structures of moving meshes: kept where nothing moves; refitted or rebuilt, depending on measured times; always correct. Trees of meshes
+ * that only change their place are not rebuilt. kernel/test_refit checks that refitted trees find every hit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@ typedef struct sheet {
     uint32_t indices[3 * TRIANGLES];
 } sheet;
 
-/* A sheet with waves of that height. */
+/* A sheet with waves of this height. */
 static void raise(sheet *s, float height)
 {
     for (uint32_t v = 0; v < VERTICES; v++) {
@@ -55,7 +55,7 @@ static ec_follow follow(ec_followed *f, ec_accel_input input, uint32_t wanted)
 
 static uint32_t both(void) { return 1u << ec_accel_find("bvh2") | 1u << ec_accel_find("bvh8"); }
 
-/* Does the root hold all of the sheet, and no more? */
+/* Checks that the root's box contains the sheet and is no larger. */
 static void check_root(const ec_followed *f, const sheet *s)
 {
     const ec_bvh8_node *root = f->accels[ec_accel_find("bvh8")].buffers[0].data;
@@ -79,31 +79,31 @@ static void test_what_is_measured_decides(void)
     CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_KEPT);
     CHECK(f.accels[ec_accel_find("bvh8")].buffers[0].data == nodes);
     raise(s, 0.2f);
-    CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_REFITTED); /* nothing is known of the rays: the cheapest that is right */
+    CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_REFITTED); /* nothing is known about the rays: the cheapest correct choice */
     CHECK(f.report.expense > 1 && f.report.refit_seconds > 0);
     check_root(&f, s);
     raise(s, 0.3f);
-    ec_followed_tell(&f, 1e-9); /* hardly a ray: whatever a tree costs, it is not worth building */
-    f.refit_seconds = 0;        /* a busy machine may have clocked more than a build */
+    ec_followed_tell(&f, 1e-9); /* hardly any rays: no tree is worth building */
+    f.refit_seconds = 0;        /* on a busy machine, the measured time may exceed a build */
     CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_REFITTED);
     double expense = f.report.expense;
     raise(s, 0.4f);
     ec_followed_tell(&f, 1e6); /* days of rays: any gain pays */
     CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_REBUILT);
     CHECK(expense > 1 && f.report.expense == 1);
-    CHECK(f.report.refit_expense > expense || f.report.refit_expense == 0); /* none is tried where the one before took longer than to build */
+    CHECK(f.report.refit_expense > expense || f.report.refit_expense == 0); /* none is tried if the previous try took longer than a build */
     check_root(&f, s);
     ec_followed_tell(&f, 1e6);
     CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_KEPT);
     raise(s, 0.41f);
     ec_followed_tell(&f, 0);
-    f.refit_seconds = 2 * f.report.build_seconds; /* clocked: it takes longer than a build */
+    f.refit_seconds = 2 * f.report.build_seconds; /* its measured time is longer than a build */
     CHECK(follow(&f, input_of(s), both()) == EC_FOLLOW_REBUILT && f.report.refit_seconds == 0);
     ec_followed_free(&f);
     free(s);
 }
 
-/* What a forecast is worth: the same rays through trees that cost twice as much take that much longer. */
+/* The forecast: rays through a tree of twice the cost take twice as long. */
 static void test_the_threshold(void)
 {
     sheet *s = make_sheet();
@@ -116,8 +116,8 @@ static void test_the_threshold(void)
         double loss = f.report.expense - 1;
         CHECK_MSG(loss > 0.2, "waves a hundred times as high cost %.3f times as much", 1 + loss);
         raise(s, 1.0001f);
-        f.refit_seconds = 0; /* a busy machine may have clocked more than a build */
-        ec_followed_tell(&f, (more ? 1.5 : 0.5) * f.report.build_seconds / loss * (1 + loss)); /* taken with trees of that cost */
+        f.refit_seconds = 0; /* on a busy machine, the measured time may exceed a build */
+        ec_followed_tell(&f, (more ? 1.5 : 0.5) * f.report.build_seconds / loss * (1 + loss)); /* measured with trees of that cost */
         CHECK((follow(&f, input_of(s), both()) == EC_FOLLOW_REBUILT) == (more == 1));
         ec_followed_free(&f);
     }
@@ -141,7 +141,7 @@ static void test_other_triangles_are_built(void)
     CHECK(follow(&f, input_of(s), 1u << ec_accel_find("kdtree")) == EC_FOLLOW_REBUILT);
     CHECK(follow(&f, input_of(s), 1u << ec_accel_find("kdtree")) == EC_FOLLOW_KEPT);
     raise(s, 0.3f);
-    CHECK(follow(&f, input_of(s), 1u << ec_accel_find("kdtree")) == EC_FOLLOW_REBUILT); /* cells do not follow */
+    CHECK(follow(&f, input_of(s), 1u << ec_accel_find("kdtree")) == EC_FOLLOW_REBUILT); /* cells cannot be refitted */
     cut.whole = false;
     CHECK(follow(&f, cut, both()) == EC_FOLLOW_REBUILT);
     raise(s, 0.4f);
@@ -168,7 +168,7 @@ static void test_meshes_stay(void)
     in.placed = placed;
     CHECK(follow(&f, in, two) == EC_FOLLOW_BUILT && f.report.meshes_built == 2);
     ec_accel anew = {0};
-    placed[1].place[0][3] = 4; /* an instance goes elsewhere */
+    placed[1].place[0][3] = 4; /* an instance moves */
     CHECK(follow(&f, in, two) == EC_FOLLOW_REBUILT);
     CHECK_MSG(f.report.meshes_built == 0 && f.report.meshes_kept == 2, "%u meshes built, %u kept", f.report.meshes_built, f.report.meshes_kept);
     ec_error err = {0};
@@ -186,7 +186,7 @@ static void test_meshes_stay(void)
     free(s);
 }
 
-/* A bit anywhere, a byte more or less, another order: another fingerprint. */
+/* A changed bit anywhere, a byte more or less, or another order changes the fingerprint. */
 static void test_fingerprints(void)
 {
     uint8_t bytes[100];

@@ -1,6 +1,5 @@
 /* tier: quick */
-/* The two layouts: every triangle once with its own bits, rays that find what a search of all triangles finds, stacks
- * that suffice. */
+/* The two layouts: every triangle once with its own bits; rays find what a search of all triangles finds; stacks suffice. */
 #include <omp.h>
 
 #include "accel/bvh.h"
@@ -47,7 +46,7 @@ static void free_layouts(layouts *l)
 typedef struct walk {
     const mesh *m;
     const layouts *l;
-    uint32_t *seen; /* by triangle: a number that its references make together, in whatever order they come */
+    uint32_t *seen; /* by triangle: a checksum of its references, independent of their order */
     uint32_t visited;
     uint32_t bad;
 } walk;
@@ -67,7 +66,7 @@ static int inside(const float a_lo[3], const float a_hi[3], const float lo[3], c
     return 1;
 }
 
-/* A reference: the vertices are the triangle's, and what counts as its box lies within the leaf's. */
+/* Checks a reference: the vertices are the triangle's, and its box is within the leaf's. */
 static void see(walk *w, uint32_t id, const float *v[3], const ec_box *box, const float lo[3], const float hi[3])
 {
     if (id >= w->m->triangle_count) {
@@ -84,7 +83,7 @@ static void see(walk *w, uint32_t id, const float *v[3], const ec_box *box, cons
     }
 }
 
-/* Returns the height: what an ordered traversal needs of its stack. */
+/* Returns the height: the stack size for an ordered traversal. */
 static uint32_t walk2(walk *w, uint32_t index, const float lo[3], const float hi[3])
 {
     const ec_bvh2_node *node = &w->l->nodes2[index];
@@ -117,7 +116,7 @@ static uint32_t walk2(walk *w, uint32_t index, const float lo[3], const float hi
     return height;
 }
 
-/* Returns the most entries a traversal keeps when it takes the worst child first. */
+/* Returns the largest stack of a traversal that always takes the worst child first. */
 static uint32_t walk8(walk *w, uint32_t index, const float lo[3], const float hi[3])
 {
     const ec_bvh8_node *node = &w->l->nodes8[index];
@@ -333,7 +332,7 @@ static hit trace_all(const mesh *m, const ray *r)
     return h;
 }
 
-/* From anywhere in and around the mesh towards a point of some triangle, or anywhere. */
+/* Rays from anywhere in and around the mesh, towards a point of a triangle or anywhere. */
 static ray make_ray(const mesh *m, uint32_t i)
 {
     ray r;

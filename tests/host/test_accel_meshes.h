@@ -1,4 +1,4 @@
-/* Meshes that are easy, and meshes that break builders. Each triangle has its own three vertices. */
+/* Easy meshes, and meshes that break builders. Each triangle has its own three vertices. */
 #ifndef EC_TESTS_HOST_TEST_ACCEL_MESHES_H
 #define EC_TESTS_HOST_TEST_ACCEL_MESHES_H
 
@@ -53,7 +53,7 @@ static inline void triangle_coincident(uint32_t i, uint32_t n, float *p)
     memcpy(p, same, sizeof same);
 }
 
-/* One centre, many sizes: centroids say nothing. Mirrored, so that the centres agree to the last bit. */
+/* One centre, many sizes: centroids do not help. Mirrored, so that the centres agree to the last bit. */
 static inline void triangle_concentric(uint32_t i, uint32_t n, float *p)
 {
     float size = (float)(i + 1) / (float)n;
@@ -91,7 +91,7 @@ static inline void triangle_tiny(uint32_t i, uint32_t n, float *p)
     scale_triangle(p, 1e-30f);
 }
 
-static inline void triangle_largest(uint32_t i, uint32_t n, float *p) /* box edges overflow */
+static inline void triangle_largest(uint32_t i, uint32_t n, float *p) /* edges of boxes overflow */
 {
     (void)i, (void)n;
     for (int k = 0; k < 9; k++) p[k] = (mesh_random() < 0.5f ? -3e38f : 3e38f) * mesh_random();
@@ -103,7 +103,7 @@ static inline void triangle_denormal(uint32_t i, uint32_t n, float *p)
     scale_triangle(p, 1e-42f);
 }
 
-/* Distances over the whole range of floats: every plane cuts off the outermost few, so SAH trees grow like vines. */
+/* Distances over the whole range of floats: every plane cuts off only the outermost few, so SAH trees become very deep. */
 static inline void triangle_exponential(uint32_t i, uint32_t n, float *p)
 {
     float at = exp2f(-120.0f + 240.0f * (float)i / (float)n);
@@ -117,7 +117,7 @@ static inline void triangle_signed_zero(uint32_t i, uint32_t n, float *p)
     for (int k = 0; k < 9; k++) p[k] = i % 3 ? fabsf(p[k]) : i % 2 ? -0.0f : 0.0f;
 }
 
-/* Every tenth goes across the room at a slant, thin: small triangles all along it. Cut, or the tree is poor. */
+/* Every tenth triangle is long, thin and diagonal, with small triangles all along it. Unless it is cut, the tree is poor. */
 static inline void triangle_beam(uint32_t i, uint32_t n, float *p)
 {
     triangle_small(i, n, p);
@@ -126,7 +126,7 @@ static inline void triangle_beam(uint32_t i, uint32_t n, float *p)
     for (int k = 0; k < 3; k++) p[6 + k] = p[k] + 0.02f * mesh_random();
 }
 
-/* The twelve triangles of a cube's sides, each axis-aligned, and a few large ones within, among small ones. */
+/* The twelve axis-parallel triangles of a cube's sides, and a few large ones inside, among small ones. */
 static inline void triangle_room(uint32_t i, uint32_t n, float *p)
 {
     triangle_small(i, n, p);

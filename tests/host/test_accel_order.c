@@ -1,11 +1,11 @@
 /* tier: quick */
-/* A node of eight children holds, for each octant of directions, an order of them: each once, the farther ones first. */
+/* A node of eight children stores an order of them for each octant of directions: each child once, the farther ones first. */
 #include <stdbool.h>
 
 #include "accel/bvh.h"
 #include "test_accel_meshes.h"
 
-/* How far the centre of a child lies along the octant's diagonal. */
+/* Position of a child's centre along the octant's diagonal. */
 static double along(const ec_bvh8_node *node, uint32_t slot, uint32_t octant)
 {
     double sum = 0.0;

@@ -1,9 +1,9 @@
 /* tier: quick */
-/* Bounds of pictures whose noise is in a few places, most of which a render may miss: films of synthetic pixels whose means are known are
- * filled over and over, and the real error must lie under the bound in 95 of 100. See host/film/image_error.c.
+/* Bounds of pictures whose noise is in a few places, most of which a render may miss. Films of synthetic pixels with known means are filled
+ * over and over; the real error must be below the bound in 95 of 100. See host/film/image_error.c.
  *
- *   rims    60 pixels hold a bright rim that one sample in 16 meets, of sizes as Pareto's: the largest is missed by a third of renders.
- *   mirror  one pixel sees a lamp's edge, by samples whose order tells so much that its replicates often agree, and are all off. */
+ *   rims    60 pixels contain a bright rim that one sample in 16 meets, of Pareto-distributed sizes: a third of renders miss the largest.
+ *   mirror  one pixel sees a lamp's edge. Its samples are so regular that its replicates often agree, and are all wrong. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,13 +15,13 @@
 enum { SIDE = 32, PIXELS = SIDE * SIDE, REPLICATES = 8, REPEATS = 400 };
 
 typedef struct place {
-    double value; /* of a sample that meets it */
+    double value; /* of a sample that meets the rim */
     double chance;
 } place;
 
 static uint64_t state;
 
-/* Normal, near enough: the sum of twelve. */
+/* Nearly normal: the sum of twelve numbers. */
 static double normal(void)
 {
     double sum = -6;
@@ -29,7 +29,7 @@ static double normal(void)
     return sum;
 }
 
-/* A batch of so many samples of one value, and so many of another. */
+/* A batch with so many samples of one value, and so many of another. */
 static void set_batch(double value, uint32_t count, double bright, uint32_t bright_count, float *batch)
 {
     const double most = bright_count ? bright : value, least = bright_count ? value / bright : 1, samples = count + bright_count;
@@ -56,7 +56,7 @@ static void draw_rims(uint32_t p, uint32_t samples, float *batch)
 enum { LAMP = 9 };
 static double true_mirror(uint32_t p) { return p == 5 ? LAMP * 6 / 32.0 : 0.04; }
 
-/* Of 32 samples 4 to 8 meet the lamp; were they without order, 2 to 11 would. */
+/* 4 to 8 of 32 samples meet the lamp; independent ones would give 2 to 11. */
 static void draw_mirror(uint32_t p, uint32_t samples, float *batch)
 {
     static const double below[] = {0.06, 0.30, 0.70, 0.94, 1};

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Means over squares of an emissive texture, of sizes that are no powers of two and in every way to go on beyond its edge, against the definition. */
+/* Means over squares of an emissive texture, of sizes that are not powers of two and with every wrap mode, against the definition. */
 #include "base/luminance.h"
 #include "image/image.h"
 #include "pack/brightness.h"
@@ -51,7 +51,7 @@ static means square(const ec_image *image, const ec_texture *t, const float emis
     return (means){sum.mean / count, sum.square / count};
 }
 
-/* Those of a level that are not what the definition says. */
+/* Values of a level that differ from the definition. */
 static uint32_t wrong_squares(const ec_image *image, const ec_texture *t, const float emission[3], const ec_brightness *b, uint32_t level)
 {
     uint32_t wrong = 0;
@@ -64,7 +64,7 @@ static uint32_t wrong_squares(const ec_image *image, const ec_texture *t, const 
     return wrong;
 }
 
-/* has_16_bits: of the same values. */
+/* has_16_bits: the same values in 16 bits. */
 static void check(uint32_t width, uint32_t height, ec_wrap wrap, bool nearest, bool has_16_bits)
 {
     const size_t count = 4 * (size_t)width * height;

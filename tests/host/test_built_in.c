@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Built-in environments: how much light they are, where it comes from, and what is no name of one. */
+/* Built-in environments: their amount and direction of light, and names that are refused. */
 #include <math.h>
 
 #include "scene/built_in.h"
@@ -10,7 +10,7 @@
 
 static ec_error err;
 
-/* Over all directions: radiance; over those above: irradiance of a plate that lies flat, without the sun (radiance over `sun`) in sky. */
+/* Integrals: radiance over all directions; irradiance of a horizontal plate from above, without the sun (radiance above `sun`) in `sky`. */
 typedef struct light {
     double mean[3], flat[3], sky[3], brightest, towards[3];
 } light;
@@ -47,8 +47,8 @@ static void the_studio_is_grey_and_as_bright_as_white(void)
     CHECK(l.towards[0] != 0 && l.brightest < 20);
 }
 
-/* Of the sun at the zenith a white plate gets pi; of that at 45 degrees the sky sends 7 to 20 % (clear skies of CIE S 011: about 15 %), bluer than
- * the sun; a sun near the horizon is red. */
+/* A white plate gets pi from a sun at the zenith. With the sun at 45 degrees the sky gives 7 to 20 % (clear skies of CIE S 011: about 15
+ * %), and is bluer than the sun. A sun near the horizon is red. */
 static void the_sky_is_lit_by_its_sun(void)
 {
     const light zenith = light_of("sky:0,90", 100), half = light_of("sky:30,45", 100), low = light_of("sky:-90,3", 100);
@@ -72,7 +72,7 @@ static void other_words_are_refused_or_files(void)
         CHECK_MSG(strstr(err.text, "sky:AZIMUTH,ELEVATION"), "%s", err.text);
     }
     CHECK(!ec_is_built_in("./studio") && !ec_is_built_in("studio.exr") && !ec_is_built_in("sky.hdr") && !ec_is_built_in("1,1,1"));
-    CHECK(scene.environment.constant[2] == 3 && !scene.has_environment); /* as it was */
+    CHECK(scene.environment.constant[2] == 3 && !scene.has_environment); /* unchanged */
     CHECK_OK(ec_scene_set_environment(&scene, "studio", NULL, &err), err);
     CHECK(scene.has_environment && scene.environment.width == 512 && scene.environment.rgb);
     free(scene.environment.rgb);

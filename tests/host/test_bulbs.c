@@ -1,6 +1,7 @@
 /* tier: quick */
-/* Lamps that the light tree takes for one from afar: a box, a ball and a panel of many triangles are bulbs; half a ball, what shines to both sides, single
- * panels and bodies of few triangles are none. Bulbs' lamps stand beside each other, pairs among them, and the triangles know it. */
+/* Lamps that the light tree treats as one from afar. A box, a ball and a panel of many triangles are bulbs. Half a ball, two-sided lamps,
+ * single panels and bodies of few triangles are not. A bulb's lamps are neighbours in the table, pairs included, and triangles refer to
+ * their bulb. */
 #include "pack/bulbs.h"
 
 #include <math.h>
@@ -8,7 +9,7 @@
 #include "pack/lamp_pairs.h"
 #include "support/pack_case.h"
 
-/* A sphere about `at` in rows x 2 rows fields, of its height the lower part; 1: all of it. */
+/* A sphere about `at` of rows x 2 rows fields; `part`: how much of its height, from below. */
 static void add_ball(gltf_writer *w, int material, const double at[3], int rows, double part)
 {
     static const int corners[6] = {0, 1, 3, 1, 2, 3};

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Blocks come back as they were, and are compressed to the same bytes each time, whatever lies behind them in memory or was compressed before. */
+/* Blocks decompress to the original, and compress to the same bytes each time, whatever is behind them in memory or was compressed before. */
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
@@ -17,7 +17,7 @@ static uint32_t number(uint32_t below)
     return (uint32_t)((uint64_t)state * below >> 32);
 }
 
-/* Runs that come again, as in a picture. */
+/* Repeated runs, as in a picture. */
 static size_t make_block(void)
 {
     const size_t size = 1 + number(MOST);

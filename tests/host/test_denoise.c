@@ -1,7 +1,8 @@
 /* tiers: quick, long */
-/* Is a denoised picture as far from the truth as is stated of it? Films of synthetic pixels whose truth is known, with smooth areas, an edge and a
- * texture, are "denoised" by a box filter, which helps in one part and harms in another. Over many films the estimates have to be without bias, the
- * intervals have to hold the real error in about 95 of 100, and the blend must not be worse than the better of both. See host/denoise/judge.c. */
+/* Checks the stated distance of a denoised picture from the truth. Synthetic films of known truth, with smooth areas, an edge and a
+ * texture, are "denoised" by a box filter, which helps in one part and harms in another. Over many films the estimates must be unbiased,
+ * the intervals must contain the real error in about 95 of 100, and the blend must not be worse than the better of both. See
+ * host/denoise/judge.c. */
 #include "denoise/blend.h"
 #include "denoise/clean.h"
 #include "film/resolve.h"
@@ -20,11 +21,11 @@ static float truth(uint32_t x, uint32_t y)
     return x < WIDTH / 2 ? 0.6f : 1.4f;
 }
 
-/* Replicates' means of relative standard deviation `size`, of mean 1. */
+/* Replicates' means with a relative standard deviation of `size`, and mean 1. */
 typedef double draw(double size);
 static double draw_normal(double size) { return 1 + size * test_normal(&dice); }
 static double draw_exponential(double size) { return 1 + size * (-log(test_uniform(&dice)) - 1); }
-/* A lamp in few pixels, of which every tenth replicate has a sample. */
+/* A lamp in few pixels that one of ten replicates samples. */
 static uint32_t place;
 static double draw_lamp(double size) { return place % 613 ? 1 + 0.1 * test_normal(&dice) : 1 + size * ((test_uniform(&dice) < 0.1 ? 1 : 0) - 0.1); }
 static double draw_fireflies(double size) { return 0.9 + 0.1 * size * test_normal(&dice) + (test_uniform(&dice) < 0.01 ? 10 : 0); }
@@ -84,7 +85,7 @@ static ec_denoised clean(const ec_film *film, int radius)
     return out;
 }
 
-/* Of the real error and of what is stated, over films. */
+/* Sums of real and stated errors over films. */
 typedef struct tally {
     double excess, excess2, held, real2, stated2;
 } tally;
@@ -132,7 +133,7 @@ static void check_stated(const char *name, draw *noise, double size, uint32_t re
     CHECK_MSG(of_best.real2 <= 1.02 * 1.02 * better, "%s: best %g, the better of both %g", name, sqrt(of_best.real2 / films), sqrt(better / films));
 }
 
-/* A denoiser that does nothing has the noisy picture's error, and bias in no part of it. */
+/* A denoiser that does nothing has the noisy picture's error, and no bias anywhere. */
 static void check_idle(void)
 {
     ec_film film;
@@ -146,7 +147,7 @@ static void check_idle(void)
     ec_film_destroy(&film);
 }
 
-/* Pictures without noise are known as they are. */
+/* Pictures without noise are known exactly. */
 static void check_exact(void)
 {
     ec_film film;
@@ -157,12 +158,12 @@ static void check_exact(void)
     CHECK_NEAR(d.clean.low95, real, 1e-5 * real);
     CHECK_NEAR(d.clean.high95, real, 1e-5 * real);
     CHECK(d.best.error < 1e-6 && real_error(best) < 1e-6);
-    CHECK(d.off > 0 && d.nearer == 0); /* where stripes are the denoiser is off; elsewhere both are alike */
+    CHECK(d.off > 0 && d.nearer == 0); /* the denoiser errs where the stripes are; elsewhere both are alike */
     CHECK(d.off_x > 16 && d.off_x < WIDTH && d.off_y >= HEIGHT / 2 && d.off_y < HEIGHT);
     ec_film_destroy(&film);
 }
 
-/* An interval is as wide to both sides in the error itself. Where little is known it begins at 0, and a part of the plain variance counts. */
+/* An interval is symmetric in the error itself. If little is known it begins at 0, and part of the plain variance counts. */
 static void check_reach(void)
 {
     const ec_film_error noisy = {.mean_luminance = 1, .bound_if_met = 0};
@@ -176,7 +177,7 @@ static void check_reach(void)
     CHECK_NEAR(pow(of_few.high95, 2) - 1, 1.5 * far, 1e-6);
 }
 
-/* The noisy picture makes half of this error. Its bound is three times its error, and the upper end goes up by half of what that adds. */
+/* The noisy picture causes half of this error. Its bound is three times its error, and the upper end rises by half of the difference. */
 static void check_noisy_bound(void)
 {
     const ec_film_error noisy = {.mean_luminance = 1, .error = 1, .bound_if_met = 3};
@@ -184,7 +185,7 @@ static void check_noisy_bound(void)
     CHECK_NEAR(pow(ec_judged_state(&best, 1000, &noisy).high95, 2) - 1, 0.5 * (3 * 3 - 1), 0.01);
 }
 
-/* Light that came in one replicate of eight is in no pair, and the variance without bias 0. The plain one is not. */
+/* Light in one replicate of eight is in no pair, so that the unbiased variance is 0. The plain variance is not. */
 static void check_single(void)
 {
     static float rgb[3 * PIXELS];
@@ -205,7 +206,7 @@ static void check_single(void)
     ec_film_destroy(&film);
 }
 
-/* Makes a blend for a noisy picture each of whose pixels has noise 1. */
+/* Blends with a noisy picture whose pixels have noise 1. */
 static void create_blend(ec_blend *blend, uint32_t width, uint32_t height)
 {
     const ec_film_error noisy = {.mean_luminance = 1, .error = 1, .noisy_pixels = width * height};
@@ -214,7 +215,7 @@ static void create_blend(ec_blend *blend, uint32_t width, uint32_t height)
     CHECK_NEAR(blend->pixel_noise, 1, 1e-9);
 }
 
-/* Pictures of 32 pixels and mean 2: in one, 4 pixels make an error of half the mean; the other has no noise. */
+/* Pictures of 32 pixels and mean 2: in one, 4 pixels have an error of half the mean; the other has no noise. */
 static void check_pixel_noise(void)
 {
     const ec_film_error noisy = {.mean_luminance = 2, .error = 0.5, .noisy_pixels = 4}, steady = {.mean_luminance = 2};
@@ -228,7 +229,7 @@ static void check_pixel_noise(void)
     ec_blend_free(&blend);
 }
 
-/* Weights go from tile to tile without a step, and each tile's own is in its middle. */
+/* Weights change between tiles without a step; in the middle of a tile they are the tile's own. */
 static void check_seams(void)
 {
     ec_blend blend;
@@ -245,7 +246,7 @@ static void check_seams(void)
     ec_blend_free(&blend);
 }
 
-/* Where one is nearer to the truth beyond doubt the best picture is that one; where nothing is known, the denoised one. */
+/* If one picture is clearly nearer to the truth, the best picture is that one; if nothing is known, it is the denoised one. */
 static void check_weights(void)
 {
     enum { TILES = 9, ACROSS = TILES * EC_BLEND_TILE };
@@ -265,7 +266,7 @@ static void check_weights(void)
     ec_blend_free(&blend);
 }
 
-/* The weight of a picture of these pixels, and others that say nothing. */
+/* The weight of a picture with these pixels among uninformative ones. */
 static double weigh_two(uint32_t ones, ec_judged one, uint32_t others, ec_judged other)
 {
     static ec_judged row[EC_BLEND_TILE];
@@ -281,10 +282,10 @@ static double weigh_two(uint32_t ones, ec_judged one, uint32_t others, ec_judged
 
 static double weigh_like(uint32_t count, ec_judged pixel) { return weigh_two(count, pixel, 0, pixel); }
 
-/* Where nothing is known of the denoised picture's error: pixels of noise 1 that the two pictures are so far apart in, squared. */
+/* Squared distances between both pictures in pixels of noise 1, when the denoised picture's error is unknown. */
 static double weigh(uint32_t count, double apart) { return weigh_like(count, (ec_judged){.noisy = 1, .apart = apart, .gain_variance = 1e9}); }
 
-/* Pixels alike of noise 1, by which the two pictures' difference of 4 strays: of p of them the weight is (p - 2) / p of a quarter, and not under 0. */
+/* The two pictures differ by 4 in each of p equal pixels of noise 1. The weight is (p - 2) / p of a quarter, and at least 0. */
 static void check_few(void)
 {
     const ec_judged pixel = {.noisy = 1, .gain = 1, .apart = 4, .gain_apart = 2 * 4};
@@ -293,8 +294,8 @@ static void check_few(void)
     CHECK_NEAR(weigh_like(16, pixel), 0.25 * 14 / 16, 1e-9);
 }
 
-/* Pictures that are further apart than twice the noise: chance does that where few pixels hold the noise, in many it says that the denoised picture is the
- * worse one. */
+/* Pictures that differ by more than twice the noise: in few pixels that happens by chance, in many it means that the denoised picture is
+ * worse. */
 static void check_whole(void)
 {
     CHECK_NEAR(weigh(1, 1), 1, 1e-3);
@@ -303,8 +304,8 @@ static void check_whole(void)
     CHECK_NEAR(weigh(1, 8), 0, 1e-3);
 }
 
-/* One outlier among five noisy pixels is no proof that the denoised picture is worse. Five are, and so are fifteen pixels of a texture that was smoothed,
- * which have little noise of their own. */
+/* One outlier among five noisy pixels does not prove that the denoised picture is worse. Five outliers do, and so do fifteen pixels of a
+ * smoothed texture, which have little noise of their own. */
 static void check_outliers(void)
 {
     const ec_judged far = {.noisy = 1, .apart = 50, .gain_variance = 1e9}, near = {.noisy = 1, .apart = 1, .gain_variance = 1e9};
@@ -314,20 +315,22 @@ static void check_outliers(void)
     CHECK_NEAR(weigh_two(5, far, 0, near), 0, 1e-3);
 }
 
-/* The two pictures differ in one pixel, by no more than chance makes: half of the difference's variance draws the weight to the denoised one. */
+/* The two pictures differ in one pixel, by no more than chance explains: half of the difference's variance moves the weight towards the
+ * denoised one. */
 static void check_chance(void)
 {
     const double draw = 0.5 * 8 / (2 * 0.09);
     CHECK_NEAR(weigh_like(1, (ec_judged){.noisy = 1, .gain = 1, .apart = 2, .apart_variance = 8}), (1 + draw) / (2 + draw), 1e-3);
 }
 
-/* Estimates of what a blend gains stray by 0.2 in a tile's weight, which is one half everywhere: of its square four fifths must not be followed. */
+/* The estimated gain of a blend has an error of 0.2 in a tile's weight, which is one half everywhere: four fifths of its square must be
+ * ignored. */
 static void check_alike(void)
 {
     enum { TILES = 64, ACROSS = TILES * EC_BLEND_TILE };
     static ec_judged row[ACROSS];
     ec_blend blend;
-    const double spread = 0.2 * 8 * EC_BLEND_TILE; /* of a pixel's estimate */
+    const double spread = 0.2 * 8 * EC_BLEND_TILE; /* error of a pixel's estimate */
     double square = 0;
     create_blend(&blend, ACROSS, 16);
     for (uint32_t y = 0; y < 16; y++) {
@@ -346,7 +349,7 @@ int main(void)
 {
     const bool is_long = test_tier("long");
     const int films = is_long ? 300 : 60;
-    const double least = is_long ? 91 : 85, most = is_long ? 98.7 : 100; /* 95 % of 300 stray by 1.3, of 60 by 2.8 */
+    const double least = is_long ? 91 : 85, most = is_long ? 98.7 : 100; /* 95 % of 300 has a standard deviation of 1.3 %, of 60 2.8 % */
     check_idle();
     check_exact();
     check_seams();
@@ -363,7 +366,7 @@ int main(void)
     check_stated("normal", draw_normal, 0.5, 8, 1, films, least, most, true);
     check_stated("wide filter", draw_normal, 1.5, 8, 2, films, least, most, true);
     check_stated("exponential", draw_exponential, 1, 8, 1, films, least, most, true);
-    check_stated("fireflies", draw_fireflies, 1, 8, 1, films, least, 100, false); /* few replicates make the noise: wide */
+    check_stated("fireflies", draw_fireflies, 1, 8, 1, films, least, 100, false); /* few replicates have the noise: the interval is wide */
     check_stated("lamp", draw_lamp, 50, 8, 1, 300, 91, 98.7, false);
     check_stated("16", draw_exponential, 1, 16, 1, films, least, most, true);
     check_stated("4", draw_exponential, 1, 4, 1, films, least, 100, true);

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* What a film says of its pixels against the two-pass formulas, what it resolves to, and the error's corner cases. */
+/* Statistics of a film's pixels against two-pass formulas, its resolved values, and special cases of its error. */
 #include "film/resolve.h"
 #include "support/films.h"
 #include "support/test.h"
@@ -28,7 +28,7 @@ static ec_film filled_by(uint32_t replicates, int batches, float (*f)(int, int, 
     return film;
 }
 
-/* At most 16 batches are as many independent values. */
+/* Up to 16 batches are as many independent values. */
 static ec_film filled(int batches, float (*f)(int, int, int)) { return filled_by(R, batches, f); }
 
 static void pixels_equal_two_passes(void)
@@ -61,7 +61,8 @@ static void pixels_equal_two_passes(void)
     ec_film_destroy(&film);
 }
 
-/* Replicates of 2, 3 and 4 samples in one film: the mean is that of all samples, and a replicate's deviation counts by its share of them. */
+/* Replicates of 2, 3 and 4 samples in one film: the mean is that of all samples, and a replicate's deviation is weighted by its share of
+ * them. */
 static void check_uneven(const ec_film *film, const double samples[4], double (*mean_of)(int replicate, int pixel, int channel))
 {
     double all = 0;
@@ -80,7 +81,7 @@ static void check_uneven(const ec_film *film, const double samples[4], double (*
     }
 }
 
-/* Strides of 4 replicates: batches 0 to 3 are a sample each, 4 to 7 another, 8 to 11 are two. */
+/* Strides of 4 replicates: batches 0 to 3 have one sample each, 4 to 7 too, 8 to 11 two. */
 static double two_or_four(int r, int p, int c)
 {
     const double two = 0.5 * (value(r, p, c) + (double)value(4 + r, p, c));
@@ -100,7 +101,7 @@ static void replicates_may_be_uneven(void)
     ec_film_destroy(&film);
 }
 
-/* Batch 10 has one of its two samples. */
+/* Batch 10 has only one of its two samples. */
 static void the_last_batch_may_be_cut(void)
 {
     ec_film film = filled_by(4, 10, value);
@@ -115,13 +116,13 @@ static void the_last_batch_may_be_cut(void)
     CHECK(before.mean[0] == after.mean[0] && before.m2[3] == after.m2[3] && film.batch_count == 11 && film.cut == 1);
     ec_film_destroy(&film);
 
-    film = filled_by(4, 11, value); /* as a file is read: all parts, then the cut */
+    film = filled_by(4, 11, value); /* in the order of a file: all parts, then the cut */
     ec_film_set_cut(&film, 1);
     CHECK(film.cut == 1 && ec_film_samples_of_all(&film) == 13 && film.samples[2] == 3);
     ec_film_destroy(&film);
 }
 
-/* Two batches of one pixel in one pass are what they are in two. */
+/* Two batches of one pixel give the same in one pass and in two. */
 static void pixels_go_on_twice(void)
 {
     ec_film once = filled_by(2, 4, value), twice = filled_by(2, 4, value);
@@ -141,7 +142,7 @@ static void pixels_go_on_twice(void)
     ec_film_destroy(&twice);
 }
 
-/* Pixels 1 and 7 go on by 2 samples in each of 2 replicates, pixel 7 by 4 more. */
+/* Pixels 1 and 7 get 2 more samples in each of 2 replicates, and pixel 7 gets 4 more. */
 static void some_pixels_go_on(void)
 {
     ec_film film = filled_by(2, 4, value); /* 2 samples a replicate */
@@ -171,7 +172,7 @@ static void some_pixels_go_on(void)
     ec_film_destroy(&film);
 }
 
-/* Mean 100, standard deviation 0.1; sums of squares in float gave a negative variance here. */
+/* Mean 100, standard deviation 0.1: sums of squares in float gave a negative variance here. */
 static float steady(int batch, int pixel, int channel)
 {
     (void)pixel, (void)channel;
@@ -180,7 +181,7 @@ static float steady(int batch, int pixel, int channel)
 
 static void variance_survives_a_large_mean(void)
 {
-    for (int batches = 16; batches <= 1600; batches *= 10) { /* of an even number of replicates: each has one value only */
+    for (int batches = 16; batches <= 1600; batches *= 10) { /* with an even number of replicates, each has one value only */
         ec_film film = filled(batches, steady);
         CHECK_NEAR(films_pixel(&film, 0).m2[3] / R, 0.01, 1e-6);
         ec_film_error error = ec_film_estimate_error(&film);
@@ -252,7 +253,7 @@ static void error_never_lies_about_corner_cases(void)
     }
 }
 
-/* Whatever the number of batches, and however they are joined: averages of equal floats do not move. */
+/* Averages of equal floats do not change with the number of batches, nor with how they are joined. */
 static void constant_pixels_have_no_error(void)
 {
     for (uint32_t replicates = 3; replicates <= 8; replicates += 5) {
@@ -268,7 +269,7 @@ static void constant_pixels_have_no_error(void)
     }
 }
 
-/* Batches of one replicate alone are no replicates: nothing is known of the error. */
+/* Batches of a single replicate tell nothing about the error. */
 static void one_replicate_tells_nothing(void)
 {
     ec_film film = filled_by(4, 1, value);
@@ -279,7 +280,7 @@ static void one_replicate_tells_nothing(void)
     ec_film_destroy(&film);
 }
 
-/* One pixel known by hand: SE^2 / (x + 0.01)^2 is 0.25 / 4.01^2 in one and 0 in the others, in one channel of three. */
+/* One pixel calculated by hand: SE^2 / (x + 0.01)^2 is 0.25 / 4.01^2 in one channel of three, and 0 in the others. */
 static float one_in_red(int batch, int pixel, int channel) { return pixel == 7 && channel == 0 ? 3.5f + (float)(batch % 2) : 0; }
 
 static void relmse_is_that_of_the_definition(void)

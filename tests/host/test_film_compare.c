@@ -1,6 +1,6 @@
 /* tiers: quick, full */
-/* The figures of a comparison against sums by hand, and the noise test on synthetic pictures: how often pairs of one truth raise
- * an alarm, and what differences are found. On renders: tests/stat/test_false_alarms.c. */
+/* The figures of a comparison against sums by hand, and the noise test on synthetic pictures: how often pairs of one truth raise an alarm,
+ * and which differences are found. tests/stat/test_false_alarms.c does so on renders. */
 #include "film/difference.h"
 #include "film/noise_test.h"
 #include "film/resolve.h"
@@ -18,7 +18,7 @@ typedef struct picture {
 
 static test_random rng = {1};
 
-/* The mean of `each` samples: their normal parts come to one number. */
+/* The mean of `each` samples; their normal parts are drawn as one number. */
 static double normal_noise(double truth, int each) { return truth * (1 + 0.3 / sqrt(each) * test_normal(&rng)); }
 static double fireflies(double truth, int each)
 {
@@ -27,8 +27,8 @@ static double fireflies(double truth, int each)
     return truth * (1 + 0.02 / sqrt(each) * test_normal(&rng) + 30.0 * bright / each);
 }
 
-/* A render of a picture whose brightness rises from left to right; the last columns are black. Of `samples` samples, up to 16 are replicates of
- * their own; of more, 16 replicates have equally many. */
+/* A render of a picture whose brightness rises from left to right, with black columns at the right. Up to 16 samples are replicates of one
+ * sample; more are divided equally among 16 replicates. */
 static void render(picture *out, int samples, double (*noise)(double, int), double brightness)
 {
     ec_film film;
@@ -72,7 +72,7 @@ static void figures_are_those_of_the_definitions(void)
     CHECK_NEAR(d.psnr, 10 * log10(1 / (5.25 / 6)), 1e-12);
     CHECK_NEAR(d.noise_relative_rms, sqrt(0.07 * 0.07 / 2) / mean_b, 1e-8);
     CHECK_NEAR(d.noise_relmse, 0.03 / (1.01 * 1.01) / 6, 1e-8);
-    ma.se_y = NULL; /* then as much as the channels could make together */
+    ma.se_y = NULL; /* then as many as all channels together allow */
     CHECK_NEAR(ec_measure_difference(&ma, &mb).noise_relative_rms, sqrt(0.1 * 0.1 / 2) / mean_b, 1e-8);
     d = ec_measure_difference(&mb, &mb);
     CHECK(d.unequal == 0 && d.rmse == 0 && d.relative_rms == 0 && isinf(d.psnr) && isnan(d.noise_relmse));
@@ -85,7 +85,7 @@ static void p_values_combine(void)
     CHECK_NEAR(ec_p_combined(same, alike, 4), 0.03, 1e-12);
     CHECK(ec_p_combined(none, alike, 4) > 0.89);
     CHECK(ec_p_combined(sure, alike, 4) == 0);
-    CHECK_NEAR(ec_p_combined(one, alike, 4), 4e-9, 1e-11); /* as Bonferroni */
+    CHECK_NEAR(ec_p_combined(one, alike, 4), 4e-9, 1e-11); /* Bonferroni's correction */
     CHECK_NEAR(ec_p_of_least(0.001, 100), 1 - pow(0.999, 100), 1e-12);
     CHECK_NEAR(ec_p_of_least(1e-20, 1e6), 1e-14, 1e-20);
     CHECK(ec_p_of_least(1, 5) == 1 && ec_p_of_least(0, 5) == 0);
@@ -94,8 +94,8 @@ static void p_values_combine(void)
     CHECK(ec_binomial_upper_tail(0, 10, 0.1) == 1);
 }
 
-/* Pairs of one truth. Of 200, at 5 %, 18 and more alarms are 1 case in 70; none at all is no fault, since in pixels and blocks the
- * test errs towards no alarm. */
+/* Pairs of one truth. At 5 % of 200, 18 or more alarms happen in 1 of 70 cases. No alarm at all is no fault, since in pixels and blocks the
+ * test is conservative. */
 static void equal_truths_raise_few_alarms(void)
 {
     static const struct { const char *name; double (*noise)(double, int); int a, b; } cases[] = {
@@ -125,7 +125,7 @@ static void brighter_pictures_are_found(void)
 {
     static picture a, b;
     int found = 0;
-    for (int i = 0; i < 20; i++) { /* noise of the mean: 0.3 / sqrt(1080 x 16) each, so 2 % is 6 standard errors */
+    for (int i = 0; i < 20; i++) { /* noise of each mean: 0.3 / sqrt(1080 x 16), so 2 % is 6 standard errors */
         render(&a, 16, normal_noise, 1.02);
         render(&b, 16, normal_noise, 1);
         ec_noise_test test = compare(&a, &b);
@@ -153,7 +153,7 @@ static void one_block_and_one_pixel_are_found(void)
     CHECK(test.pixel.x == 7 && test.pixel.y == 20 && test.pixel.channel == 0);
 }
 
-/* 5 % of values far off, none of them impossibly: the share tells. */
+/* 5 % of the values are far off, none of them impossibly: their share raises the alarm. */
 static void many_outliers_are_found(void)
 {
     static picture a, b;
@@ -180,13 +180,13 @@ static void exact_values_must_be_equal(void)
         if (a.rgb[i] == 0) b.rgb[i] = 0;
     test = compare(&a, &b);
     CHECK_MSG(test.p > 0.89 && test.exact_unequal == 0, "p %g, %llu", test.p, (unsigned long long)test.exact_unequal);
-    a.rgb[0] *= 1.0003f; /* less than a half resolves */
+    a.rgb[0] *= 1.0003f; /* below the resolution of a half */
     CHECK(compare(&a, &b).exact_unequal == 1);
     a.measured.is_half = 1;
     CHECK(compare(&a, &b).exact_unequal == 0);
 }
 
-/* A pixel that all replicates agree on within a neighbourhood of noise: by chance, or a rare path was missed. No alarm. */
+/* A pixel in which all replicates agree, among noisy pixels: by chance, or since a rare path was missed. No alarm. */
 static void a_calm_pixel_among_noisy_ones_is_judged_by_them(void)
 {
     static picture a, b;
@@ -201,8 +201,8 @@ static void a_calm_pixel_among_noisy_ones_is_judged_by_them(void)
     CHECK_MSG(test.p > 0.01 && test.exact_unequal == 0, "p %g", test.p);
 }
 
-/* One that they hardly differ on, some ten standard errors of its neighbours off: an alarm, unless a curve has bent the noise, whose tails are then anybody's guess. Hundreds
- * are an alarm all the same. */
+/* A pixel in which replicates hardly differ, ten standard errors of its neighbours off: an alarm, unless a curve has changed the noise,
+ * whose tails are then unknown. Hundreds of such pixels are an alarm in any case. */
 static void bent_noise_has_long_tails(void)
 {
     static picture a, b;

@@ -1,11 +1,11 @@
 /* tiers: quick, long */
-/* Is the 95 % bound a 95 % bound? Films of synthetic pixels whose true mean is known are filled over and over; the real
- * error must lie under the bound about as often as claimed: not less, and not always either. See host/film/image_error.c.
+/* Checks that the 95 % bound contains the error in 95 %. Films of synthetic pixels with known means are filled over and over; the real
+ * error must be below the bound about as often as claimed: not less, and not always either. See host/film/image_error.c.
  *
- * It aims at 99 %, so as to hold in 95 whatever the noise. What may be asserted differs. Light tails: at least 96 %. Skewed samples
- * and fireflies: at least 95 %, and 100 % is no fault
- * with 2 replicates, where kurtosis cannot be told from variance. Fireflies alone on black (the mean luminance itself is a
- * handful of events) and images whose noise sits in one or a few pixels: the floors written below, worst with 2 replicates. */
+ * The bound aims at 99 %, so as to hold in 95 % for all kinds of noise. Requirements differ. Light tails: at least 96 %. Skewed samples and
+ * fireflies: at least 95 %; 100 % is no fault with 2 replicates, where kurtosis cannot be told from variance. Fireflies alone on black (the
+ * mean luminance itself comes from a handful of events) and images whose noise is in one or a few pixels: the limits below, which are
+ * lowest with 2 replicates. */
 #include "base/random.h"
 #include "film/statistics.h"
 #include "support/films.h"
@@ -13,11 +13,11 @@
 
 enum { TABLE = 65536, REPEATS = 400, FIREFLY_SAMPLES = 16, HITS_MAX = 6 };
 
-/* One row of the result's table: `draw` gives a replicate's mean whose true value is 1. */
+/* One row of the result's table: `draw` returns a replicate's mean, whose true value is 1. */
 typedef struct workload {
     const char *name;
     float (*draw)(uint64_t random, uint32_t pixel);
-    double floor, floor_two, ceiling; /* % under the bound: least, least with 2 replicates, most with 4 or more */
+    double floor, floor_two, ceiling; /* % below the bound: minimum, minimum with 2 replicates, maximum with 4 or more */
 } workload;
 
 static float normal[TABLE], exponential[TABLE], lognormal[TABLE]; /* quantiles at (i + 1/2) / TABLE, scaled to mean 1 */
@@ -55,7 +55,7 @@ static float draw_normal(uint64_t r, uint32_t p) { return (void)p, 1 + 0.5f * no
 static float draw_exponential(uint64_t r, uint32_t p) { return (void)p, mean_of_four(exponential, r); }
 static float draw_lognormal(uint64_t r, uint32_t p) { return (void)p, mean_of_four(lognormal, r); }
 
-/* 16 samples, each 100 with probability 1e-3; the mean of what they add is 0.1. */
+/* 16 samples, each 100 with probability 1e-3: they add 0.1 on average. */
 static float firefly(uint64_t r)
 {
     double u = (double)(r >> 16) * 0x1p-48;

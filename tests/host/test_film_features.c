@@ -1,11 +1,11 @@
 /* tier: quick */
-/* First-hit features of a film: by halves of the replicates, of batches, of pixels that go on by themselves, and under a shadow. */
+/* First-hit features of a film: by halves of the replicates, for batches, for pixels with samples of their own, and under a shadow. */
 #include "support/films.h"
 #include "support/test.h"
 
 enum { W = 5, H = 3, P = W * H };
 
-static const float colours[3 * P]; /* make no difference */
+static const float colours[3 * P]; /* these make no difference */
 
 static float feature(int batch, int i)
 {
@@ -13,7 +13,7 @@ static float feature(int batch, int i)
     return (float)(h >> 8) * 0x1p-24f * (float)(1 + i % 4);
 }
 
-/* Batches of 1 sample and, from the ninth on, of 2; the last one has 1 of these. As they come, as a file has them, and rows of them. */
+/* Batches of 1 sample and, from the ninth on, of 2; the last one has only 1 of these. Added as they come, as in a file, and by rows. */
 static void features_of_halves(void)
 {
     for (uint32_t sets = 1; sets < 3; sets++) {
@@ -53,7 +53,7 @@ static void features_of_halves(void)
     }
 }
 
-/* Pixel 3 goes on by 1 sample in each of 3 replicates, and again by 2. In one pass, in two, and in sums as if the batches had been uniform. */
+/* Pixel 3 gets 1 more sample in each of 3 replicates, then 2 more: in one pass, in two, and in sums as if all pixels had these batches. */
 static void features_go_on(void)
 {
     enum { N = 3, ENTRIES = 2 * N };
@@ -87,7 +87,7 @@ static void features_go_on(void)
         }
 }
 
-/* What a shadow leaves of an alpha that is less, in the picture alone. */
+/* A shadow with a smaller alpha remains, in the picture only. */
 static void shadow_is_alpha(void)
 {
     ec_film film, rows;

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Intervals of pixels against what is known of them: normal noise, skewed noise, fireflies, few replicates, none. */
+/* Intervals of pixels with known noise: normal, skewed, fireflies, few replicates, none. */
 #include "film/resolve.h"
 #include "film/statistics.h"
 #include "support/films.h"
@@ -10,7 +10,7 @@ enum { W = 24, H = 20, P = W * H };
 
 typedef double (*draw_fn)(test_random *random, uint32_t pixel, int replicate);
 
-/* So many replicates of a sample each. */
+/* So many replicates of one sample each. */
 static ec_film filled(int replicates, draw_fn draw, uint64_t seed)
 {
     ec_film film;
@@ -30,7 +30,7 @@ static ec_film filled(int replicates, draw_fn draw, uint64_t seed)
 
 static double draw_normal(test_random *r, uint32_t p, int b) { return (void)p, (void)b, 1 + 0.1 * test_normal(r); }
 
-/* Mean of four exponentials: skewness 1, mean 1. Of 16 of them the mean has skewness 1/4. */
+/* Mean of four exponentials: skewness 1, mean 1. The mean of 16 of them has skewness 1/4. */
 static double draw_skewed(test_random *r, uint32_t p, int b)
 {
     double sum = 0;
@@ -44,7 +44,7 @@ static double draw_firefly(test_random *r, uint32_t p, int b) { return draw_norm
 
 static double draw_exact(test_random *r, uint32_t p, int b) { return (void)r, (void)b, p % 7; }
 
-/* The first replicate holds 60, 75 and 100 % of a sum of 4 in three pixels of every five; the others are steady. */
+/* In three of every five pixels, the first replicate has 60, 75 and 100 % of a sum of 4; the others are steady. */
 static double draw_two(test_random *r, uint32_t p, int b)
 {
     static const double first[5] = {2, 2.4, 3, 4, 2};
@@ -66,7 +66,7 @@ static intervals of(const ec_film *film)
     return i;
 }
 
-/* Share of the intervals, and of plain t-intervals, that hold the true mean 1, 2 or 3; of pixels that are not heavy. */
+/* Share of the intervals, and of plain t-intervals, that contain the true mean 1, 2 or 3, over pixels that are not heavy. */
 static void coverage(int replicates, draw_fn draw, double *ours, double *plain, double *kept)
 {
     double values = 0, held = 0, plain_held = 0, t = ec_student_t_quantile(0.975, replicates - 1);
@@ -95,7 +95,7 @@ static void normal_noise_gives_the_t_interval(void)
     double ours, plain, kept;
     for (int replicates = 4; replicates <= 16; replicates *= 2) {
         coverage(replicates, draw_normal, &ours, &plain, &kept);
-        /* 72 000 values: +- 0.08 %. With 4 replicates some look calmer than they are and are flagged, which leaves 95.8 %. */
+        /* 72 000 values: +- 0.08 %. With 4 replicates some pixels look calmer than they are and are flagged, which leaves 95.8 %. */
         CHECK_MSG(fabs(ours - 0.95) < (replicates < 16 ? 0.01 : 0.004) && kept > 0.96, "%d replicates", replicates);
     }
     ec_film film = filled(16, draw_normal, 1);
@@ -120,7 +120,7 @@ static void skewed_noise_moves_the_interval(void)
     intervals i = of(&film);
     double up = 0, down = 0;
     for (uint32_t p = 0; p < P; p++) up += i.high[3 * p] - films_pixel(&film, p).mean[0], down += films_pixel(&film, p).mean[0] - i.low[3 * p];
-    CHECK_MSG(up > 1.3 * down, "up %g, down %g", up, down); /* what was missed is bright */
+    CHECK_MSG(up > 1.3 * down, "up %g, down %g", up, down); /* the missed light is bright */
     ec_film_destroy(&film);
 }
 
@@ -146,7 +146,7 @@ static void exact_pixels_are_points(void)
     ec_film_destroy(&film);
 }
 
-/* Of two samples each holds half by right; more than 70 % is a fifth more than that. */
+/* Each of two samples should have half; more than 70 % is a fifth more than that. */
 static void few_samples_are_judged_by_their_fair_share(void)
 {
     ec_film film = filled(2, draw_two, 0);

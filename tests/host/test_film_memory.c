@@ -1,10 +1,10 @@
 /* tier: quick */
-/* The memory that a film takes is what parts.h promises, with and without first-hit features. */
+/* A film takes the memory that parts.h promises, with and without first-hit features. */
 #include "support/film_batches.h"
 
 enum { MOST = 5000 };
 
-/* As many sums as parts.h promises, at every number of batches on the way; and no batch is kept as it is. */
+/* At every number of batches there are as many sums as parts.h promises, and no unsummed batch. */
 static void memory_is_bounded(void)
 {
     const uint64_t sum = ec_sums_bytes(replicates, sets);
@@ -25,7 +25,7 @@ static void memory_is_bounded(void)
         CHECK_MSG(!ec_film_part_is_sound(unsound[i][0], unsound[i][1]), "%u, %u", unsound[i][0], unsound[i][1]);
 }
 
-/* Within the bound at any moment, and not far below it. */
+/* The memory is within the bound at any moment, and not far below it. */
 static void memory_of_slices_is_bounded(void)
 {
     const uint32_t firsts[] = {0, 1, 5, 15, 127, 128, 129, 200, 256, 257, 1900, 2040, 2048, 2049, 4095, 4096};

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* The same bits, whoever adds the batches, in whatever order, in whatever slices; and the figures are those of the definition. */
+/* Bits do not depend on who adds the batches, in which order, or in which slices; the figures are those of the definition. */
 #include "support/film_batches.h"
 #include "support/test.h"
 
@@ -7,7 +7,7 @@ enum { MOST = 5000 };
 
 static test_random state = {7};
 
-/* Batches 0 to count - 1, of which the last is a sample short. */
+/* Batches 0 to count - 1; the last is one sample short. */
 static ec_film cut_after(uint32_t count)
 {
     ec_film film = slice(0, count - 1);
@@ -47,7 +47,7 @@ static void any_order_of_batches(void)
         }
 }
 
-/* Cut anywhere, merged in any order, also by way of other merges. */
+/* Cut anywhere, merged in any order, also through other merges. */
 static void any_slices(void)
 {
     const uint32_t counts[] = {5, 40, 300, 1000, MOST};
@@ -69,7 +69,7 @@ static void any_slices(void)
     }
 }
 
-/* What the samples of these batches come to in double: a replicate's mean, its samples, and the tail of all. */
+/* The sums of these batches in double: a replicate's mean, its samples, and the tail of all. */
 typedef struct reference {
     double mean[EC_REPLICATES_MOST][3], samples[EC_REPLICATES_MOST], all, largest, squares, fourths;
 } reference;
@@ -92,7 +92,7 @@ static reference sum_up(const uint32_t *batches, uint32_t n, int p)
     return sum;
 }
 
-/* A value goes through at most some 16 + 15 + 15 roundings of half an ulp, of values up to 10 i + 100; as chance has it they come to less than a
+/* A value is rounded at most 16 + 15 + 15 times by half an ulp, among values up to 10 i + 100. By chance the errors add up to less than a
  * tenth of that. */
 static void figures_are_those_of_all_samples(const ec_film *film, const uint32_t *batches, uint32_t n)
 {
@@ -166,7 +166,7 @@ static void what_is_shown(void)
     ec_film_destroy(&gaps);
 }
 
-/* The sums of a block of batches that others have added up, a few pixels each, as they are sent. */
+/* Sums of a block of batches that others have added up, sent a few pixels at a time. */
 static void take_block(ec_film_part *part)
 {
     enum { CUT = 4 };
@@ -189,7 +189,7 @@ static void take_block(ec_film_part *part)
     }
 }
 
-/* Blocks of EC_FILM_FIRST and of 16 times as many among batches one by one. */
+/* Blocks of EC_FILM_FIRST batches and of 16 times as many, among single batches. */
 static void blocks_of_batches(void)
 {
     enum { LARGE = EC_FILM_FIRST * EC_FILM_RADIX };
@@ -222,10 +222,10 @@ static void nothing_twice(void)
     ec_film_destroy(&again);
 }
 
-/* A picture that ended within its last batch, in any order and slices. Nothing comes after its end. */
+/* A picture that ended within its last batch, in any order and slices. No batch may follow it. */
 static void a_cut_batch(void)
 {
-    const uint32_t ends[] = {20, 29, 130, 300}; /* all beyond the strides of one sample */
+    const uint32_t ends[] = {20, 29, 130, 300}; /* all are beyond the strides of one sample */
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
         const uint32_t n = ends[i];
         uint32_t order[300];
@@ -253,7 +253,7 @@ static void a_cut_batch(void)
     }
 }
 
-/* One float is broken wherever it stands: as a batch by itself, in a sum; sums in the range of floats stay there. */
+/* One float is corrupted anywhere: in a single batch, or in a sum. Sums within the range of floats are kept. */
 static void broken_and_huge_values(void)
 {
     float broken[FIELDS] = {NAN, 1, INFINITY, INFINITY, 2, 2}, huge[FIELDS];
@@ -275,7 +275,7 @@ static void broken_and_huge_values(void)
     ec_film_destroy(&far);
 }
 
-/* In whatever order and slices, and pixels that have none of them have zeros. */
+/* In any order and slices; pixels without features have zeros. */
 static void features_of_the_first_batches(void)
 {
     enum { END = 8, MANY = 300 };
@@ -306,7 +306,7 @@ int main(void)
     const uint32_t numbers[] = {EC_REPLICATES, 3, 1, EC_REPLICATES}; /* 3: no sum begins with the first replicate again */
     for (int i = 0; i < 4; i++) {
         replicates = numbers[i];
-        sets = i % 3; /* of features; with two replicates or more there are halves */
+        sets = i % 3; /* of features: with two replicates or more there are halves */
         any_order_of_batches();
         any_slices();
         what_is_shown();

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* A film that had room made for its first batch is the one that had not. */
+/* A film whose memory was allocated before its first batch equals one without. */
 #include "film/film.h"
 
 #include "support/test.h"
@@ -18,7 +18,7 @@ static float *numbers(uint64_t count)
 
 static bool is_alike(const float *a, const float *b, uint64_t count) { return a && b && !memcmp(a, b, count * sizeof *a); }
 
-/* begun: so many pixels of the first batch, which is all; 0: it is whole, and others follow. */
+/* begun: only so many pixels of the first batch are done; 0: it is complete, and others follow. */
 static void check(uint32_t begun, uint32_t sets)
 {
     ec_film with, without;
@@ -48,7 +48,7 @@ static void check(uint32_t begun, uint32_t sets)
     free(features);
 }
 
-/* A film that was to have a batch, and has none. */
+/* A film that was to get a batch, and got none. */
 static void check_unused(void)
 {
     ec_film film;

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Films of some of a picture's rows, one after the other, come to the bits of the whole: sums of its error, intervals. */
+/* Films of some of a picture's rows, one after the other, give the bits of the whole: sums of its error, intervals. */
 #include "film/resolve.h"
 #include "support/films.h"
 #include "support/random.h"
@@ -7,7 +7,7 @@
 
 enum { W = 19, H = 45, P = W * H, REACH = EC_INTERVAL_REACH };
 
-/* Fireflies in the right half: its pixels are heavy. */
+/* Fireflies in the right half, whose pixels are heavy. */
 static float batch_value(test_random *random, int x)
 {
     return (float)(test_uniform(random) < 0.05 && x > W / 2 ? 40 * test_uniform(random) : 1 + test_uniform(random));
@@ -55,7 +55,7 @@ typedef struct picture {
     float rgb[3 * P], se[3 * P], se_y[P], samples[P], low[3 * P], high[3 * P], heavy[P];
 } picture;
 
-/* Rows of the film to the same rows of the picture. */
+/* Compares rows of the film with the same rows of the picture. */
 static uint64_t resolve(const ec_film *film, uint32_t first, uint32_t rows, picture *out)
 {
     static ec_pixel room[W * (EC_RESOLVE_ROWS + 2 * REACH)];
@@ -79,8 +79,8 @@ static void intervals_of_rows_are_those_of_the_whole(void)
     ec_film_destroy(&whole);
 }
 
-/* Rows 18 to 26 of a film of their own, copied from two others with the rows that their intervals reach. Features go along, and a batch that is
- * kept as it is. */
+/* Rows 18 to 26 as a film of their own, copied from two others with the neighbouring rows that their intervals need. Features are copied
+ * too, and an unsummed batch. */
 static void rows_may_come_from_two_films(void)
 {
     enum { FIRST = 18, ROWS = 8, SEAM = 22, N = ROWS * W, ALL = ROWS + 2 * REACH };

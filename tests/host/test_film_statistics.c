@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Student's t, Fisher's F and the binomial distribution against values in closed form and of other programs. */
+/* Student's t, Fisher's F and the binomial distribution against closed forms and values of other programs. */
 #include "film/statistics.h"
 #include "support/test.h"
 
@@ -87,7 +87,7 @@ static void binomial(void)
     CHECK(ec_binomial_upper_tail(0, 5, 0.3) == 1 && ec_binomial_upper_tail(6, 5, 0.3) == 0);
 }
 
-/* Nothing throws into C. */
+/* No exception leaves into C. */
 static void out_of_domain(void)
 {
     CHECK(isnan(ec_f_quantile(0.99, NAN, 3)) && isnan(ec_f_quantile(0.99, 3, -1)));

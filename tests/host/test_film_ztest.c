@@ -1,5 +1,5 @@
 /* tier: quick */
-/* The picture comparison itself: it must pass equal pictures nearly always and catch the errors it exists for. */
+/* The comparison of pictures itself: it must nearly always pass equal pictures, and find the errors that it is for. */
 #include "film/resolve.h"
 #include "support/films.h"
 #include "support/random.h"
@@ -13,7 +13,7 @@ static double normal(void) { return test_normal(&state); }
 
 static double truth(int i) { return 0.1 + (double)(i % 97) / 50; }
 
-/* A picture of so many replicates of normal noise; left: what its left half is multiplied by. */
+/* A picture of so many replicates with normal noise; left: factor of its left half. */
 static ztest_picture render(int replicates, double noise, double left)
 {
     ec_film film;
@@ -50,7 +50,7 @@ static void equal_pictures_pass(void)
             outliers += r.outliers;
             values += r.values;
         }
-        /* 20 tests at 1 % each should find 0.2 outlying values; a z-test in place of the t-test finds thousands. */
+        /* 20 tests at 1 % each should find 0.2 outliers; a z-test instead of the t-test finds thousands. */
         CHECK_MSG(outliers <= 3, "%llu of %llu with %d replicates", (unsigned long long)outliers,
                   (unsigned long long)values, replicates[k]);
     }
@@ -108,7 +108,7 @@ static void broken_values_and_sizes_fail(void)
     CHECK_MSG(!r.pass && strstr(r.text, "64 x 47"), "%s", r.text);
 }
 
-/* A light that few samples meet: an image that missed it has standard error 0 there, yet is no other picture. */
+/* A light that few samples find: an image that missed it has standard error 0 there, but is not another picture. */
 static void the_reference_may_lend_its_variance(void)
 {
     ztest_picture image = render(4, 0, 1), reference = render(16, 0, 1);

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* OpenEXR out and in again: the bits come back and the attributes stand in the file. */
+/* OpenEXR written and read again: the bits are equal, and the file has the attributes. */
 #include <OpenEXR/openexr.h>
 #include <stdint.h>
 
@@ -9,7 +9,7 @@
 static const char *const out = ECLAT_TEST_OUT "/image.exr";
 static ec_error err;
 
-/* Values that must survive to the bit. */
+/* Values whose bits must be kept. */
 static float bits(uint32_t i)
 {
     static const uint32_t special[] = {0x7fc12345, 0xff800000, 0x7f800000, 0x80000000, 0x00000001, 0x7f7fffff, 0x3f800001};

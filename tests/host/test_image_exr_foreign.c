@@ -1,5 +1,5 @@
 /* tier: quick */
-/* OpenEXR files by other hands: every compression, pixel type and storage that we claim to read, and those we refuse. */
+/* OpenEXR files of other programs: every compression, pixel type and storage that eclat reads, and refusals of others. */
 #include <OpenEXR/openexr.h>
 #include <stdint.h>
 
@@ -9,13 +9,13 @@
 
 static ec_error err;
 
-/* A file as another program might write it: window origin off (0, 0), three pixel types, scan lines or tiles. */
+/* A file as another program might write it: a window that does not begin at (0, 0), three pixel types, scan lines or tiles. */
 typedef struct foreign {
     exr_compression_t compression;
     exr_storage_t storage;
 } foreign;
 
-enum { FW = 40, FH = 56, TILE_W = 16, TILE_H = 24 }; /* cut tiles at both edges; no smaller than B44's 4 x 4 */
+enum { FW = 40, FH = 56, TILE_W = 16, TILE_H = 24 }; /* tiles cut at both edges; no smaller than B44's 4 x 4 */
 
 static float foreign_value(int channel, int x, int y) { return (float)((x * 3 + y * 5) % 64 + 64 * channel); }
 
@@ -87,7 +87,7 @@ static exr_result_t write_foreign(const char *path, foreign kind)
 
 static void foreign_files_are_read(void)
 {
-    /* B44 is lossy for half; the values have few bits, but not that few. */
+    /* B44 is lossy for halves; these values have few bits, but too many for it. */
     static const struct { exr_compression_t compression; const char *name; float half_error; } kinds[] = {
         {EXR_COMPRESSION_NONE, "none", 0}, {EXR_COMPRESSION_RLE, "rle", 0},     {EXR_COMPRESSION_ZIPS, "zips", 0},
         {EXR_COMPRESSION_ZIP, "zip", 0},   {EXR_COMPRESSION_PIZ, "piz", 0},     {EXR_COMPRESSION_PXR24, "pxr24", 0},
@@ -108,7 +108,7 @@ static void foreign_files_are_read(void)
                     worst[c] = fmaxf(worst[c], fabsf(exr.planes[c][i] - foreign_value(c, i % FW, i / FW)));
             CHECK_MSG(worst[0] <= kinds[k].half_error && worst[1] == 0 && worst[2] == 0, "%s: off by %g %g %g", path,
                       worst[0], worst[1], worst[2]);
-            for (int c = 0; c < 3; c++) { /* one of them alone */
+            for (int c = 0; c < 3; c++) { /* only one of them */
                 static const char *const names[3] = {"A", "B", "id"};
                 ec_exr one;
                 CHECK_OK(ec_exr_read_some(path, (const char *const[]){names[c], "none", NULL}, &one, &err), err);
@@ -134,7 +134,7 @@ static void put(FILE *file, const char *name, const char *type, const void *valu
     fwrite(value, 1, (size_t)size, file);
 }
 
-/* A header by hand, after "OpenEXR File Layout"; little-endian. One channel with the given sampling; flat or deep. */
+/* A header made by hand, after "OpenEXR File Layout"; little-endian. One channel with the given sampling; flat or deep. */
 static void write_header_only(const char *path, int flat, int sampling)
 {
     const int32_t magic = 20000630, version = flat ? 2 : 2 | 0x800, window[4] = {0, 0, 3, 3}, one = 1, four = 4;

@@ -1,6 +1,5 @@
 /* tier: quick */
-/* Several parts in one sealed file: every bit comes back, the first part is a picture to other readers, and a file that is not as it was
- * written is refused. */
+/* Several parts in one sealed file: every bit is kept, other readers see the first part as a picture, and a changed file is refused. */
 #include <stdlib.h>
 
 #include "image/exr_parts.h"
@@ -62,7 +61,7 @@ static void write_bytes(const char *bytes, size_t size)
     CHECK(out && fwrite(bytes, 1, size, out) == size && fclose(out) == 0);
 }
 
-/* Every bit and every length would take long: some of each, the ends among them. */
+/* Testing every bit and every length would take long: tests some of each, including the ends. */
 static void what_was_changed_is_refused(void)
 {
     static char bytes[1 << 17];

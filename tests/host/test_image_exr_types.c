@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Values that a file keeps in fewer bits: the nearest half floats, and whole numbers. */
+/* Values stored in fewer bits: nearest half floats, and whole numbers. */
 #include <math.h>
 
 #include "image/exr_header.h"
@@ -11,7 +11,7 @@ static ec_error err;
 
 enum { W = 401, H = 37, P = W * H };
 
-/* Of all sizes that a float can have, most of them near those of a half, and both signs. */
+/* Floats of all magnitudes, most of them near those of a half, and both signs. */
 static float value_at(uint32_t i)
 {
     static const float special[] = {0, -0.0f, 1, 65504, 65519, 65520, 1e30f, -1e30f, 0x1p-14f, 0x1p-24f, 0x1p-25f, 0x1p-26f, 1e-40f, 0x1.ffcp-15f, 0x1.002p0f, 0x1.006p0f};
@@ -20,7 +20,7 @@ static float value_at(uint32_t i)
     return ldexpf((float)(word >> 8) - 0x1p23f, (int)(i % 48) - 47);
 }
 
-/* By the book, in double precision: 11 bits from 2^-14 on, steps of 2^-24 below; nothing becomes none, and nothing infinite. */
+/* The definition in double precision: 11 bits from 2^-14 on, steps of 2^-24 below. Nothing is rounded to 0 or to infinity. */
 static float nearest(float value)
 {
     int exponent;

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Never half a picture: where writing fails, nothing new stands in the folder and what stood there is as it was. */
+/* No incomplete picture: where writing fails, the folder has no new file, and old files are unchanged. */
 #include <dirent.h>
 #include <errno.h>
 #include <signal.h>
@@ -14,7 +14,7 @@
 static const char *const folder = ECLAT_TEST_OUT "/files";
 static ec_error err;
 
-/* Each of the three functions that touch a target, behind one face. */
+/* The three functions that write a target, with one signature. */
 typedef enum { CHECK_ONLY, EXR, PNG, KINDS } kind;
 static ec_result write_kind(kind k, const char *path)
 {
@@ -79,7 +79,7 @@ static void impossible_targets_are_refused(kind k)
     CHECK_REFUSED(k, in_folder("sub"), "is a folder");
     CHECK_REFUSED(k, in_folder("sub/"), "names a folder");
     CHECK_REFUSED(k, in_folder(longest), "too long");
-    /* What stands for /dev/null, which a rename by root would replace. Never the real one: this test must be able to fail. */
+    /* A stand-in for /dev/null, which a rename by root would replace. Never the real one: this test must be able to fail. */
     struct stat info;
     CHECK(mkfifo(in_folder("pipe"), 0666) == 0);
     CHECK_REFUSED(k, in_folder("pipe"), "not a regular file");
@@ -93,7 +93,7 @@ static void impossible_targets_are_refused(kind k)
     unlink(in_folder("file"));
 }
 
-/* Root may write anywhere: the test steps down to an unprivileged user, if it was root. */
+/* Root may write anywhere: if it is root, the test changes to an unprivileged user. */
 static void permissions_are_respected(kind k)
 {
     int root = geteuid() == 0;
@@ -117,7 +117,7 @@ static void permissions_are_respected(kind k)
     unlink(in_folder("read-only"));
 }
 
-/* A full disk, by way of a limit on the file's size. */
+/* A full disk, simulated by a limit on the file's size. */
 static void a_full_disk_leaves_the_old_file(kind k)
 {
     put("target", "old", 0644);
@@ -146,11 +146,11 @@ static void files_get_the_usual_mode(kind k)
     mode_t usual = umask(027);
     CHECK_OK(write_kind(k, in_folder("new")), err);
     CHECK_MSG(mode_of("new") == 0640, "mode %o", mode_of("new"));
-    put("old", "old", 0604); /* an older file's mode is kept */
+    put("old", "old", 0604); /* keeps the mode of an older file */
     CHECK_OK(write_kind(k, in_folder("old")), err);
     CHECK_MSG(mode_of("old") == 0604 && !holds("old", "old"), "mode %o", mode_of("old"));
     put("behind", "old", 0644);
-    CHECK(symlink("behind", in_folder("link")) == 0); /* a link stays one; what it names is replaced */
+    CHECK(symlink("behind", in_folder("link")) == 0); /* a link stays a link; its target is replaced */
     CHECK_OK(write_kind(k, in_folder("link")), err);
     struct stat info;
     CHECK(lstat(in_folder("link"), &info) == 0 && S_ISLNK(info.st_mode) && !holds("behind", "old"));
@@ -160,7 +160,7 @@ static void files_get_the_usual_mode(kind k)
     for (int i = 0; i < 4; i++) unlink(in_folder(names[i]));
 }
 
-/* To where there is nothing yet, by a link that leads on, and round in a circle. */
+/* Links to a file that does not exist, by another link, and in a circle. */
 static void links_that_lead_nowhere(kind k)
 {
     struct stat info;

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Damaged pictures: cut anywhere, or with a few bits flipped. Whatever comes out, it is an answer: a picture of a sane size or
- * one line that names the file. The sanitizers watch our side; a crash in a library would end the test. */
+/* Damaged pictures: cut anywhere, or with a few flipped bits. The result must be a picture of a sane size, or one line that names the file.
+ * The sanitizers check eclat's code; a crash in a library would end the test. */
 #include <stdint.h>
 
 #include "image/image.h"
@@ -54,14 +54,14 @@ static void damage(const char *name)
             read_and_judge(next_random((uint32_t)size));
             continue;
         }
-        /* Headers are where the damage does most: two rounds in three, half of them within the first 400 bytes. */
+        /* Damage to headers matters most: two rounds in three, half of them within the first 400 bytes. */
         uint32_t range = i % 3 == 1 && size > 400 ? 400 : (uint32_t)size;
         for (uint32_t flips = 1 + next_random(6); flips > 0; flips--) damaged[next_random(range)] ^= 1u << next_random(8);
         read_and_judge(size);
     }
 }
 
-/* Our own kind of file, small enough that cutting it at every byte is quick: each must be an error. */
+/* A file of eclat's own, small enough to cut it at every byte: each cut must be an error. */
 static void no_cut_picture_is_taken_for_whole(void)
 {
     float data[3 * 20 * 20];
@@ -80,14 +80,14 @@ static void no_cut_picture_is_taken_for_whole(void)
     }
 }
 
-/* A writer that was killed leaves blocks but a table of zeros; what it wrote is not a picture. */
+/* A killed writer leaves blocks and a table of zeros: such a file is not a picture. */
 static void an_unfinished_picture_is_refused(void)
 {
     const float data[20 * 20] = {1};
     const ec_channel channel = {"R", data, 1};
     CHECK_OK(ec_exr_write(path, 20, 20, &channel, 1, NULL, 0, &err), err);
     size_t size = load(path), table = 0;
-    for (uint64_t at = 0, first; at + 16 < size && !table; at++) /* two blocks: the first starts behind two offsets */
+    for (uint64_t at = 0, first; at + 16 < size && !table; at++) /* two blocks: the first starts after two offsets */
         if (memcpy(&first, original + at, 8), first == at + 16) table = at;
     CHECK(table > 0);
     memset(original + table, 0, 16);

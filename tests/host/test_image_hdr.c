@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Radiance pictures made by hand: both run-length encodings and plain pixels, and files that break off anywhere. */
+/* Radiance pictures made by hand: both run-length encodings and plain pixels, and files cut anywhere. */
 #include "image/hdr.h"
 #include "image/image.h"
 #include "support/test.h"
@@ -24,11 +24,11 @@ static ec_result read_bytes(const char *header, const unsigned char *bytes, size
 
 static void plain_pixels(void)
 {
-    /* 2^(136-136) = 1, exponent 0 is black, and the greatest and least values. */
+    /* 2^(136-136) = 1; exponent 0 is black; the largest and smallest values. */
     const unsigned char bytes[] = {128, 64, 1, 136, 9, 9, 9, 0, 255, 255, 255, 255, 1, 0, 0, 1};
     const float expected[] = {128, 64, 1, 0, 0, 0, 255 * 0x1p119f, 255 * 0x1p119f, 255 * 0x1p119f, 0x1p-135f, 0, 0};
     CHECK_OK(read_bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nEXPOSURE=0.5\n\n-Y 2 +X 2\n", bytes, sizeof bytes), err);
-    CHECK(!ec_hdr_has_exposure(path)); /* they multiply */
+    CHECK(!ec_hdr_has_exposure(path)); /* such headers multiply */
     CHECK_OK(read_bytes(HEADER "-Y 2 +X 2\n", bytes, sizeof bytes), err);
     CHECK(ec_hdr_has_exposure(path));
     CHECK(width == 2 && height == 2 && rgb && memcmp(rgb, expected, sizeof expected) == 0);
@@ -36,7 +36,7 @@ static void plain_pixels(void)
 
 static void old_runs(void)
 {
-    /* One pixel, 3 more, then 1 << 8 | nothing: counts of successive runs are shifted by 8 bits. */
+    /* One pixel, 3 more, then 1 << 8 more, then nothing: counts of successive runs are shifted by 8 bits. */
     const unsigned char bytes[] = {8, 4, 2, 136, 1, 1, 1, 3, 1, 1, 1, 1, 7, 7, 7, 136};
     CHECK_OK(read_bytes(HEADER "-Y 1 +X 261\n", bytes, sizeof bytes), err);
     CHECK(width == 261 && rgb && rgb[3 * 259] == 8 && rgb[3 * 259 + 2] == 2 && rgb[3 * 260] == 7);
@@ -60,7 +60,7 @@ static void new_runs(void)
     CHECK(read_bytes(HEADER "-Y 1 +X 10\n", runs, sizeof runs) == EC_FAILED && strstr(err.text, "wrong width"));
 }
 
-/* Longer than what is read at once: runs and pixels lie across the seams. */
+/* Longer than one read: runs and pixels cross the limits. */
 static void many_blocks(void)
 {
     enum { WIDTH = 613, HEIGHT = 300 };
@@ -124,7 +124,7 @@ static void strange_headers_are_named(void)
     CHECK_MSG(strstr(err.text, "none.hdr': No such file") != NULL, "%s", err.text);
 }
 
-/* EXR behind the same function: RGB, grey, and neither. */
+/* EXR by the same function: RGB, grey, and neither. */
 static void an_exr_is_known_by_its_content(void)
 {
     const float data[6] = {1, 2, 3, 4, 5, 6};

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Pictures written row by row are those written at once; what an EXR says of itself may change until the end. */
+/* Pictures written row by row equal those written at once; an EXR's attributes may change until the end. */
 #include <stdlib.h>
 #include <sys/stat.h>
 
@@ -44,7 +44,7 @@ static void channels_from(ec_channel channels[3], uint32_t row)
     for (uint32_t c = 0; c < 3; c++) channels[c] = (ec_channel){names[c], values + 3 * W * row + c, 3, false};
 }
 
-/* In puts of 16, 32 and 5 rows, with these attributes at the beginning and those in the end. */
+/* Writes 16, 32 and 5 rows at a time. Attributes are those of `begin` first, and those of `end` when the file is finished. */
 static ec_result write_exr(const ec_attribute *begin, const ec_attribute *end, uint32_t count, uint32_t room, ec_error *err)
 {
     static const uint32_t puts[] = {16, 32, 5};
@@ -72,11 +72,11 @@ static void exr_rows(void)
     CHECK_OK(ec_exr_write(WHOLE ".exr", W, H, channels, 3, end, 2, &err), err);
     CHECK_OK(write_exr(begin, end, 2, 0, &err), err);
     check_same_bytes(WHOLE ".exr", ROWS ".exr");
-    CHECK_OK(write_exr(end, NULL, 2, 0, &err), err); /* nothing has become known */
+    CHECK_OK(write_exr(end, NULL, 2, 0, &err), err); /* nothing new is known */
     check_same_bytes(WHOLE ".exr", ROWS ".exr");
 }
 
-/* Longer and shorter, up to the room that there is; without it the file is not written. */
+/* Longer and shorter attributes, within the reserved room; without room the file is not written. */
 static void exr_attributes_of_other_lengths(void)
 {
     static char longer[65], too_long[200];
@@ -116,7 +116,7 @@ static void png_rows(void)
     check_same_bytes(WHOLE ".png", ROWS ".png");
 }
 
-/* Given up, and on a disk that is full: nothing is there, and an older file stays. */
+/* Abandoned, and on a full disk: no new file, and an older one stays. */
 static void nothing_half_written(void)
 {
     ec_channel channels[3];

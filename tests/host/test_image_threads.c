@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Pictures are compressed by all threads: their files are the same bytes for any number of them and any puts, and hold the same values. */
+/* All threads compress pictures: files have equal bytes for any number of threads and of rows at a time, and hold equal values. */
 #include <omp.h>
 #include <png.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@ enum { W = 901, H = 403, P = W * H };
 static float values[3 * P];
 static uint8_t bytes[3 * P];
 
-/* Some of it smooth, some noise, so that rows want different filters and some chunks do not get smaller. */
+/* Part smooth, part noise, so that rows get different filters and some chunks do not shrink. */
 static void fill(void)
 {
     uint32_t state = 1;

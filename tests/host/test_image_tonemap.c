@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Exposure, Khronos PBR Neutral and the sRGB curve; and the PNG they end up in. */
+/* Exposure, Khronos PBR Neutral and the sRGB curve; and the PNG that contains the result. */
 #include <float.h>
 #include <png.h>
 #include <stdint.h>
@@ -10,7 +10,7 @@
 
 static ec_error err;
 
-static double srgb_decode(double s) /* IEC 61966-2-1, the other way */
+static double srgb_decode(double s) /* the inverse of IEC 61966-2-1 */
 {
     return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
@@ -27,7 +27,7 @@ static void every_byte_comes_back(void)
         ec_tonemap_rgb(in, out, 1, -1, EC_TONEMAP_NONE);
         CHECK_MSG(out[2] == i, "%d became %d at -1 EV", i, out[2]);
     }
-    /* The pieces meet at 0.0031308; byte 10 lies on the line's side, byte 11 on the power's. */
+    /* The pieces meet at 0.0031308: byte 10 is on the linear piece, byte 11 on the power's. */
     const float edge[3] = {0.0031308f, 10.49f / 255 / 12.92f, 0.5f};
     uint8_t out[3];
     ec_tonemap_rgb(edge, out, 1, 0, EC_TONEMAP_NONE);
@@ -40,7 +40,7 @@ static void check_rounding(double x)
     CHECK_MSG(ec_srgb_round(ec_srgb_get_rounder(), x) == byte, "%.17g became %d, not %ld", x, ec_srgb_round(ec_srgb_get_rounder(), x), byte);
 }
 
-/* Also where a byte ends and the next begins, to the last bit. */
+/* Also at the border between two bytes, to the last bit. */
 static void the_table_rounds_as_the_power_does(void)
 {
     for (int i = 0; i <= 1 << 20; i++) check_rounding(i / (double)(1 << 20));
@@ -69,7 +69,7 @@ static void nothing_strange_gets_out(void)
         }
 }
 
-/* Expected linear values worked out from the specification's formulas: Ks = 0.76, F90 = 0.04, Kd = 0.15. */
+/* Linear values calculated from the specification's formulas: Ks = 0.76, F90 = 0.04, Kd = 0.15. */
 static void neutral_follows_its_specification(void)
 {
     static const struct { float in[3]; double out[3]; } rows[] = {
@@ -89,7 +89,7 @@ static void neutral_follows_its_specification(void)
             CHECK_MSG(fabs(decoded - rows[i].out[c]) <= step, "row %zu channel %d: %g for %g", i, c, decoded, rows[i].out[c]);
         }
     }
-    /* Hue-true black to white: never darker for a brighter grey, and 255 only in the limit. */
+    /* Greys from black to white: never darker for a brighter grey, and 255 only in the limit. */
     uint8_t last = 0, out[3];
     for (float x = 0; x < 100; x = x * 1.02f + 0.001f) {
         const float in[3] = {x, x, x};
@@ -119,7 +119,7 @@ static void a_png_holds_the_bytes(void)
     remove(path);
 }
 
-/* Lightness (CIE L*) of magma rises evenly (in CAM02-UCS, which L* follows roughly): that makes errors readable. */
+/* Lightness (CIE L*) of magma rises evenly (exactly so in CAM02-UCS, which L* follows roughly), which makes errors readable. */
 static void magma_is_even(void)
 {
     uint8_t rgb[3];

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Lamps that face opposite ways become pairs: two sides of a box, none of a panel, of another emission, or of what shines to both sides. Chances stay those of
- * each one's power. */
+/* Lamps that face opposite ways become pairs: two sides of a box do; those of a panel, of different emission, or two-sided ones do not.
+ * Probabilities stay those of each lamp's power. */
 #include "pack/lamp_pairs.h"
 
 #include "support/pack_case.h"

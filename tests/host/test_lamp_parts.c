@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Lamps that are cut by their textures: the parts tile the lamp, their shares are what their light says, a bright texel is reached, and the power
- * of each lamp is its own. What is even, or lies on another lamp, stays in one piece. */
+/* Lamps that are cut by their textures: parts tile the lamp, their probabilities follow their light, a bright texel is reached, and each
+ * lamp keeps its power. A uniform lamp, or one that coincides with another, stays in one piece. */
 #include "support/pack_case.h"
 #include "support/texel_lamp.h"
 
@@ -13,11 +13,11 @@ static ec_pack pack_lamp(const char *name, int dark, int bright)
 
 typedef struct walk {
     const ec_pack *pack;
-    double area, numbers, most_density, dark_area; /* most_density: share over area; dark_area: of parts without a share */
+    double area, numbers, most_density, dark_area; /* most_density: share over area; dark_area: area of parts without a share */
     uint32_t parts, next;
 } walk;
 
-/* Parts in order: their numbers follow one another. */
+/* Parts are in order: their numbers are consecutive. */
 static void visit(walk *all, uint32_t node, double area, uint32_t first, uint32_t end)
 {
     const ec_lamp_node *n = &all->pack->lamp_nodes[node];
@@ -50,8 +50,8 @@ static walk walk_lamp(const ec_pack *pack, const ec_light_data *l)
     return all;
 }
 
-/* Texel (40, 9) lies in the lamp's first triangle, right of the diagonal, and its light reaches one texel around it: 8 triangles' worth of
- * half a texel squared each hold all of the light, of 2 x 2 texels if parts are a quarter of a texel apart from it. */
+/* Texel (40, 9) is in the lamp's first triangle, right of the diagonal, and its light reaches one texel around it. Parts are triangles of
+ * half a square texel; 8 of them contain all of the light, of 2 x 2 texels if parts are a quarter of a texel apart from it. */
 static void reaches_the_texel(void)
 {
     ec_pack pack = pack_lamp("parts-texel", 0, 255);

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Layers that add up to a picture: whatever the numbers, the sum is exact, and none has moved by more than roundings of it. */
+/* Layers that add up to a picture: the sum is exact for all numbers, and corrections are no larger than its rounding. */
 #include <math.h>
 
 #include "film/layer_films.h"

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Cones of lamps: the narrowest about two, by angles, and never one that leaves a lamp out; the cost of a cluster by the paper's formula. */
+/* Cones of lamps: the narrowest cone about two, which contains both; the cost of a cluster by the paper's formula. */
 #include "base/random.h"
 #include "base/vec3.h"
 #include "pack/light_bounds.h"
@@ -7,7 +7,7 @@
 
 static const double pi = 3.14159265358979323846;
 enum { PAIRS = 20000, CLUSTERS = 200, LAMPS = 100 };
-#define ROUNDING 1e-7 /* radians: cosines near 1 tell no more of an angle than its square root of 2^-53 */
+#define ROUNDING 1e-7 /* radians: a cosine near 1 gives an angle to the square root of 2^-53 */
 
 static double angle_between(const double a[3], const double b[3])
 {
@@ -16,7 +16,7 @@ static double angle_between(const double a[3], const double b[3])
     return atan2(sqrt(ec_dot(c, c)), ec_dot(a, b));
 }
 
-/* A direction at an angle from the z axis, or any where that is over pi. */
+/* A direction at this angle from the z axis; any direction for angles over pi. */
 static ec_light_bounds lamp_at(double angle, double spread, uint64_t *random)
 {
     const double z = angle > pi ? 2 * ec_random_unit(random) - 1 : cos(angle), r = angle > pi ? sqrt(1 - z * z) : sin(angle), phi = 2 * pi * ec_random_unit(random);
@@ -51,7 +51,7 @@ static void pairs_are_as_narrow_as_can_be(void)
         CHECK_MSG(holds(&both, &a) && holds(&both, &b), "%g and %g, %g apart: one is left out", sa, sb, angle);
         wide += expected > 0.5 * pi && expected < pi, within += expected == larger, all_ways += expected == pi;
     }
-    CHECK(wide > 1000 && within > 1000 && all_ways > 500); /* of each there are some */
+    CHECK(wide > 1000 && within > 1000 && all_ways > 500); /* every kind occurs */
 }
 
 static void clusters_hold_their_lamps(void)
@@ -68,7 +68,7 @@ static void clusters_hold_their_lamps(void)
     }
 }
 
-/* Conty Estevez and Kulla 2018, equation 1, with lamps that shine by the cosine; the size is the squared diagonal. */
+/* Conty Estevez and Kulla 2018, equation 1, with lamps that emit by the cosine; the size is the squared diagonal. */
 static void costs_are_the_papers(void)
 {
     for (int i = 0; i <= 1000; i++) {

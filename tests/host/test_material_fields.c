@@ -1,5 +1,6 @@
 /* tier: quick */
-/* Every row of shared/material_fields.h: a file that says it, alone, changes that field or texture alone, and values out of range are clamped. */
+/* Every row of shared/material_fields.h: a file with that member alone changes only that field or texture, and values out of range are
+ * clamped. */
 #include "scene/material_fields.h"
 #include "textured_triangle.h"
 
@@ -22,7 +23,7 @@ static void say(const ec_material_field *f, float value, char *text, size_t size
              (double)value, (double)value);
 }
 
-/* Are all fields at their defaults but this one, and this one at a value? */
+/* Checks that all fields are at their defaults except this one. */
 static void check_fields(const ec_material *found, const ec_material_field *one, float value)
 {
     for (int i = 0; i < ec_material_field_count; i++) {
@@ -43,7 +44,7 @@ static void test_field(const ec_material_field *f)
     check_fields(s->materials, f, inside);
     CHECK_MSG(!strstr(messages, "clamped"), "%s: %s", f->path, messages);
     ec_scene_free(s);
-    if (f->at == offsetof(ec_material, anisotropy_rotation)) return; /* whole turns are taken off */
+    if (f->at == offsetof(ec_material, anisotropy_rotation)) return; /* whole turns are removed */
     say(f, 3e30f, text, sizeof text);
     s = load_member(f->path, text);
     check_fields(s->materials, f, f->most);

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* How much memory there is: what the process has touched, and limits that it is under. */
+/* Memory figures: pages that the process has touched, and limits that it is under. */
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -24,7 +24,7 @@ int main(void)
     const uint64_t room = 100u << 20;
     const rlim_t space = pages * (uint64_t)sysconf(_SC_PAGESIZE) + room;
     CHECK(setrlimit(RLIMIT_AS, &(struct rlimit){space, RLIM_INFINITY}) == 0);
-    struct rlimit kept; /* QEMU says that it was set, and keeps the old one */
+    struct rlimit kept; /* QEMU reports success, and keeps the old limit */
     if (getrlimit(RLIMIT_AS, &kept) == 0 && kept.rlim_cur == space) CHECK(ec_memory_free() <= room && ec_memory_free() > room / 2);
     TEST_END();
 }

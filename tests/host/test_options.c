@@ -1,5 +1,5 @@
 /* tier: quick */
-/* The table of options of `eclat render`: complete, in agreement with what its setters take, and with the settings that reports tell. */
+/* The table of options of `eclat render` is complete, and agrees with the values that setters accept and with the settings in reports. */
 #include <ctype.h>
 
 #include "jobs/render_request.h"
@@ -24,7 +24,7 @@ static void check_words(const ec_option *o)
     }
 }
 
-/* Each of its words is told and taken, and no other is taken. */
+/* The message lists all words that the option accepts, and it accepts no other. */
 static void check_choices(const ec_option *o)
 {
     ec_render_request request = {0};
@@ -57,7 +57,7 @@ static const ec_setting *find_setting(const char *option)
     return NULL;
 }
 
-/* Does some value of it change what a render is asked for? */
+/* Tells whether some value of the option changes a render request. */
 static bool changes_options(const ec_option *o)
 {
     static const char *const values[] = {NULL, "3", "0.5", "7x5", "1:2", "a.exr", "1,2,3", "1,2,3,4", "on", "off", "lights", "punctual-lights"};
@@ -78,7 +78,7 @@ static bool changes_options(const ec_option *o)
     return false;
 }
 
-/* What samples depend on has a trait; limits say how many there are, and the rest gives the same image. */
+/* Options that change samples have a trait. Limits change the number of samples; all others leave the image as it is. */
 static void check_settings(void)
 {
     int found = 0;
@@ -111,7 +111,7 @@ int main(void)
     for (int i = 0; i < ec_render_row_count; i++) check_row(&ec_render_rows[i]);
     check_settings();
 
-    /* Those of slices that are around already. */
+    /* Traits of existing slices must not change. */
     ec_render_options o = {.width = 7, .height = 5, .cutoff = 0.25, .seed = UINT64_MAX};
     check_trait("size", &o, "7x5");
     check_trait("seed", &o, "18446744073709551615");

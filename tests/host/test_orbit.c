@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Camera moves of the preview: what they keep and what they change, by geometry. */
+/* Camera moves of the preview: which quantities they keep and change, by geometry. */
 #include <math.h>
 
 #include "support/test.h"
@@ -21,7 +21,7 @@ static void turns_around_the_target(void)
     NEAR(v.eye[0], 5); NEAR(v.eye[1], 0); NEAR(v.eye[2], 0);
     ec_orbit_turn(&v, 0, right_angle / 3);
     NEAR(v.eye[1], 2.5); NEAR(ec_orbit_distance(&v), 5); NEAR(v.target[0], 0);
-    for (int i = 0; i < 50; i++) ec_orbit_turn(&v, 0.3, 0.7); /* stops short of the pole, and on this side of it */
+    for (int i = 0; i < 50; i++) ec_orbit_turn(&v, 0.3, 0.7); /* stops before the pole */
     NEAR(ec_orbit_distance(&v), 5);
     CHECK(v.eye[1] < 5 && v.eye[1] > 4.99);
     for (int i = 0; i < 50; i++) ec_orbit_turn(&v, 0, -0.7);
@@ -40,7 +40,7 @@ static void looks_around_from_the_eye(void)
 
 static void pans_by_heights_of_the_picture(void)
 {
-    eclat_viewpoint v = start(); /* the picture is 10 m high at the target */
+    eclat_viewpoint v = start(); /* at the target, the picture is 10 m high */
     ec_orbit_pan(&v, 0.1, -0.2);
     NEAR(v.eye[0], 1); NEAR(v.eye[1], -2); NEAR(v.target[0], 1); NEAR(v.target[1], -2); NEAR(v.eye[2], 5);
     v.fov = 0, v.tall = 3;
@@ -67,7 +67,7 @@ static void frames_a_sphere(void)
     ec_orbit_frame(&v, center, 2, 1.5);
     NEAR(v.eye[0], 1); NEAR(v.eye[1], 2); NEAR(v.eye[2], 3 + 2 * sqrt(2)); /* 2 / sin 45 degrees */
     ec_orbit_frame(&tall, center, 2, 0.5);
-    CHECK(ec_orbit_distance(&tall) > 1.5 * ec_orbit_distance(&v)); /* the narrow side has to hold it too */
+    CHECK(ec_orbit_distance(&tall) > 1.5 * ec_orbit_distance(&v)); /* the narrow side must contain it too */
 }
 
 static void keeps_roll(void)
@@ -77,7 +77,7 @@ static void keeps_roll(void)
     v = start();
     for (int k = 0; k < 3; k++) v.up[k] = tilted[k];
     ec_orbit_settle(&v);
-    CHECK(v.up[1] == 1 && v.up[2] == 0); /* no roll: +y is the pole */
+    CHECK(v.up[1] == 1 && v.up[2] == 0); /* no roll: +y is up */
     for (int k = 0; k < 3; k++) v.up[k] = rolled[k];
     ec_orbit_settle(&v);
     CHECK(v.up[0] == 0.5);

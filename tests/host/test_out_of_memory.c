@@ -1,7 +1,7 @@
 /* tier: full */
-/* Every allocation of eclat's own fails in turn while a scene is read, packed and built: each time there is an error of one line,
- * nothing that was half made is left (the sanitizers tell at the end), and once there is memory again all is as before. The linker
- * leads calls of malloc and its like from eclat's objects here (--wrap, CMakeLists.txt); those of libraries are not ours to judge. */
+/* Every allocation of eclat's own fails in turn while a scene is read, packed and built. Each time there is an error of one line, and
+ * nothing is left half made (the sanitizers report at the end). With memory again, the result is as before. The linker redirects malloc and
+ * the like in eclat's objects to this file (--wrap, CMakeLists.txt); libraries' calls are not tested. */
 #include <malloc.h>
 #include <stdatomic.h>
 
@@ -10,7 +10,7 @@
 #include "test_scene_files.h"
 #include "gltf/reader.h"
 
-static atomic_long calls, failing; /* failing: which call; 0: none */
+static atomic_long calls, failing; /* failing: number of the failing call; 0: none */
 static bool tells;                 /* where that is */
 
 void __sanitizer_print_stack_trace(void) __attribute__((weak)); /* ECLAT_SANITIZE=OFF has none */
@@ -34,7 +34,7 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size);
 char *__wrap_strdup(const char *text);
 void *__wrap_malloc(size_t size) { return fails() ? NULL : __real_malloc(size); }
 void *__wrap_calloc(size_t count, size_t size) { return fails() ? NULL : __real_calloc(count, size); }
-void *__wrap_realloc(void *old, size_t size) /* what shrinks has its memory already */
+void *__wrap_realloc(void *old, size_t size) /* shrinking needs no new memory */
 {
     bool grows = !old || malloc_usable_size(old) < size;
     return grows && fails() ? NULL : __real_realloc(old, size);
@@ -73,7 +73,7 @@ typedef struct input {
     bool animated, frames;
 } input;
 
-/* Two moments of one document, and what structures become from the one to the other. */
+/* Loads two moments of one document, and updates structures from one to the other. */
 static ec_result show(ec_animation *animation, double at, ec_followed *followed, ec_error *err)
 {
     ec_scene *scene;
@@ -133,7 +133,7 @@ static void sweep_as(const char *name, input in, long most)
     ec_error err;
     in.path = path;
     snprintf(path, sizeof path, "%s/%s", ECLAT_SOURCE_DIR, name);
-    fail_at(&in, 0, &err); /* what libraries and the run-time allocate once */
+    fail_at(&in, 0, &err); /* allocated once by libraries and the run-time */
     CHECK_OK(fail_at(&in, 0, &err), err);
     long count = calls;
     CHECK(count > 10);

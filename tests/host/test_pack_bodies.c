@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Which bodies may lie in one another, which of two displaces the other, and what a point is in. */
+/* Bodies that may overlap, which of two displaces the other, and which body a point is in. */
 #include "pack/pack.h"
 #include "gltf/model.h"
 #include "support/test.h"
@@ -34,8 +34,8 @@ static ec_pack pack_of(const ec_scene *scene)
     return pack;
 }
 
-/* By volume, not in the order of materials; a rod is less than the cube it is longer than; small bodies of a material do not count;
- * water without a top is displaced by everything. */
+/* Order is by volume, not by material number. A rod has less volume than a cube, though it is longer. Small bodies of a material do not
+ * count. Water without a top is displaced by everything. */
 static void less_displaces_more(void)
 {
     ec_model *m = ec_model_new();
@@ -60,7 +60,7 @@ static void less_displaces_more(void)
     ec_scene_free(scene);
 }
 
-/* Apart, or of one material, or not bodies at all, they call for nothing. */
+/* Separate bodies, bodies of one material, and surfaces that are no bodies need no effect. */
 static void apart(void)
 {
     for (int i = 0; i < 4; i++) {
@@ -95,7 +95,7 @@ static void too_many(void)
     }
 }
 
-/* A cube in a mirrored one, and a ball. */
+/* A cube inside a mirrored one, and a ball. */
 static void contained(void)
 {
     static const double mirrored[16] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

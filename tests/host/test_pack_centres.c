@@ -1,9 +1,9 @@
 /* tier: quick */
-/* Lights of integrators that sum over all of them: one of which nothing comes is none of them. */
+/* Lights for integrators that sum over all lights: a light without power is not in the list. */
 #include "pack/pack.h"
 #include "textured_triangle.h"
 
-/* Two triangles apart, of which one has all of its coordinates in the red texel of a picture that is red and green. */
+/* Two separate triangles; the texture coordinates of one are all in the red texel of a red and green picture. */
 static const float two[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 1};
 static const float left_and_right[12] = {0.1f, 0, 0.4f, 0, 0.2f, 1, 0.6f, 0, 0.9f, 0, 0.7f, 1};
 #define TWO(FACTOR)                                                                                                                      \
@@ -25,7 +25,7 @@ static void check(const char *text, uint32_t expected, const float emission[3])
     CHECK_MSG(s != NULL, "%s", err.text);
     if (!s) exit(1);
     CHECK_OK(ec_pack_scene(s, &pack, &err), err);
-    CHECK_MSG(pack.light_count == 2, "%u lights that are sampled", pack.light_count); /* a little of the whole texture keeps each of them */
+    CHECK_MSG(pack.light_count == 2, "%u lights that are sampled", pack.light_count); /* a little of the whole texture keeps both */
     CHECK_OK(ec_pack_light_centres(&pack.plain.scene, &pack, &err), err);
     CHECK_MSG(pack.light_count == expected, "%u centres, not %u", pack.light_count, expected);
     for (int k = 0; k < 3; k++) CHECK_NEAR(pack.lights[0].emission[k], emission[k], 1e-6);

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Lamps that lie exactly on one another are one light, of which all their triangles know the density. Expected counts by hand. */
+/* Lamps that coincide exactly are one light; all their triangles have the light's density. Expected counts by hand. */
 #include "pack/pack.h"
 #include "support/gltf_writer.h"
 #include "support/test.h"
@@ -52,7 +52,8 @@ static void not_the_same(const one *triangles, const char *name, uint32_t lights
     ec_pack_free(&pack);
 }
 
-/* In every order of the corners that keeps the front; an odd one is another lamp. Where both shine both ways, too: a ray meets the one that faces it. */
+/* For every order of the corners that keeps the front; an odd permutation is another lamp. Also two-sided lamps: a ray meets the one that
+ * faces it. */
 static void every_order(void)
 {
     static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Which faces are rivals in one plane: by hand for a few, by all pairs for many; and which are none. */
+/* Finds faces that overlap in one plane: by hand for a few, by all pairs for many; and others that do not count. */
 #include "gltf/reader.h"
 #include "pack/near_pairs.h"
 #include "pack/pack.h"
@@ -14,7 +14,7 @@ typedef struct quad {
     bool back; /* faces down */
 } quad;
 
-/* The material shines where it matters which face is met. */
+/* The material emits in cases where it matters which face is met. */
 static ec_pack pack_of(const quad *quads, int count, double emission)
 {
     gltf_writer *w = gltf_new();
@@ -30,7 +30,7 @@ static ec_pack pack_of(const quad *quads, int count, double emission)
     return pack;
 }
 
-/* Entries of a triangle's list: of those that face the other way, and of those that face as it does. */
+/* Entries in a triangle's list: faces that face the other way, and faces that face as it does. */
 static void check_list(const ec_pack *pack, uint32_t prim, uint32_t opposite, uint32_t alike)
 {
     uint32_t at = pack->coplanar ? pack->coplanar[prim] : 0, has[2] = {at ? pack->coplanar[at] : 0, at ? pack->coplanar[at + 1] : 0};
@@ -41,12 +41,12 @@ static void by_hand(void)
 {
     ec_pack pack = pack_of((quad[]){{{0, 0, 0}}, {{0.5, 0, 0}}, {{0.5, 0, 0}, .back = true}}, 3, 1);
     CHECK(pack.effects.bits & EC_FEATURE_COPLANAR);
-    check_list(&pack, 0, 2, 0); /* below the first one's diagonal; the moved one's both halves reach there */
-    check_list(&pack, 2, 1, 1); /* its own half turned round, and of the first quad the half that reaches below its diagonal */
+    check_list(&pack, 0, 2, 0); /* below the first one's diagonal; both halves of the moved one reach there */
+    check_list(&pack, 2, 1, 1); /* its own half reversed, and the half of the first quad that reaches below its diagonal */
     ec_pack_free(&pack);
 }
 
-/* Whichever is met, it looks the same. */
+/* Both faces look the same, so it does not matter which is met. */
 static void plain(void)
 {
     ec_pack pack = pack_of((quad[]){{{0, 0, 0}}, {{0.5, 0, 0}}}, 2, 0);
@@ -76,7 +76,7 @@ static bool count_pair(void *user, uint32_t a, uint32_t b)
     return true;
 }
 
-/* Boxes that touch, against every pair of 6 000 triangles. */
+/* Overlapping boxes, against every pair of 6 000 triangles. */
 static void every_pair(void)
 {
     enum { COUNT = 6000 };

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* The scan is exact: for each effect a pair, which calls for it and which does not, though it nearly does. */
+/* The scan is exact: each effect has a pair of materials, one that needs the effect and one that nearly does. */
 #include "pack/pack.h"
 #include "support/effect_model.h"
 #include "support/test.h"
@@ -35,7 +35,7 @@ static void check(const char *feature, uint64_t bit, const ec_material *m, bool 
     CHECK_MSG(!!(bits & bit) == expected, "line %d: %s: %s, by %s", line, feature, expected ? "not called for" : "called for", how);
 }
 
-/* Material m as `calls` and as `does_not` makes it out of one that calls for nothing. */
+/* Changes material m by `calls` and by `does_not`, starting from one that needs no effects. */
 #define PAIR(feature, calls, does_not)                                                             \
     do {                                                                                           \
         ec_material one = em_plain(), *m = &one;                                                   \
@@ -55,16 +55,16 @@ static void test_weights(void)
     PAIR(EMISSION, m->emission[0] = 1, (m->emission[0] = 1, m->unlit = true));
     PAIR(SPECULAR, m->metallic = 1, (m->metallic = 1, USE(METALLIC_ROUGHNESS, GREEN)));
     PAIR(SPECULAR, m->specular = 0.1f, (m->specular = 0.1f, USE(SPECULAR, BLACK)));
-    PAIR(SPECULAR, (m->specular = 1, memset(m->specular_color, 0, 12)), m->specular = 0); /* black edge-on is white: f90 */
+    PAIR(SPECULAR, (m->specular = 1, memset(m->specular_color, 0, 12)), m->specular = 0); /* black is white at grazing angles: f90 */
     PAIR(TRANSMISSION, m->transmission = 0.1f, (m->transmission = 1, USE(TRANSMISSION, BLACK)));
-    PAIR(TRANSMISSION, (m->transmission = 1, USE(TRANSMISSION, MIXED)), (m->transmission = 1, USE(TRANSMISSION, GREEN))); /* in red */
+    PAIR(TRANSMISSION, (m->transmission = 1, USE(TRANSMISSION, MIXED)), (m->transmission = 1, USE(TRANSMISSION, GREEN))); /* in the red channel */
     PAIR(TRANSMISSION, (m->transmission = 1, m->metallic = 0.9f), (m->transmission = m->metallic = 1));
     PAIR(TRANSMISSION, m->transmission = 1, (m->transmission = 1, m->unlit = true));
     PAIR(ABSORPTION, (m->transmission = 1, m->volume = true, m->absorption[1] = 1), (m->transmission = 1, m->absorption[1] = 1));
     PAIR(ABSORPTION, (m->transmission = 1, m->volume = true, m->absorption[1] = 1),
          (m->transmission = 1, m->volume = true, m->absorption[1] = 1, USE(TRANSMISSION, BLACK)));
     PAIR(SCATTERING, (m->transmission = 1, m->volume = true, m->absorption[1] = m->scatter[1] = 1),
-         (m->transmission = 1, m->volume = true, m->absorption[1] = m->scatter[0] = 1)); /* in red nothing is in its way */
+         (m->transmission = 1, m->volume = true, m->absorption[1] = m->scatter[0] = 1)); /* in the red channel nothing blocks it */
     PAIR(SCATTERING, (m->diffuse_transmission = 1, m->volume = true, m->absorption[1] = m->scatter[1] = 1),
          (m->transmission = 1, m->absorption[1] = m->scatter[1] = 1));
     PAIR(CLEARCOAT, (m->coat = 1, USE(CLEARCOAT, WHITE)), (m->coat = 1, USE(CLEARCOAT, GREEN)));
@@ -72,7 +72,7 @@ static void test_weights(void)
     PAIR(SHEEN, (m->sheen[1] = 1, USE(SHEEN_COLOR, GREEN)), (m->sheen[0] = m->sheen[2] = 1, USE(SHEEN_COLOR, GREEN)));
     PAIR(ANISOTROPY, (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1), (m->metallic = m->roughness = m->anisotropy = 1));
     PAIR(ANISOTROPY, (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1, USE(ANISOTROPY, WHITE)),
-         (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1, USE(ANISOTROPY, GREEN))); /* strength is in blue */
+         (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1, USE(ANISOTROPY, GREEN))); /* strength is in the blue channel */
     PAIR(ANISOTROPY, (m->metallic = 1, m->roughness = 0.5f, m->anisotropy = 1), (m->roughness = 0.5f, m->anisotropy = 1));
     PAIR(ANISOTROPY, (m->transmission = 1, m->roughness = 0.5f, m->anisotropy = 1), (m->transmission = m->roughness = m->anisotropy = 1));
     PAIR(ANISOTROPY, (m->transmission = 1, m->volume = true, m->roughness = 0, m->anisotropy = 0.1f), (m->transmission = 1, m->volume = true, m->roughness = 0));
@@ -89,7 +89,7 @@ static void test_weights(void)
     PAIR(CULLING, (m->double_sided = false, m->transmission = 1), (m->double_sided = false, m->transmission = 1, m->volume = true));
 }
 
-/* Textures that say nothing: of one value, which is put into the factor; of a factor of 0; of what is not there. */
+/* Textures without influence: of one value, which becomes part of the factor; with a factor of 0; for a layer that is absent. */
 static void test_textures(void)
 {
     PAIR(BASE_COLOR_TEXTURE, USE(BASE_COLOR, MIXED), USE(BASE_COLOR, GREY));
@@ -121,7 +121,7 @@ static void test_coverage(void)
     PAIR(ALPHA, (m->alpha_mode = EC_ALPHA_MASK, m->alpha_cutoff = 0.5f, m->base_color[3] = 0.49f),
          (m->alpha_mode = EC_ALPHA_MASK, m->alpha_cutoff = 0.5f, m->base_color[3] = 0.5f));
     PAIR(ALPHA, (m->unlit = true, m->alpha_mode = EC_ALPHA_BLEND, m->base_color[3] = 0.9f), m->base_color[3] = 0.5f);
-    /* What nothing is seen of calls for no more than its absence. */
+    /* A surface that nothing shows needs no more effects than its absence. */
     PAIR(SHEEN, (m->sheen[0] = 1, m->alpha_mode = EC_ALPHA_BLEND, m->base_color[3] = 0.1f),
          (m->sheen[0] = 1, m->alpha_mode = EC_ALPHA_BLEND, m->base_color[3] = 0));
     PAIR(AREA_LIGHTS, (m->emission[0] = 1, m->alpha_mode = EC_ALPHA_MASK, m->alpha_cutoff = 0.5f, USE(BASE_COLOR, MIXED)),
@@ -178,12 +178,12 @@ static void test_environment(void)
     check_environment(false, 1, 0, EC_FEATURE_ENVIRONMENT);
     check_environment(false, 0, 0, 0);
     check_environment(true, 1, 2, EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP);
-    check_environment(true, 1, 1, EC_FEATURE_ENVIRONMENT); /* a map of one radiance is none */
+    check_environment(true, 1, 1, EC_FEATURE_ENVIRONMENT); /* a map of one radiance counts as a constant */
     check_environment(true, 0, 0, 0);
     check_environment(true, 0, 1, EC_FEATURE_ENVIRONMENT | EC_FEATURE_ENVIRONMENT_MAP);
 }
 
-/* A sheen that no triangle shows: no mesh of it, a mesh without triangles, or without area; and through a node, which shows it. */
+/* A sheen that no triangle shows: no mesh uses it, or the mesh has no triangles or no area. Then a node shows it. */
 static void test_unused(void)
 {
     static const float flat[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, area[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -227,13 +227,13 @@ static void test_vertices(void)
         scene->colors = calloc(4 * (size_t)scene->vertex_count + 4, sizeof *scene->colors);
         for (uint32_t k = 0; k < 4 * scene->vertex_count; k++) scene->colors[k] = 1;
         if (i == 1) scene->colors[5] = 0.5f;
-        if (i == 2) scene->colors[4 * scene->vertex_count++] = 0.5f; /* of a vertex that no triangle has */
+        if (i == 2) scene->colors[4 * scene->vertex_count++] = 0.5f; /* a vertex that no triangle uses */
         CHECK_MSG(!!(scan(scene) & EC_FEATURE_VERTEX_COLORS) == (i == 1), "vertex colours, case %d", i);
         ec_scene_free(scene);
     }
 }
 
-/* Of a scene that calls for all that can be left out: without one effect, that one is not called for. */
+/* From a scene that needs all optional effects, each is left out: then the scene does not need it. */
 static void test_without(void)
 {
     ec_scene *scene = em_everything();
@@ -244,12 +244,12 @@ static void test_without(void)
         uint64_t bit = ec_features[i].bit, off = bit;
         if (!(ec_effects_optional & bit)) continue;
         if (bit == EC_FEATURE_SPECULAR) off |= EC_FEATURE_TRANSMISSION | EC_FEATURE_CLEARCOAT | EC_FEATURE_SHEEN | EC_FEATURE_IRIDESCENCE | EC_FEATURE_DIFFUSE_TRANSMISSION; /* these reflect too */
-        if (bit == EC_FEATURE_BASE_COLOR_TEXTURE) off |= EC_FEATURE_ALPHA; /* coverage is in it */
+        if (bit == EC_FEATURE_BASE_COLOR_TEXTURE) off |= EC_FEATURE_ALPHA; /* contains coverage */
         CHECK_OK(ec_scene_view_without(scene, off, EC_ALL_MATERIALS, &view, &err), err);
         CHECK_MSG(!(scan(&view.scene) & bit), "%s is called for though it is left out", ec_features[i].name);
         ec_scene_view_free(&view);
     }
-    /* Half of the texels are 1 and half 0; sRGB's 0 and 1 are 0 and 1. Of one material alone: the others stay. */
+    /* Half of the texels are 1 and half 0, which are the same in sRGB. Only one material is changed. */
     CHECK_OK(ec_scene_view_without(scene, EC_FEATURE_ENVIRONMENT_MAP, EC_ALL_MATERIALS, &view, &err), err);
     CHECK(scene->environment.rgb && !view.scene.environment.rgb);
     CHECK_NEAR(view.scene.environment.constant[0], 0.45, 1e-7);
@@ -262,7 +262,7 @@ static void test_without(void)
     CHECK(m->textures[EC_SLOT_BASE_COLOR].texture < 0 && m->textures[EC_SLOT_NORMAL].texture < 0);
     CHECK(m->textures[EC_SLOT_SPECULAR].texture == EM_MIXED && view.scene.materials[2].textures[EC_SLOT_NORMAL].texture == EM_MIXED);
     ec_scene_view_free(&view);
-    /* What is left open stays open: of a texture that says so its colours alone are left out. */
+    /* Coverage stays: for a texture with alpha, only its colours are left out. */
     CHECK_OK(ec_scene_view_without(scene, EC_FEATURE_BASE_COLOR_TEXTURE, EC_ALL_MATERIALS, &view, &err), err);
     m = &view.scene.materials[7];
     CHECK(m->base_color[0] == 0.25f && m->base_color[3] == 0.5f && m->textures[EC_SLOT_BASE_COLOR].texture != EM_MIXED);
@@ -301,7 +301,7 @@ static void test_names(void)
     ec_scene_free(scene);
 }
 
-/* Asked for by an option: of what shows, rough metal and glass. */
+/* Requested by an option, for visible rough metal and glass. */
 static void check_rough(const ec_material *m, bool expected, int line)
 {
     effect_model e = em_new();
@@ -339,7 +339,7 @@ static void test_rough(void)
     check_rough(m, false, __LINE__);
     *m = em_plain(), m->metallic = 1, m->roughness = 0.5f, m->unlit = true;
     check_rough(m, false, __LINE__);
-    *m = em_plain(), m->specular = 1, m->roughness = 1; /* of plastic next to nothing is lost */
+    *m = em_plain(), m->specular = 1, m->roughness = 1; /* plastic loses almost nothing */
     check_rough(m, false, __LINE__);
 }
 

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* A texture of one colour becomes part of its factors, and --without puts the mean in a texture's place. Values are by the
- * specifications' words: which channel multiplies what, and which slots are sRGB. */
+/* A texture of one colour becomes part of its factors, and --without replaces a texture by its mean. Expected values are from the
+ * specifications: which channel multiplies which factor, and which slots are sRGB. */
 #include <stddef.h>
 
 #include "pack/texture_fold.h"
@@ -29,7 +29,7 @@ static double decoded(uint8_t byte, bool srgb)
     return !srgb ? v : v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
-/* Every factor 0.5; the texture only in one slot. */
+/* All factors are 0.5; only one slot has the texture. */
 static ec_material half(int slot)
 {
     ec_material m = {0};

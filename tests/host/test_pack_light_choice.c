@@ -1,13 +1,13 @@
 /* tier: quick */
-/* When --light-choice auto takes the tree: lamps far apart that give a part of the light worth its time. And what a tree leaves
- * to the sky. */
+/* When --light-choice auto uses the tree: if distant lamps give a part of the light that is worth its time. And the share that a tree
+ * leaves to the sky. */
 #include "pack/bulbs.h"
 #include "gltf/model.h"
 #include "support/test.h"
 
 enum { SIDE = 8 };
 
-/* side^2 lamps of radiance 1 over a floor, in a sky. */
+/* side^2 lamps of radiance 1 above a floor, in a sky. */
 static ec_scene *lamps(int side, double size, double gap, double sky)
 {
     ec_error err = {0};
@@ -44,7 +44,7 @@ static bool wants_tree_of(int side, double size, double gap, double sky)
 
 static bool wants_tree(double gap, double sky) { return wants_tree_of(SIDE, 0.01, gap, sky); }
 
-/* Half of all samples go to the sky, as by power (light_table.c); densities of lamps are those of the one that the tree will have chosen. */
+/* Half of all samples go to the sky, as by power (light_table.c); lamps' densities are conditional on the lamp that the tree chooses. */
 static void the_sky_keeps_its_half(void)
 {
     ec_error err = {0};
@@ -60,7 +60,7 @@ static void the_sky_keeps_its_half(void)
         const ec_light_data *l = &pack.lights[i];
         if ((l->kind & EC_LIGHT_KIND_MASK) != EC_KIND_TRIANGLE) continue;
         CHECK(l->pmf == 1);
-        CHECK_NEAR(l->pdf_a, 1 / 0.5e-4, 0.2); /* edges of 0.01, at 4 their floats are good to 5e-5 of themselves */
+        CHECK_NEAR(l->pdf_a, 1 / 0.5e-4, 0.2); /* edges of 0.01; at 4, floats have a relative error of 5e-5 of that */
         CHECK(pack.prims[l->prim].light_pdf_a == l->pdf_a);
         found++;
     }
@@ -74,11 +74,11 @@ int main(void)
     CHECK(wants_tree(0.5, 0));
     CHECK(!wants_tree(0.02, 0)); /* a cluster */
     CHECK(wants_tree_of(2, 0.5, 2.5, 0));
-    CHECK(!wants_tree_of(2, 1.5, 2.5, 0)); /* panels all but next to each other */
+    CHECK(!wants_tree_of(2, 1.5, 2.5, 0)); /* panels that almost touch */
     CHECK(!wants_tree_of(1, 2, 0, 0));
     CHECK(!wants_tree_of(SIDE, 0.25, 0.25, 0)); /* one panel of many triangles */
     CHECK(wants_tree_of(SIDE, 0.5, 0.5, 0));    /* one that is half of the scene */
-    /* Lamps send pi 64 1e-4, the sky 4 pi^2 r^2 with a radius r of some 7: equal at a sky of 1e-5. */
+    /* The lamps' power is pi 64 1e-4, the sky's 4 pi^2 r^2 with a radius r of about 7: equal at a sky of 1e-5. */
     CHECK(wants_tree(0.5, 1e-5));
     CHECK(wants_tree(0.5, 2.5e-3)); /* 0.4 % */
     CHECK(!wants_tree(0.5, 1e-2));  /* 0.1 % */

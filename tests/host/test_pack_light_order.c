@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Lights in their table: the environment first, then directional lights, then lamps, of which neighbours in the table are near each other. */
+/* Order of lights in the table: the environment, then directional lights, then lamps, whose neighbours in the table are close in space. */
 #include "pack/light_order.h"
 #include "support/random.h"
 #include "support/test.h"
@@ -15,13 +15,13 @@ int main(void)
     test_random numbers = {1};
     ec_error err = {0};
     for (uint32_t i = 0; i < LIGHTS; i++) power[i] = source[i] = i;
-    for (int i = 0; i < LAMPS; i++) { /* a grid, in an order that jumps about */
+    for (int i = 0; i < LAMPS; i++) { /* a grid, in an irregular order */
         const int place = i * 97 % LAMPS, at = place < LAMPS / 2 ? place : place + 1;
         ec_light_data *l = &lights[at];
         const float x = (float)(i % SIDE), z = (float)(i / SIDE);
         l->kind = i % 3 ? EC_KIND_POINT : EC_KIND_TRIANGLE | EC_LIGHT_TWO_SIDED;
         l->a[0] = x, l->a[2] = z;
-        l->b[0] = i % 3 ? 7.0f : x + 0.01f, l->b[2] = z; /* of a point no place */
+        l->b[0] = i % 3 ? 7.0f : x + 0.01f, l->b[2] = z; /* points have no area */
         l->c[0] = x, l->c[2] = z + 0.01f;
         l->pmf = (float)at;
     }
@@ -40,7 +40,7 @@ int main(void)
         random_way += hypot(floor(SIDE * test_uniform(&numbers)) - floor(SIDE * test_uniform(&numbers)),
                             floor(SIDE * test_uniform(&numbers)) - floor(SIDE * test_uniform(&numbers))) / (LAMPS - 1);
     }
-    /* Morton's curve goes 1.7 cells a step in the mean over such a grid, random pairs are 8 apart. */
+    /* Morton's curve moves 1.7 cells a step on average over such a grid; random pairs are 8 apart. */
     CHECK_MSG(way < 2 && random_way > 6, "%.2f cells a step, of random pairs %.2f", way, random_way);
     CHECK_OK(ec_light_order(lights, power, source, 0, &err), err);
     TEST_END();

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* The light tree as the host builds it: every lamp at the end of its trail, within every node above it; each bulb a node of its own; the same bytes
- * again; depth and time bounded. */
+/* The host's light tree: every lamp is at the end of its trail, within every node above it; each bulb is one node; bytes are reproducible;
+ * depth and time are bounded. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static forest make(uint32_t count, int shape)
         for (int k = 0; k < 3; k++) {
             if (shape == SCATTERED) at[k] = ec_random_unit(&state);
             if (shape == IN_A_ROW && k == 0) at[k] = i;
-            if (shape == GROWING) at[k] = pow(1.05, fmin(i, 1500)) * ec_random_unit(&state); /* each bin holds nearly all */
+            if (shape == GROWING) at[k] = pow(1.05, fmin(i, 1500)) * ec_random_unit(&state); /* each bin contains nearly all */
         }
         for (int k = 0; k < 3; k++) {
             l->a[k] = (float)at[k];
@@ -57,7 +57,7 @@ static double angle_between(const double a[3], const float b[3])
     return acos(fmin(fmax(d / sqrt(e), -1), 1));
 }
 
-/* Does a node hold the lamp: its corners in the sphere, its normal in the cone (or that turned round)? */
+/* Checks that a node contains the lamp: its corners in the sphere, its normal (or the reverse) in the cone. */
 static bool holds(const ec_light_node *n, const ec_light_data *l, const ec_light_bounds *b)
 {
     const float *corners[3] = {l->a, l->b, l->c};
@@ -70,7 +70,7 @@ static bool holds(const ec_light_node *n, const ec_light_data *l, const ec_light
     return angle <= spread + 1e-6 && (!b->two_sided || (n->flags & EC_LIGHT_NODE_TWO_SIDED));
 }
 
-/* A bulb's record: where its lamps begin in the table, how many they are, and of each the first of 2^32 numbers, as powers have it. */
+/* A bulb's record: the start of its lamps in the table, their number, and for each its first of 2^32 numbers, by power. */
 static void check_record(const forest *f, const ec_bulb *bulb, const ec_light_node *bulb_node)
 {
     const uint32_t *words = (const uint32_t *)(f->nodes + bulb_node->link + 2);
@@ -131,7 +131,7 @@ static void check(uint32_t count, int shape, const ec_bulb *bulbs, uint32_t bulb
     drop(&again);
 }
 
-/* The share of a lamp without power is a number above 0 all the same: kernels divide by sums of them. */
+/* Even a lamp without power has a share above 0: kernels divide by sums of shares. */
 static void check_without_power(void)
 {
     forest f = make(3, SCATTERED);
@@ -150,7 +150,7 @@ int main(void)
         check(2, shape, NULL, 0);
         check(3, shape, NULL, 0);
         check(5000, shape, NULL, 0);
-        check(5000, shape, (ec_bulb[]){{0, 8}, {8, 100}, {500, 4500}}, 3); /* together they fill it, but for 392 */
+        check(5000, shape, (ec_bulb[]){{0, 8}, {8, 100}, {500, 4500}}, 3); /* together they fill it, except for 392 */
         check(20, shape, (ec_bulb[]){{0, 20}}, 1);
     }
     check(100000, SCATTERED, (ec_bulb[]){{5, 8000}}, 1);

@@ -1,6 +1,5 @@
 /* tier: quick */
-/* An environment map's probabilities against those of the definition, written down patch by patch; and the same bytes for any number of
- * threads. */
+/* An environment map's probabilities against the definition, patch by patch; and equal bytes for any number of threads. */
 #include <omp.h>
 
 #include "pack/pack.h"
@@ -10,10 +9,10 @@ static double luminance(const float *rgb) { return 0.2126 * rgb[0] + 0.7152 * rg
 
 static double sine(const ec_environment *e, uint32_t y) { return sin(3.14159265358979323846 * (y + 0.5) / e->height); }
 
-/* Middles of the rows that bound a row of patches, from the upper pole in texels; the poles themselves bound the first and the last. */
+/* Centres of the rows that bound a row of patches, in texels from the upper pole; the poles themselves bound the first and the last. */
 static double edge(const ec_environment *e, int64_t y) { return y < 0 ? 0 : y >= (int64_t)e->height ? e->height : y + 0.5; }
 
-/* Integral over a patch of the interpolant's luminance times a sine that is linear between its edges, by Simpson's rule: exact, of a
+/* Integral over a patch of the interpolated luminance times a sine that is linear between the edges, by Simpson's rule: exact for a
  * polynomial of degree two. */
 static double integral(const ec_environment *e, uint32_t x, uint32_t y)
 {
@@ -36,8 +35,8 @@ static uint64_t share(const ec_distribution_entry *table, uint32_t n, uint32_t i
     return (uint32_t)((i + 1 < n ? table[i + 1].first : 0) - table[i].first) + ((uint64_t)(n == 1) << 32);
 }
 
-/* A patch's scale is its chance over its integral, per solid angle: of 2 pi^2 over as many texels. Where all is positive that is one number
- * for the whole map, but for the rounding of shares to whole numbers. */
+/* A patch's scale is its probability over its integral, per solid angle: of 2 pi^2 over as many texels. Where all texels are positive it is
+ * one number for the whole map, except for rounding of shares to whole numbers. */
 static void check(const ec_environment *e)
 {
     const uint32_t w = e->width, h = e->height;
@@ -95,7 +94,7 @@ int main(void)
     static const uint32_t sizes[][2] = {{1, 1}, {2, 1}, {1, 2}, {3, 3}, {1, 50}, {50, 1}, {37, 19}, {257, 131}, {700, 300}};
     uint32_t noise = 1;
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        for (int kind = 0; kind < 3; kind++) { /* all lit; a third black, and a row; all black */
+        for (int kind = 0; kind < 3; kind++) { /* all lit; a third and a row black; all black */
             ec_environment e = {.width = sizes[i][0], .height = sizes[i][1]};
             const size_t values = 3 * (size_t)e.width * e.height;
             e.rgb = malloc(values * sizeof *e.rgb);

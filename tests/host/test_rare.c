@@ -1,5 +1,6 @@
 /* tier: quick */
-/* No bound while light may be missing: what film/rare.h predicts, and what becomes of a film's error, its pixels' flags and a stored job. */
+/* No bound while light may be missing: predictions of film/rare.h, and their effect on a film's error, on its pixels' flags and on a stored
+ * job. */
 #include "film/rare.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 
 enum { WIDTH = 32, HEIGHT = 32, REPLICATES = 8 };
 
-/* Half of the light is in the first tile, and met once in 2^20 samples; the rest is met by one in 10. */
+/* Half of the light is in the first tile and found by one of 2^20 samples; one of 10 finds the rest. */
 static ec_rare two_kinds(void)
 {
     ec_rare rare = {.count = 2, .width = WIDTH, .height = HEIGHT};
@@ -34,7 +35,7 @@ static void test_kinds(void)
     CHECK_NEAR(ec_rare_unmet_at(&rare, 64, 3, 0, 0, 0), EC_RARE_SHARES, 1e-9); /* all of it in one of so many tiles */
     CHECK(ec_rare_unmet_at(&rare, 64, 3, 0, 2, 0) == 0);
     ec_rare clamped = rare;
-    clamped.kinds[0].clamped = 0.5; /* half of its light, down to 4 a sample */
+    clamped.kinds[0].clamped = 0.5; /* half of its light, limited to 4 a sample */
     CHECK_NEAR(ec_rare_unmet(&clamped, 1e4, 3, 4, &most), 64 * pow(0.5 + 4 * 0x1p-20, 2), 1e-12);
     clamped.kinds[0].is_relative = true;
     CHECK_NEAR(ec_rare_unmet(&clamped, 1e4, 3, 0, &most), 64 * 9, 1e-12); /* three times the picture's mean */
@@ -82,7 +83,7 @@ static void test_film(void)
     ec_rare rare = two_kinds();
     const ec_film_error plain = ec_film_estimate_error(&film);
     CHECK(!plain.is_open && isfinite(plain.error_bound) && plain.unmet == 0);
-    const uint64_t count = count_heavy(&film, before); /* by their few samples */
+    const uint64_t count = count_heavy(&film, before); /* since samples are few */
 
     CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
     const ec_film_error open = ec_film_estimate_error(&film);
@@ -90,7 +91,7 @@ static void test_film(void)
     CHECK_NEAR(open.unmet, 8 / plain.mean_luminance, 1e-9);
     CHECK_NEAR(open.unmet_samples, EC_RARE_MET * 0x1p20 / (WIDTH * HEIGHT), 1e-6);
     CHECK(!strcmp(open.through, "glass") && !strcmp(open.light, "\"lamp\""));
-    const uint64_t with = count_heavy(&film, heavy); /* and now all of the first tile, 2 x 2 pixels */
+    const uint64_t with = count_heavy(&film, heavy); /* and now the whole first tile, 2 x 2 pixels */
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const bool is_lacking = i % WIDTH < 2 && i / WIDTH < 2;
         CHECK(heavy[i] == (is_lacking ? 1 : before[i]));
@@ -98,15 +99,15 @@ static void test_film(void)
     }
     CHECK(added > 0 && with == count + added);
 
-    rare.kinds[0].luminance = 1e-5; /* of no weight beside the noise */
+    rare.kinds[0].luminance = 1e-5; /* negligible beside the noise */
     CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
     const ec_film_error weak = ec_film_estimate_error(&film);
     CHECK(!weak.is_open && count_heavy(&film, heavy) == count);
-    CHECK_NEAR(weak.error_bound, hypot(plain.error_bound, EC_RARE_DOUBT * weak.unmet), 1e-12); /* but wider for it */
+    CHECK_NEAR(weak.error_bound, hypot(plain.error_bound, EC_RARE_DOUBT * weak.unmet), 1e-12); /* but wider because of it */
     ec_film_destroy(&film);
 }
 
-/* A sample that met the light by chance makes the picture brighter, and what is missing small beside it. */
+/* A sample that found the light by chance makes the picture brighter, so the missing light seems small beside it. */
 static void test_lucky_sample(void)
 {
     ec_error err = {0};
@@ -119,7 +120,7 @@ static void test_lucky_sample(void)
     const ec_film_error lucky = ec_film_estimate_error(&film);
     CHECK(lucky.unmet < EC_RARE_LEAST && lucky.unmet < lucky.bound_if_met - lucky.error && lucky.tail_share > 0.75);
     CHECK(lucky.is_open);
-    rare.kinds[0].luminance = 0.01; /* next to nothing of what the picture is without that sample */
+    rare.kinds[0].luminance = 0.01; /* almost nothing of the picture without that sample */
     CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
     CHECK(!ec_film_estimate_error(&film).is_open);
     ec_film_destroy(&film);

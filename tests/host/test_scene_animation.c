@@ -1,8 +1,8 @@
 /* tier: quick */
-/* Animations at a moment: every interpolation against its formula, clamping, what channels may point at, defects. */
+/* Animations at a moment: every interpolation against its formula, clamping, targets of channels, defects. */
 #include "test_scene_files.h"
 
-/* One triangle at the origin, whose node is moved; accessor 1 are times, 2 values. @keys@ has what both need. */
+/* One triangle at the origin, whose node is animated; accessor 1 has times, 2 values. @keys@ has both. */
 #define ANIMATED(NODE, TARGET, INTERPOLATION, VALUES, ROOT)                                                                    \
     "{'asset':{'version':'2.0'},'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0" NODE "}],"                                        \
     "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':0},{'POSITION':0}]}]}],"                     \
@@ -27,7 +27,7 @@ static ec_scene *load_at(const char *json, const keys *k, double at)
     return s;
 }
 
-/* Where one corner of the triangle stands; corner 1 is (1, 0, 0) in the file. */
+/* Position of one corner of the triangle; corner 1 is (1, 0, 0) in the file. */
 static void expect_corner(const char *json, const keys *k, double at, uint32_t corner, const double expected[3])
 {
     ec_scene *s = load_at(json, k, at);
@@ -70,7 +70,8 @@ static void test_cubic(void)
     free(two);
 }
 
-/* 170 degrees about z in 3 s: as much in every third of it, which a chord is not. The other sign of the quaternion is the same turn. */
+/* 170 degrees about z in 3 s, at constant speed, which linear interpolation of components does not give. The negated quaternion is the same
+ * rotation. */
 static void test_rotation(void)
 {
     const char floats[] = ANIMATED("", NODE_0("rotation"), "LINEAR", FLOATS("3", "VEC4"), "");
@@ -86,16 +87,16 @@ static void test_rotation(void)
     const int16_t turns[12] = {0, 0, 0, 32767, 0, 0, 32767, 0, 0, 0, 0, 32767};
     memcpy(k.values, turns, sizeof turns);
     expect_corner(shorts, &k, 1.5, 1, (double[3]){0, 1, 0});
-    /* What a cubic spline makes of them need not be a unit quaternion; the turn is the same. */
+    /* A cubic spline need not give a unit quaternion; the rotation is that of the normalised one. */
     const char cubic[] = ANIMATED("", NODE_0("rotation"), "CUBICSPLINE", FLOATS("9", "VEC4"), "");
     keys c = {.times = {0, 2, 4}};
-    c.values[4 + 3] = 1, c.values[16 + 2] = 1, c.values[28 + 3] = 1; /* none, half a turn, none; no tangents */
+    c.values[4 + 3] = 1, c.values[16 + 2] = 1, c.values[28 + 3] = 1; /* no turn, half a turn, no turn; no tangents */
     expect_corner(cubic, &c, 1, 1, (double[3]){0, 1, 0});
 }
 
 #define POINTER(AT) "'path':'pointer','extensions':{'KHR_animation_pointer':{'pointer':'" AT "'}}"
 
-/* A matrix gives way to what is animated. Scale; two weights of morph targets at once, each of which adds the triangle to itself. */
+/* An animated node's matrix is replaced. Scale; and two weights of morph targets, each of which adds the triangle to itself. */
 static void test_scale_and_weights(void)
 {
     const char scale[] = ANIMATED(",'matrix':[1,0,0,0,0,1,0,0,0,0,1,0,9,9,9,1]", NODE_0("scale"), "LINEAR", FLOATS("3", "VEC3"), "");
@@ -138,11 +139,12 @@ static void test_pointers(void)
     const char *elsewhere[] = {"/asset/version", "/accessors/0/count", "/nodes/7/translation", "/nodes/-1/translation", "/materials/0",
                                "/materials/0/extensions/KHR_materials_unlit/x", "", "nodes/0/scale", "/nodes/00000000000000000000/scale", "/skins/0/joints", "/nodes/0/weights/0",
                                "/materials/0/emissiveFactor/0",
-                               /* What only a texture, a projection or an extension that is there can have; what is made on the way would be broken. */
+                               /* Pointers to members that only a texture, a projection or an extension in the file can have; adding them
+                                * would break the material. */
                                "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset",
                                "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation",
                                "/materials/0/normalTexture/scale", "/cameras/0/orthographic/xmag", "/materials/0/extensions/KHR_materials_ior/ior",
-                               /* What eclat knows no member of, or none of numbers. */
+                               /* Pointers to members that eclat does not know, or that are not numbers. */
                                "/materials/0/pbrMetallicRoughness/basecolorFactor", "/nodes/0/bogus", "/nodes/0/", "/nodes/0/mesh", "/cameras/0/type",
                                "/materials/0/name", "/materials/0/alphaMode"};
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
@@ -157,7 +159,7 @@ static void test_pointers(void)
     ec_scene_free(s);
 }
 
-/* By name, by index, all; none without --at, and then it is said. */
+/* By name, by index, all; without --at none, with a message. */
 static void test_choice(void)
 {
     const char one[] = ANIMATED("", NODE_0("translation"), "LINEAR", FLOATS("3", "VEC3"), "");
@@ -228,7 +230,7 @@ static void test_defects(void)
     expect_failure(json, blobs, "NaN or infinity at 1 s");
     k.times[1] = NAN;
     expect_failure(json, blobs, "must increase");
-    /* In an animation that is not asked for nothing but the shape matters. */
+    /* An animation that is not chosen is only checked for its form. */
     wanted = (ec_scene_choice){0};
     ec_error err;
     ec_scene *s = load_text(json, blobs, &err);

@@ -1,6 +1,6 @@
 /* tier: full */
-/* Every .gltf and .glb under the shared assets, good and bad, each in its own process with a time limit: no crash, no
- * hang, finite data; good files load, and files in which Khronos' validator finds no error load. */
+/* Every .gltf and .glb under the shared assets, good and bad, each in its own process with a time limit: no crash, no hang, finite data.
+ * Good files load, and so do files in which Khronos' validator finds no error. */
 #define _XOPEN_SOURCE 700
 #include <ftw.h>
 #include <signal.h>
@@ -64,7 +64,7 @@ static int load_in_child(const char *path, char message[2048])
     return code == LOADED || code == REFUSED ? code : -1;
 }
 
-/* Reasons that are ours, not the file's. */
+/* Reasons of eclat's, not the file's. */
 static int is_known_limit(const char *message)
 {
     return strstr(message, "which eclat does not support") || strstr(message, "nothing to render") ||

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Files that are wrong: one clear line each, and nothing opened, allocated or looped over on their word. */
+/* Broken files: one clear line each. Nothing is opened, allocated or looped over because a broken file says so. */
 #include <sys/stat.h>
 
 #include "test_scene_files.h"
@@ -16,7 +16,7 @@ static void expect_bytes_failure(const void *bytes, size_t size, const char *nee
 
 static void test_uris(void)
 {
-    /* The targets exist, so that a refusal is a refusal and not a missing file. */
+    /* The targets exist, so that each failure is a refusal and not a missing file. */
     write_file(ECLAT_TEST_OUT "/../scene_secret.bin", triangle_positions, 36);
     write_file(ECLAT_TEST_OUT "/scene plain.bin", triangle_positions, 36);
     write_file(ECLAT_TEST_OUT "/scene \xe2\x99\xbb.bin", triangle_positions, 36);
@@ -42,7 +42,7 @@ static void test_uris(void)
         ec_scene_free(s);
         free(json);
     }
-    /* An image may not escape either, even one that nobody uses. */
+    /* An image may not lead outside either, even one that nothing uses. */
     expect_failure(TRIANGLE("", "", "", ",'images':[{'uri':'../a.png'}]"), triangle_blobs, "images[0]: refusing URI");
     remove(ECLAT_TEST_OUT "/../scene_secret.bin");
     remove(ECLAT_TEST_OUT "/scene plain.bin");
@@ -139,7 +139,7 @@ static void test_trees(void)
     expect_failure(TRIANGLE(",'children':[1,2]},{'children':[2]},{'mesh':0", "", "", ""), triangle_blobs,
                    "nodes[2] is a child of nodes[0] and of nodes[1]");
     expect_failure("{'asset':{'version':'2.0'},'nodes':[{'children':[1]},{'children':[0]}]}", NULL, "cycle");
-    /* A chain of 200 000 nodes is deep, but no mistake. */
+    /* A chain of 200 000 nodes is deep, but valid. */
     enum { DEPTH = 200000 };
     char *nodes = malloc(DEPTH * 32), *at = nodes;
     for (int i = 1; i < DEPTH; i++) at += sprintf(at, "%s{'children':[%d]}", i > 1 ? "," : "", i + 1);
@@ -193,7 +193,7 @@ static void test_glb(void)
     unsigned char glb[2048], copy[2048];
     size_t size = make_glb(glb);
     ec_error err;
-    ec_scene *s = load_bytes(glb, size, ".gltf", &err); /* by content, not by name */
+    ec_scene *s = load_bytes(glb, size, ".gltf", &err); /* the type comes from the content, not from the name */
     CHECK_MSG(s && s->triangle_count == 1, "%s", err.text);
     ec_scene_free(s);
     for (size_t cut = 0; cut < size; cut++) {
@@ -218,7 +218,7 @@ static void test_glb(void)
     expect_bytes_failure(copy, size, "its binary chunk promises");
 }
 
-/* Many instances of a mesh of 100 000 triangles that no bytes stand for. */
+/* Many instances of a mesh of 100 000 triangles for which the file has no bytes. */
 static void test_bomb(int instances, const char *message)
 {
     char *json = malloc(1 << 20), *at = json;

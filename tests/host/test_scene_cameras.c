@@ -55,7 +55,7 @@ static void test_cameras_and_lights(void)
     CHECK(c[0].type == EC_CAMERA_PERSPECTIVE && c[0].yfov == 0.5f && c[0].aspect == 1.5f);
     check_vector(c[0].position, 0.5, 1.5, 3);
     check_vector(c[0].forward, -1, 0, 0);
-    check_vector(c[0].up, 0, -1, 0); /* mirrored in y: upside down, but not left for right */
+    check_vector(c[0].up, 0, -1, 0); /* mirrored in y: upside down, but not left-right */
     check_vector(c[0].right, 0, 0, 1);
     CHECK(c[1].type == EC_CAMERA_ORTHOGRAPHIC && c[1].xmag == 2 && c[1].ymag == 3);
     check_vector(c[1].forward, 0, -1, 0);
@@ -77,7 +77,7 @@ static void test_cameras_and_lights(void)
     ec_scene_free(s);
 }
 
-/* Every corner of the bounds must be in the framing camera's square view. */
+/* The framing camera's square view must contain every corner of the bounds. */
 static void test_framing(void)
 {
     ec_error err;
@@ -117,7 +117,7 @@ static void test_bad_cameras(void)
     }
 }
 
-/* What is taken otherwise than it stands in the file. */
+/* Values that are changed on loading. */
 static void test_odd_values_of_lights(void)
 {
     static const char *const odd[][3] = {
@@ -152,7 +152,7 @@ static void test_environment(void)
     CHECK(ec_scene_set_environment(&s, "/no/such/file.hdr", NULL, &err) == EC_FAILED && err.text[0]);
 }
 
-/* A picture with NaN, infinite and negative values comes in clean, and the count is told. */
+/* A picture with NaN, infinite and negative values is cleaned, and a message counts them. */
 static void test_environment_picture(void)
 {
     const float rgb[6] = {1, NAN, 3, -4, 5, INFINITY};
@@ -173,7 +173,7 @@ static void test_environment_picture(void)
     remove(path);
 }
 
-/* What KHR_lights_punctual does not allow is clamped, and told. */
+/* Values outside KHR_lights_punctual's ranges are clamped, with a message. */
 static void test_odd_lights(void)
 {
     static const struct {

@@ -2,7 +2,7 @@
 /* Scenes and variants by name and index. */
 #include "test_scene_files.h"
 
-/* Scene 0 shows the triangle at the origin, scene "aside" at x = 3, in red, or in green where the variant "summer" is chosen. */
+/* Scene 0 shows the triangle at the origin. Scene "aside" shows it at x = 3, in red, or in green with the variant "summer". */
 static const char two_scenes[] =
     "{'asset':{'version':'2.0'},'scenes':[{'nodes':[0]},{'name':'aside','nodes':[1]}],"
     "'nodes':[{'mesh':0},{'mesh':0,'translation':[3,0,0]}],'materials':["

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Compressed meshes and textures: one triangle as the libraries' own encoders pack it, and what a build without them says. */
+/* Compressed meshes and textures: one triangle packed by the libraries' own encoders, and messages of a build without them. */
 #include "gltf/codecs.h"
 #include "test_scene_files.h"
 #include "gltf/reader.h"
@@ -135,7 +135,7 @@ static void test_draco(void)
         expect_failure(json, with, cases[i].message);
         free(json);
     }
-    /* Whatever a byte becomes: a triangle, or a clear line. */
+    /* Any changed byte gives a triangle, or a clear line. */
     unsigned char broken[sizeof draco_triangle];
     const blob from_broken[] = {{"@draco@", broken, sizeof broken}, {0}};
     for (size_t i = 0; i < sizeof broken; i++) {
@@ -193,15 +193,15 @@ static void test_webp(void)
     }
 }
 
-/* A texture in a format that may not be read: the plain image beside it is taken, without one a warning says that the texture is left
- * out, and a file that insists is refused. Pictures that lie are found out too. */
+/* A texture in a format that cannot be read: the plain image beside it is used. Without one, a warning says that the texture is left out,
+ * and a file that requires the format is refused. Pictures of a wrong format are detected too. */
 static void test_fallbacks(void)
 {
     static const unsigned char ktx2[12] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
     const blob with[] = {{"@webp@", webp_two, sizeof webp_two}, {"@ktx2@", ktx2, sizeof ktx2}, {"@tri@", triangle_positions, sizeof triangle_positions}, {0}};
     static const struct {
         const char *texture, *used, *required;
-        int32_t side; /* of the picture that is taken; 0: none */
+        int32_t side; /* of the picture in use; 0: none */
         const char *says;
     } cases[] = {
         {"'source':1,'extensions':{'KHR_texture_basisu':{'source':2}}", "KHR_texture_basisu", NULL, 1, "not supported, so what they describe is left out: KHR_texture_basisu"},
@@ -241,7 +241,7 @@ static void test_fallbacks(void)
     }
 }
 
-/* KHR_materials_pbrSpecularGlossiness: reflectance as given, no metal, roughness 1 - glossiness; of a texture's alpha, texel by texel. */
+/* KHR_materials_pbrSpecularGlossiness: reflectance as given, no metal, roughness 1 - glossiness; from a texture's alpha, texel by texel. */
 static void test_specular_glossiness(void)
 {
     ec_scene *s = load_material("'extensions':{'KHR_materials_pbrSpecularGlossiness':{'diffuseFactor':[0.5,0.25,0.125,1],"
@@ -260,13 +260,13 @@ static void test_specular_glossiness(void)
         int32_t slot = m->textures[EC_SLOT_METALLIC_ROUGHNESS].texture;
         CHECK(slot >= 0 && m->textures[EC_SLOT_SPECULAR_COLOR].texture >= 0 && m->roughness == 1 && s->image_count == 2);
         const uint8_t *texels = s->images[s->textures[slot].image].rgba8;
-        /* 255 (1 - 0.5) = 127.5, up; 255 - 0.5 x 128 = 191 */
+        /* 255 (1 - 0.5) = 127.5, rounded up; 255 - 0.5 x 128 = 191 */
         CHECK_MSG(texels[1] == 128 && texels[5] == 191 && texels[2] == 0 && texels[6] == 0, "%d %d", texels[1], texels[5]);
     }
     ec_scene_free(s);
 }
 
-/* Khronos' models, packed and plain: as many triangles, and the same box to within the quantisation of 11 bits that is common. */
+/* Khronos' models, packed and plain: as many triangles, and the same box to the usual quantisation of 11 bits. */
 static void test_models(void)
 {
     static const char *const names[] = {"Box", "Duck", "RiggedSimple"};

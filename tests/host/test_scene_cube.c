@@ -1,6 +1,6 @@
 /* tier: quick */
-/* A cube's six faces as an equirectangular map: a smooth function of direction, drawn on the faces by the formulas of OpenGL's table
- * 8.19, must come out as itself everywhere, across edges and corners too. */
+/* A cube's six faces as an equirectangular map: a smooth function of direction, drawn on the faces by the formulas of OpenGL's table 8.19,
+ * must be reproduced everywhere, including edges and corners. */
 #include <math.h>
 
 #include "gltf/cube.h"
@@ -11,7 +11,7 @@ static double radiance(const double d[3], int channel)
     return channel == 0 ? 1 + 0.5 * d[0] : channel == 1 ? 1 + 0.5 * d[1] * d[2] : 1 + 0.4 * d[2] - 0.3 * d[1];
 }
 
-/* The table gives s and t of a direction; here its inverse, a row a face: s and t run to (sc + 1) / 2, (tc + 1) / 2. */
+/* The inverse of the table, which gives s and t of a direction; one row a face: s and t run to (sc + 1) / 2, (tc + 1) / 2. */
 static void direction(int face, double sc, double tc, double d[3])
 {
     double r[6][3] = {{1, -tc, -sc}, {-1, -tc, sc}, {sc, 1, tc}, {sc, -1, -tc}, {sc, -tc, 1}, {-sc, -tc, -1}};
@@ -33,7 +33,7 @@ static ec_cube draw(uint32_t size)
     return cube;
 }
 
-/* The largest difference anywhere, of the function at pixels' centres. */
+/* The largest difference from the function at pixels' centres. */
 static double worst(const ec_cube *cube, uint32_t width)
 {
     const double pi = 3.14159265358979323846;
@@ -50,9 +50,9 @@ static double worst(const ec_cube *cube, uint32_t width)
     return most;
 }
 
-/* Bilinear interpolation over pixels 2 / size apart errs by their square over 8 times the second derivative, some 1 along a face; past an
- * edge the neighbour's pixels, of weight 1/2 there, stand up to half a pixel aside: half of that times the first derivative, 0.5. Pixels
- * of the map lie everywhere, within 1 / 300 of edges and corners. */
+/* Bilinear interpolation over pixels 2 / size apart errs by their square over 8 times the second derivative, about 1 along a face. Beyond
+ * an edge the neighbour's pixels, with weight 1/2 there, are off by up to half a pixel: half of that times the first derivative, 0.5.
+ * Pixels of the map are everywhere, within 1 / 300 of edges and corners. */
 static void test_smooth(void)
 {
     static const uint32_t sizes[] = {1, 2, 8, 64};
@@ -65,7 +65,7 @@ static void test_smooth(void)
     }
 }
 
-/* Neighbouring pixels of a fine map never jump by more than the steepest interpolation allows: a seam would. */
+/* Neighbouring pixels of a fine map never differ by more than the steepest interpolation allows; at a seam they would. */
 static void test_seams(void)
 {
     enum { SIZE = 4, WIDTH = 2048, HEIGHT = 1024 };
@@ -80,7 +80,7 @@ static void test_seams(void)
     }
     float *rgb = malloc(3 * sizeof(float) * WIDTH * HEIGHT);
     ec_cube_unroll(&cube, WIDTH, HEIGHT, 1, rgb);
-    /* Values 0 to 1 over pixels 2 / SIZE apart, along both axes; on a face a step of an angle is up to 3 times that in the corners. */
+    /* Values 0 to 1 over pixels 2 / SIZE apart, along both axes; in the corners of a face a step of an angle is up to 3 times that. */
     double step = 2 * 3.14159265 / WIDTH, slope = 2 * 3 * SIZE / 2.0 * step, most = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
@@ -95,7 +95,7 @@ static void test_seams(void)
     ec_cube_free(&cube);
 }
 
-/* The mean over all directions stays: noise of single pixels does not get lost between the map's pixels. */
+/* The mean over all directions is kept: noise of single pixels is not lost between the map's pixels. */
 static void test_mean(void)
 {
     enum { SIZE = 32, WIDTH = 4 * SIZE, HEIGHT = WIDTH / 2 };
@@ -123,7 +123,7 @@ static void test_mean(void)
     }
     double error = unrolled / area / (sum / whole) - 1;
     printf("72 suns of one pixel: the mean is off by %.2g\n", error);
-    /* A sun is sampled at some 3 x 3 places of its tent, a tenth of a pixel's width off in each: 2 % each, of 70 suns, four times. */
+    /* A sun covers about 3 x 3 places of its tent, each off by a tenth of a pixel's width: 2 % each; 70 suns, four standard errors. */
     CHECK_MSG(fabs(error) < 0.01, "the mean is off by %g", error);
     free(rgb);
     ec_cube_free(&cube);

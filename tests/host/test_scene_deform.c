@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Morph targets and skins against what glTF's formulas give by hand. */
+/* Morph targets and skins against glTF's formulas, calculated by hand. */
 #include "test_scene_files.h"
 
 #define MESH(ATTRIBUTES, TARGETS, MEMBERS) "'meshes':[{'primitives':[{'attributes':{'POSITION':0" ATTRIBUTES "}" TARGETS "}]" MEMBERS "}]"
@@ -69,7 +69,7 @@ static void test_morph(void)
         CHECK_NEAR(s->uv[0][1], 0.5, 0);
     }
     ec_scene_free(s);
-    /* Those of the node stand in for them, and the node's own place still counts. */
+    /* The node's weights replace them, and the node's own transform still applies. */
     s = load_changed(morphing, "{'mesh':0}", "{'mesh':0,'weights':[1,0.25],'translation':[10,0,0]}", morph_blobs);
     expect_corners(s, (double[9]){10, 0, 0, 13, 0, 0, 10, 1, 1}, "weights of the node");
     ec_scene_free(s);
@@ -78,7 +78,7 @@ static void test_morph(void)
     ec_scene_free(s);
 }
 
-/* Two nodes show the mesh in its default pose: one copy is made for both, and both stand right. */
+/* Two nodes show the mesh in its default pose: it is deformed once, and both places are right. */
 static void test_morph_instances(void)
 {
     ec_scene *s = load_changed(morphing, "[0]}],'nodes':[{'mesh':0}", "[0,1,2]}],'nodes':[{'mesh':0},{'mesh':0,'translation':[0,0,7]},{'mesh':0,'weights':[0,1]}",
@@ -95,8 +95,8 @@ static void test_morph_instances(void)
 
 /* Skinning ----------------------------------------------------------------------------------------------------------- */
 
-/* Joint 0 stands at the origin; joint 1 at (0, 1, 0), turned by 90 degrees about z, bound where it stood unturned. Corner 0 hangs on
- * joint 0, corner 1 on joint 1, corner 2 on both by halves. */
+/* Joint 0 is at the origin. Joint 1 is at (0, 1, 0), rotated by 90 degrees about z, and was bound there without rotation. Corner 0 belongs
+ * to joint 0, corner 1 to joint 1, corner 2 to both by halves. */
 static const struct skin_data {
     float position[9], bind[32];
     uint8_t joints[12], weights[12], joints_1[12], weights_1[12];
@@ -122,22 +122,22 @@ static const char skinned[] =
 static void test_skin(void)
 {
     const blob blobs[] = {{"@pos@", &skin_data, sizeof skin_data}, {0}};
-    /* (0, 2, 0) is 1 above joint 1 and so, turned, 1 to the left of it. (1, 2, 0) goes halfway to (-1, 2, 0). The mesh's node moves
-     * nothing, and weights need not add up to 1. */
+    /* (0, 2, 0) is 1 above joint 1 and so, after rotation, 1 to the left of it. (1, 2, 0) moves halfway to (-1, 2, 0). The mesh's node
+     * moves nothing, and weights need not add up to 1. */
     ec_scene *s = load_changed(skinned, "", "", blobs);
     expect_corners(s, (double[9]){1, 0, 0, -1, 1, 0, 0, 2, 0}, "skin");
     ec_scene_free(s);
-    /* A second set hangs corner 0 on joint 1 as well, which takes (1, 0, 0) to (1, 2, 0). */
+    /* A second set binds corner 0 to joint 1 as well, which moves (1, 0, 0) to (1, 2, 0). */
     s = load_changed(skinned, "'WEIGHTS_0':3", "'WEIGHTS_0':3,'JOINTS_1':4,'WEIGHTS_1':5", blobs);
     expect_corners(s, (double[9]){1, 1, 0, -1, 1, 0, 0, 2, 0}, "two sets");
     ec_scene_free(s);
-    /* Normals go by the inverse transpose: twice as wide, (1, 1, 0) leans to (1, 2, 0). */
+    /* Normals are transformed by the inverse transpose: with twice the width, (1, 1, 0) becomes (1, 2, 0). */
     char *normals = replace(skinned, "'WEIGHTS_0':3", "'WEIGHTS_0':3,'NORMAL':6");
     s = load_changed(normals, "{'children':[2]}", "{'children':[2],'scale':[2,1,1]}", blobs);
     for (int k = 0; s && k < 3; k++) CHECK_NEAR(s->normals[k], ((double[3]){sqrt(0.2), sqrt(0.8), 0})[k], 1e-6);
     ec_scene_free(s);
     free(normals);
-    /* Without matrices joints are bound where they are by identities: (0, 2, 0) is turned to (-2, 0, 0) and lifted. */
+    /* Without inverse bind matrices these are identities: (0, 2, 0) is rotated to (-2, 0, 0) and raised. */
     s = load_changed(skinned, ",'inverseBindMatrices':1", "", blobs);
     expect_corners(s, (double[9]){1, 0, 0, -2, 1, 0, -0.5, 2, 0}, "no inverse bind matrices");
     ec_scene_free(s);
@@ -145,7 +145,7 @@ static void test_skin(void)
     s = load_changed(skinned, "{'children':[2]}", "{'children':[2],'translation':[10000000,0,0]}", blobs);
     expect_corners(s, (double[9]){1e7 + 1, 0, 0, 1e7 - 1, 1, 0, 1e7, 2, 0}, "far away");
     ec_scene_free(s);
-    /* A camera at the mesh's node stays there, one. */
+    /* A camera at the mesh's node stays there, once. */
     char *with_camera = replace(skinned, "'skin':0,", "'skin':0,'camera':0,");
     s = load_changed(with_camera, "'skins':", "'cameras':[{'type':'perspective','perspective':{'yfov':1}}],'skins':", blobs);
     CHECK(s && s->camera_count == 1);
@@ -154,7 +154,7 @@ static void test_skin(void)
     free(with_camera);
 }
 
-/* A skeleton that mirrors: the front stays the front, as for a node that mirrors. */
+/* A skeleton that mirrors: the front stays the front, as with a mirroring node. */
 static void test_mirrored_skin(void)
 {
     const blob blobs[] = {{"@pos@", &skin_data, sizeof skin_data}, {0}};
@@ -163,7 +163,7 @@ static void test_mirrored_skin(void)
     if (s && m) {
         face_normal(s, 0, before);
         face_normal(m, 0, after);
-        CHECK_NEAR(after[2], before[2], 1e-6); /* as large, and to the same side */
+        CHECK_NEAR(after[2], before[2], 1e-6); /* as large, and on the same side */
         CHECK(before[2] != 0);
     }
     ec_scene_free(s);
@@ -209,12 +209,12 @@ static void test_defects(void)
     const blob blobs[] = {{"@pos@", &skin_data, sizeof skin_data}, {0}};
     expect_defects(morphing, morphs, sizeof morphs / sizeof *morphs, morph_blobs);
     expect_defects(skinned, skins, sizeof skins / sizeof *skins, blobs);
-    /* A target that no weight calls for is not looked at. */
+    /* A target with weight 0 is not read. */
     ec_scene *s = load_changed(morphing, "{'POSITION':6}", "{'POSITION':4}", morph_blobs);
     ec_scene_free(s);
 }
 
-/* Weights that are no numbers are none: everything hangs on what is left, or on the first joint. */
+/* Weights that are not finite count as 0: the vertex belongs to the remaining joints, or to the first one. */
 static void test_odd_weights(void)
 {
     struct {

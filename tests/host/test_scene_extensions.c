@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Extensions: those that change no picture pass, even where they are required; others are read, or refused by name. */
+/* Extensions: those that change no picture are accepted, even where they are required; others are read, or refused by name. */
 #include <sys/resource.h>
 
 #include "gltf/codecs.h"
@@ -74,7 +74,7 @@ static void test_refused(void)
     free(json);
 }
 
-/* The coarser nodes that another one lists are not shown, wherever they stand; what hangs below them is not either. */
+/* Coarser nodes that another node lists are not shown, wherever they are, nor is anything below them. */
 static void test_lod(void)
 {
     static const char *const scenes[] = {",'scenes':[{'nodes':[0]}]", ",'scenes':[{'nodes':[0,1,2]}]", ""};
@@ -125,7 +125,7 @@ static void test_avif(void)
     CHECK_MSG(s && s->image_count == 1 && s->images[0].width == 2 && s->images[0].height == 1 && !memcmp(s->images[0].rgba8, texels, 8), "%s%s", err.text,
               messages);
     ec_scene_free(s);
-    for (size_t length = 12; length < sizeof avif_two; length += 37) { /* also where nothing says which format it is */
+    for (size_t length = 12; length < sizeof avif_two; length += 37) { /* also where nothing states the format */
         s = load_avif("{'source':0}", "", length, &err);
         CHECK_MSG(s && (s->image_count == 1 || strstr(messages, "cannot be decoded")), "%zu bytes: %s", length, messages);
         ec_scene_free(s);
@@ -150,7 +150,7 @@ static void expect_ktx2(const unsigned char *bytes, size_t size, double toleranc
     }
 }
 
-/* A level that claims 2 GiB: the transcoder would clear as much memory before it looks. */
+/* A level that claims 2 GiB: the transcoder would clear as much memory before checking. */
 static void expect_claim_refused(void)
 {
     unsigned char bytes[sizeof ktx2_uastc];
@@ -187,10 +187,10 @@ static void test_ktx2(void)
     free(json);
 }
 
-/* The filter COLOR of KHR_meshopt_compression, on elements that are as its specification's encoder leaves them. */
+/* The filter COLOR of KHR_meshopt_compression, on elements as its specification's encoder leaves them. */
 static void test_meshopt_color(void)
 {
-    /* Attributes of version 0 whose deltas are all 0: twice the element that stands at the end. */
+    /* Attributes of version 0 with deltas of 0: twice the element that is at the end. */
     static const struct {
         uint8_t stride, element[8], expected[8];
     } cases[] = {
@@ -198,7 +198,7 @@ static void test_meshopt_color(void)
         {4, {100, 20, 226, 255}, {150, 70, 110, 255}},
         /* K = 3: Y 3, Co 1, Cg -2, alpha 1: scale 7; 6, 1, 4 and 3 of 7 */
         {4, {3, 1, 254, 5}, {219, 36, 146, 109}},
-        /* the first again, as 16 bits: 150, 70, 110 and 255 of 255 */
+        /* the first again, in 16 bits: 150, 70, 110 and 255 of 255 */
         {8, {100, 0, 20, 0, 226, 255, 255, 0}, {150, 150, 70, 70, 110, 110, 255, 255}},
     };
     for (size_t i = 0; ec_has_meshopt && i < sizeof cases / sizeof *cases; i++) {
@@ -212,7 +212,7 @@ static void test_meshopt_color(void)
     }
 }
 
-/* An image that is not there is an error only of a texture that a material uses. */
+/* A missing image is an error only for a texture that a material uses. */
 static void test_dangling_source(void)
 {
     ec_error err;

@@ -1,5 +1,5 @@
-/* Tiny glTF files for the loader's tests, written into the test output folder. Text may hold @NAME@ marks, which are
- * replaced by data URIs of the blobs given. */
+/* Tiny glTF files for the loader's tests, written into the test output folder. Text may contain marks @NAME@, which are replaced by data
+ * URIs of the given blobs. */
 #ifndef EC_TEST_SCENE_FILES_H
 #define EC_TEST_SCENE_FILES_H
 
@@ -79,7 +79,7 @@ static inline void keep_message(void *user, ec_severity severity, const char *te
     snprintf(messages + used, sizeof messages - used, "%s%s\n", severity == EC_WARNING ? "W " : "N ", text);
 }
 
-/* What the next loads ask for. */
+/* Choices for the next loads. */
 static ec_scene_choice wanted;
 
 static inline ec_scene *load_bytes(const void *bytes, size_t size, const char *suffix, ec_error *err)
@@ -115,7 +115,7 @@ static inline ec_scene *load_text(const char *quoted, const blob *blobs, ec_erro
     return scene;
 }
 
-/* Must fail, and the message must say `needle`. */
+/* Checks that loading fails, with a message that contains `needle`. */
 static inline void expect_failure(const char *quoted, const blob *blobs, const char *needle)
 {
     ec_error err;
@@ -135,7 +135,7 @@ static const float triangle_positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}]" ROOT "}"
 static const blob triangle_blobs[] = {{"@pos@", triangle_positions, sizeof triangle_positions}, {0}};
 
-/* Corner `corner` of a triangle where the file's units put it. */
+/* A triangle's corner in the file's coordinates. */
 static inline void world_corner(const ec_scene *s, uint32_t triangle, uint32_t corner, double out[3])
 {
     for (uint32_t k = 0; k < 3; k++) out[k] = (double)s->positions[3 * s->indices[3 * triangle + corner] + k] + s->center[k];

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Mutated glTF files, always the same ones: bytes flipped, numbers replaced by awkward ones, pieces cut, doubled and
- * moved. The sanitizers are the judge. ECLAT_FUZZ_RUNS and ECLAT_FUZZ_SEED make it longer or different. */
+/* Mutated glTF files, the same in every run: flipped bits, extreme numbers, pieces that are cut, doubled and moved. The sanitizers check.
+ * ECLAT_FUZZ_RUNS and ECLAT_FUZZ_SEED change number and kind. */
 #include "test_scene_files.h"
 
 #include <sys/stat.h>
@@ -15,7 +15,7 @@ static seed_file seeds[MAX_SEEDS];
 static int seed_count;
 static uint64_t state;
 
-static uint32_t random_below(uint32_t n) /* PCG's output is overkill here; a plain LCG's high bits do */
+static uint32_t random_below(uint32_t n) /* the high bits of a plain LCG suffice */
 {
     state = state * 6364136223846793005u + 1442695040888963407u;
     return (uint32_t)((state >> 33) % (n ? n : 1));
@@ -116,7 +116,7 @@ static void run(int count)
         size_t size = seed->size;
         memcpy(bytes, seed->bytes, size);
         for (uint32_t k = random_below(4) + 1; k; k--) size = mutate(bytes, size);
-        write_file(ECLAT_TEST_OUT "/fuzz-last.gltf", bytes, size); /* survives a crash */
+        write_file(ECLAT_TEST_OUT "/fuzz-last.gltf", bytes, size); /* stays after a crash */
         ec_scene *scene = load_bytes(bytes, size, ".gltf", &err);
         loaded += scene != NULL;
         ec_scene_free(scene);

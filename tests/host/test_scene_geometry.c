@@ -1,5 +1,5 @@
 /* tier: quick */
-/* The loader's geometry: modes, winding, accessors, transforms, recentring, what is dropped. */
+/* The loader's geometry: modes, winding, accessors, transforms, recentring, dropped triangles. */
 #include "test_scene_files.h"
 
 static void check_triangle_facing_z(const ec_scene *s, double sign)
@@ -17,12 +17,12 @@ static void test_winding(void)
     CHECK_MSG(s != NULL, "%s", err.text);
     if (s) check_triangle_facing_z(s, 1);
     ec_scene_free(s);
-    /* Mirrored at x = 0 the triangle still has its front at +z. */
+    /* Mirrored at x = 0, the triangle still faces +z. */
     s = load_text(TRIANGLE(",'scale':[-1,1,1]", "", "", ""), triangle_blobs, &err);
     CHECK_MSG(s != NULL, "%s", err.text);
     if (s) check_triangle_facing_z(s, 1);
     ec_scene_free(s);
-    /* Mirrored at z = 0 the front goes to -z. */
+    /* Mirrored at z = 0, it faces -z. */
     s = load_text(TRIANGLE(",'scale':[1,1,-1]", "", "", ""), triangle_blobs, &err);
     if (s) check_triangle_facing_z(s, -1);
     ec_scene_free(s);
@@ -123,7 +123,7 @@ static void test_normalized_interleaved(void)
     ec_scene_free(s);
 }
 
-/* A plane sloping 45 degrees, stretched along x: normals turn by the inverse transpose, tangents by the matrix. */
+/* A plane inclined by 45 degrees, stretched along x: normals are transformed by the inverse transpose, tangents by the matrix. */
 static void test_frames(void)
 {
     const float h = 0.70710678f;
@@ -207,7 +207,7 @@ static void test_dropped(void)
     CHECK_MSG(s != NULL, "%s", err.text);
     if (s) {
         CHECK(s->triangle_count == 1 && s->dropped_degenerate == 2 && s->dropped_nonfinite == 1);
-        CHECK(s->vertex_count == 3); /* vertices of dropped triangles go with them */
+        CHECK(s->vertex_count == 3); /* vertices of dropped triangles are dropped too */
         CHECK_NEAR(s->bounds_max[2], 0, 0);
         CHECK_MSG(strstr(messages, "1 triangles are left out: their positions are NaN") != NULL, "%s", messages);
     }

@@ -1,9 +1,9 @@
 /* tier: quick */
-/* What is not seen is not there: nodes by KHR_node_visibility with all below them, surfaces whose alpha is 0 everywhere. */
+/* Invisible parts are left out: nodes by KHR_node_visibility with everything below them, surfaces whose alpha is 0 everywhere. */
 #include "support/light.h"
 #include "test_scene_files.h"
 
-/* Node 0 over node 1, each with the triangle and a lamp; node 2 beside them; a camera, which is never hidden, below node 0. */
+/* Node 0 above node 1, each with the triangle and a lamp; node 2 beside them; below node 0 a camera, which is never hidden. */
 static const char nodes[] =
     "{'asset':{'version':'2.0'},'extensionsUsed':['KHR_node_visibility','KHR_lights_punctual','KHR_animation_pointer'],"
     "'extensionsRequired':['KHR_node_visibility'],"
@@ -67,7 +67,7 @@ static void expect_empty(const char *json, const char *why)
     ec_scene_free(s);
 }
 
-/* Before what pops in is there the picture is empty. A still of a file without surfaces is a mistake. */
+/* Before an object appears the picture is empty. A still of a file without surfaces is an error. */
 static void test_nothing_shows(void)
 {
     char *alone = replace(nodes, "'nodes':[0,2]", "'nodes':[0]"), *above = replace(alone, "'visible':true", "'visible':false");
@@ -125,7 +125,7 @@ static void test_surfaces(void)
     show("'alphaMode':'MASK','alphaCutoff':0.2,'pbrMetallicRoughness':{'baseColorTexture':{'index':1}}", 2);
 }
 
-/* Where all is hidden there is still a picture, of what lies around it. */
+/* If everything is hidden, the picture shows the environment. */
 static void test_all_hidden(void)
 {
     ec_error err;
@@ -138,7 +138,7 @@ static void test_all_hidden(void)
     free(only);
 }
 
-/* A black picture of what a lamp emits makes it none. */
+/* With a black emissive texture, a lamp is not a lamp. */
 static void test_dark_lamps(void)
 {
     static const struct {

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Decoding PNG and JPEG: every colour type becomes four channels; what is broken is refused. The files were made with
- * Python's zlib and libjpeg. */
+/* Decoding PNG and JPEG: every colour type becomes four channels; broken files are refused. The files were made with Python's zlib and
+ * libjpeg. */
 #include "gltf/image_decode.h"
 
 #include "support/test.h"
@@ -80,7 +80,7 @@ static void test_jpeg(void)
     CHECK(image.width == 8 && image.height == 8 && image.rgba8);
     for (int i = 0; image.rgba8 && i < 256; i++) CHECK_NEAR(image.rgba8[i], expected[i % 4], i % 4 == 3 ? 0 : 1);
     release(&image);
-    /* Cut behind its header: what there is, and what is wrong with it. */
+    /* Cut after its header: the size is read, and the message names the error. */
     ec_image cut = {0};
     ec_decode_error err = {""};
     CHECK(ec_image_decode(jpeg, sizeof jpeg, &cut, &err) && !err.text[0]);
@@ -91,7 +91,7 @@ static void test_jpeg(void)
     release(&cut);
 }
 
-/* The caller's memory stays the caller's, whatever becomes of the picture. */
+/* The caller's memory stays the caller's, whether decoding succeeds or not. */
 static void test_room(void)
 {
     uint8_t room[4 * 8 * 8];
@@ -106,7 +106,7 @@ static void test_room(void)
     CHECK(ec_image_decode(palette, sizeof palette, &image, &err) && image.rgba8 == room && room[5] == 255);
     for (size_t cut = 34; cut < sizeof palette - 12; cut++) CHECK(!ec_image_decode(palette, cut, &image, &err) && image.rgba8 == room);
     CHECK(!ec_image_decode(jpeg, 100, &image, &err));
-    CHECK(!ec_image_size(grey_alpha_16, sizeof grey_alpha_16, &width, &height)); /* which becomes another kind */
+    CHECK(!ec_image_size(grey_alpha_16, sizeof grey_alpha_16, &width, &height)); /* this becomes another kind */
     for (size_t cut = 0; cut < 25; cut++) CHECK(!ec_image_size(palette, cut, &width, &height));
     for (size_t cut = 0; cut < 100; cut++) CHECK(!ec_image_size(jpeg, cut, &width, &height));
 }
@@ -128,7 +128,7 @@ static void test_broken(void)
     for (size_t cut = 8; cut < sizeof palette - 12; cut++) expect_refusal(palette, cut, "");
     memcpy(copy, jpeg, sizeof jpeg);
     for (size_t cut = 3; cut < 100; cut++) expect_refusal(copy, cut, "");
-    /* A JPEG whose header claims 16384 x 16384, then 16385; its size stands after the SOF0 marker. */
+    /* A JPEG whose header claims 16384 x 16384, then 16385; its size is after the SOF0 marker. */
     for (size_t i = 0; i + 9 < sizeof jpeg; i++) {
         if (copy[i] != 0xff || copy[i + 1] != 0xc0) continue;
         copy[i + 5] = copy[i + 7] = 0x40;
@@ -137,7 +137,7 @@ static void test_broken(void)
         copy[i + 8] = 1;
         expect_refusal(copy, sizeof jpeg, "16384");
     }
-    /* A Huffman table of 16 x 255 codes: it overruns stb_image 2.27. */
+    /* A Huffman table of 16 x 255 codes overruns stb_image 2.27. */
     memcpy(copy, jpeg, sizeof jpeg);
     for (size_t i = 0; i + 21 < sizeof jpeg; i++)
         if (copy[i] == 0xff && copy[i + 1] == 0xc4) memset(copy + i + 5, 255, 16);

@@ -1,8 +1,8 @@
 /* tier: quick */
-/* EXT_mesh_gpu_instancing: the mesh at every place given, in the node's frame, and not at the node itself. */
+/* EXT_mesh_gpu_instancing: the mesh is at every listed place, in the node's frame, and not at the node itself. */
 #include "test_scene_files.h"
 
-/* Twice: moved by (1, 2, 3) and as large as before; at the origin, turned by 90 degrees about z and three times as large. */
+/* Two places: moved by (1, 2, 3) at the original size; at the origin, rotated by 90 degrees about z and three times as large. */
 static const struct {
     float translation[6], scale[6];
     int16_t rotation[8];
@@ -38,7 +38,7 @@ static void test_places(void)
     ec_scene_free(s);
 }
 
-/* Zeros, but for what the sparse part says: three places, of which the file moves the first and the last. */
+/* Zeros except for the sparse part: three places, of which the file moves the first and the last. */
 static void test_sparse(void)
 {
     static const struct {
@@ -86,7 +86,7 @@ static void test_defects(void)
     }
 }
 
-/* Attributes of an application's own say nothing of places: the mesh stands where its node does. */
+/* Attributes of an application's own do not define places: the mesh is at its node. */
 static void test_no_places(void)
 {
     char *json = replace(instanced, "'TRANSLATION':1,'ROTATION':2,'SCALE':3,", "");

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Meshes that are kept once: which are, what they become, and that written out they are what a loader without instances makes. */
+/* Meshes that are kept once: which ones, their data, and that writing them out gives the same as a loader without instances. */
 #include <math.h>
 
 #include "gltf/model.h"
@@ -27,7 +27,7 @@ static const double turned[9] = {0.36, -0.48, 0.8, 0.8, 0.6, 0, -0.48, 0.64, 0.6
                     nearly_flat[9] = {1, 0, 0, 0, 1e-7, 0, 0, 0, 1};
 enum { BALL = 128, PLACES = 6, FLAT = 2 + BALL };
 
-/* A floor; a smooth ball, far from its own origin, that stands flattened, nearly flattened, and at six places. */
+/* A floor; a smooth ball, far from its own origin, that is flattened, nearly flattened, and in six other places. */
 static ec_scene *balls(ec_instancing instancing)
 {
     ec_model *m = ec_model_new();
@@ -49,7 +49,7 @@ static ec_scene *balls(ec_instancing instancing)
     return end(m);
 }
 
-/* gamma_4 of the largest sum that a corner goes through, and the rounding of the corner and of the matrix: 6 u in all, twice. */
+/* gamma_4 of the largest sum in a corner's transform, and the rounding of the corner and of the matrix: 6 u in all, twice. */
 static double tolerance(const ec_scene *s, uint32_t i)
 {
     const ec_placed *p = &s->placed[i];
@@ -61,7 +61,8 @@ static double tolerance(const ec_scene *s, uint32_t i)
 
 static const float *corner(const ec_scene *s, const float *stream, uint32_t triangle, uint32_t c) { return stream + 3 * s->indices[3 * triangle + c % 3]; }
 
-/* Which corner comes first may differ: neighbours that make a quad are turned towards each other, two by two. A ball's normals tell corners apart, of whatever size it is. */
+/* The first corner of a triangle may differ: neighbours that form a quad are rotated towards each other, in pairs. A ball's normals
+ * identify its corners at any size. */
 static void check_triangle(const ec_scene *a, const ec_scene *b, uint32_t t, double off)
 {
     uint32_t turn = 0;
@@ -74,7 +75,7 @@ static void check_triangle(const ec_scene *a, const ec_scene *b, uint32_t t, dou
     for (uint32_t c = 0; c < 3; c++)
         for (int k = 0; k < 3; k++) {
             CHECK_NEAR(corner(a, a->positions, t, c)[k], corner(b, b->positions, t, c + turn)[k], off);
-            /* a normal's components: rounding it, the matrix, three products and sums, the length */
+            /* a normal's components: rounding of it and of the matrix, three products and sums, the length */
             CHECK_NEAR(corner(a, a->normals, t, c)[k], corner(b, b->normals, t, c + turn)[k], 16 * 0x1p-24);
         }
     CHECK(a->triangle_material[t] == b->triangle_material[t]);
@@ -86,7 +87,7 @@ static void written_out_it_is_the_same(void)
     ec_scene *kept = balls(EC_INSTANCING_ON), *plain = balls(EC_INSTANCING_OFF), written;
     CHECK(plain->placed_count == 0 && plain->shape_count == 0 && !plain->whole && kept->whole);
     CHECK(kept->placed_count == PLACES && kept->shape_count == 1 && kept->shapes[0].count == BALL);
-    /* flattened it has no thickness but most triangles keep an area: those stand in the world, as nearly flat ones do */
+    /* flattened it has no thickness, but most triangles keep an area: these are written out, as nearly flat ones are */
     uint32_t alone = ec_scene_flat_count(kept);
     CHECK(alone > FLAT && alone < 2 + 2 * BALL && kept->triangle_count == alone + BALL && kept->shapes[0].first == alone);
     CHECK(ec_scene_met_count(kept) == plain->triangle_count && plain->triangle_count == alone + PLACES * BALL);
@@ -107,7 +108,7 @@ static void written_out_it_is_the_same(void)
     ec_scene_free(plain);
 }
 
-/* What emits is sampled as a light, in the world; where bodies lie is found out there. Leaves, which bound none, are kept. */
+/* Emitting triangles are lights, sampled in world space; overlaps of bodies are found there too. Leaves, which bound no body, are kept. */
 static void lamps_and_bodies_are_not_kept(void)
 {
     const ec_material glow = ec_material_lambert(0.5, 2);
@@ -128,7 +129,7 @@ static void lamps_and_bodies_are_not_kept(void)
     }
 }
 
-/* Triangles without area and not-numbers, counted as often as they would have been met. */
+/* Triangles without area, and NaN, counted once for each copy. */
 static void what_is_dropped_is_counted_everywhere(void)
 {
     static const float positions[36] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 0, 0, 0, NAN, 0, 0, 0, 1, 0, 5, 5, 5, 5, 5, 5, 5, 5, 5};
@@ -150,7 +151,7 @@ static void what_is_dropped_is_counted_everywhere(void)
     ec_scene_free(s[1]);
 }
 
-/* By itself from a million triangles saved on. 2^15 triangles a ball: 32 places save 31 x 2^15, 33 places 2^20. */
+/* By default, meshes are kept once from a million saved triangles on. 2^15 triangles a ball: 32 places save 31 x 2^15, 33 places 2^20. */
 static void auto_waits_until_it_pays(void)
 {
     for (int places = 32; places <= 33; places++) {
@@ -183,7 +184,7 @@ static void groups_in_groups(void)
     CHECK_OK(ec_scene_load_choice(path, &(ec_scene_choice){.instancing = EC_INSTANCING_ON}, &s, NULL, &err), err);
     remove(path);
     CHECK(s && s->placed_count == 2 && s->triangle_count == 1);
-    const float local[3] = {-0.5f, 0.5f, 0}; /* the third corner, from the middle of the mesh */
+    const float local[3] = {-0.5f, 0.5f, 0}; /* the third corner, from the centre of the mesh */
     const double expected[2][3] = {{10, 4, 0}, {10, 1, -3}};
     for (int i = 0; s && i < 2; i++) {
         float at[3];

@@ -1,9 +1,9 @@
 /* tier: quick */
-/* What lies over a surface, passes it or bends it: coat, sheen, anisotropy, thin film, diffuse transmission, dispersion. */
+/* Layers and other effects of a surface: coat, sheen, anisotropy, thin film, diffuse transmission, dispersion. */
 #include "textured_triangle.h"
 
-/* What lies over a surface: an extension's members in, what the renderer needs out; values out of range are clamped with a warning, those of
- * another kind are an error. */
+/* Converts an extension's members to the renderer's values; values out of range are clamped with a warning, values of a wrong type are an
+ * error. */
 #define LAYER(NAME, MEMBERS) TEXTURED(",'extensions':{'" NAME "':{" MEMBERS "}}", ",'extensionsRequired':['" NAME "']")
 
 static const ec_material *load_layer(const char *text, ec_scene **s, bool odd)
@@ -59,7 +59,7 @@ static void test_anisotropy(void)
     CHECK(m->anisotropy == 0.5f && m->anisotropy_rotation == 0.25f && m->textures[EC_SLOT_ANISOTROPY].texture == 0);
     ec_scene_free(s);
     m = load_layer(LAYER("KHR_materials_anisotropy", "'anisotropyStrength':1.5,'anisotropyRotation':62831.853071795864"), &s, true);
-    CHECK(m->anisotropy == 1 && fabsf(m->anisotropy_rotation) < 1e-6f); /* whole turns */
+    CHECK(m->anisotropy == 1 && fabsf(m->anisotropy_rotation) < 1e-6f); /* whole turns are removed */
     ec_scene_free(s);
     expect_failure(LAYER("KHR_materials_anisotropy", "'anisotropyRotation':[1]"), textured_blobs, "KHR_materials_anisotropy.anisotropyRotation must be a number");
 }
@@ -113,7 +113,7 @@ static void test_dispersion(void)
     expect_failure(LAYER("KHR_materials_dispersion", "'dispersion':true"), textured_blobs, "KHR_materials_dispersion.dispersion must be a number");
 }
 
-/* Extinction is the volume's; drafts before 2026 called the colour otherwise. */
+/* Extinction comes from the volume; drafts before 2026 had another name for the colour. */
 static void test_scattering(void)
 {
     static const char *const names[] = {"multiscatterColorFactor", "multiscatterColor"};

@@ -27,7 +27,7 @@ static void test_defaults(void)
     CHECK(s->material_count == 1 && m->base_color[3] == 1 && m->metallic == 1 && m->roughness == 1);
     CHECK(m->specular == 1 && m->specular_color[2] == 1 && m->normal_scale == 1 && m->alpha_cutoff == 0.5f);
     CHECK(m->ior == 1.5f && m->transmission == 0 && !m->volume && m->absorption[0] == 0 && m->textures[EC_SLOT_TRANSMISSION].texture == -1);
-    CHECK(s->image_count == 0 && s->texture_count == 0); /* nobody uses them: not even opened, so no warning */
+    CHECK(s->image_count == 0 && s->texture_count == 0); /* unused images are not opened: no warning */
     CHECK_MSG(!strstr(messages, "W "), "%s", messages);
     ec_scene_free(s);
 }
@@ -50,7 +50,7 @@ static void test_factors(void)
     CHECK_NEAR(m->emission[1], 4e9, 1e3);
     CHECK(m->specular == 0 && m->specular_color[0] == 2 && m->specular_color[2] == 0.5f);
     CHECK(m->textures[EC_SLOT_SPECULAR].texture >= 0 && m->textures[EC_SLOT_NORMAL].texture >= 0);
-    CHECK(!has_light(s)); /* 0.4 is less than the cutoff */
+    CHECK(!has_light(s)); /* 0.4 is below the cutoff */
     CHECK(s->contents.extensions.count == 2 && s->contents.ignored.count == 1);
     CHECK(!strcmp(s->contents.ignored.names[0], "KHR_materials_unknown"));
     CHECK_MSG(strstr(messages, "KHR_materials_unknown") != NULL, "%s", messages);
@@ -64,7 +64,7 @@ static void test_factors(void)
     ec_scene_free(s);
 }
 
-/* KHR_materials_ior, _transmission and _volume: MATERIAL's extensions in, what the renderer needs out. */
+/* KHR_materials_ior, _transmission and _volume: converts MATERIAL's extensions to the renderer's values. */
 #define GLASS(IOR, TRANSMISSION, VOLUME)                                                                               \
     TEXTURED(",'extensions':{'KHR_materials_ior':{" IOR "},'KHR_materials_transmission':{" TRANSMISSION "},"           \
              "'KHR_materials_volume':{" VOLUME "}}", ",'extensionsRequired':['KHR_materials_ior','KHR_materials_transmission','KHR_materials_volume']")
@@ -77,7 +77,7 @@ static void test_glass(void)
     CHECK_MSG(!strstr(messages, "W "), "%s", messages);
     ec_scene_free(s);
 
-    /* Half of red is left after 0.25 m, a quarter of green, and all of blue: absorption is ln 2 / 0.25 m, ln 4 / 0.25 m and none. */
+    /* After 0.25 m, half of red is left, a quarter of green, and all of blue: absorption is ln 2 / 0.25 m, ln 4 / 0.25 m and none. */
     s = load(GLASS("'ior':1.33", "'transmissionFactor':0.75,'transmissionTexture':{'index':1}",
                    "'thicknessFactor':2,'attenuationDistance':0.25,'attenuationColor':[0.5,0.25,1],'thicknessTexture':{'index':0}"));
     m = s->materials;
@@ -88,7 +88,7 @@ static void test_glass(void)
     CHECK_MSG(!strstr(messages, "W "), "%s", messages);
     ec_scene_free(s);
 
-    /* Thickness 0 is a thin wall, whatever its colour; a volume that nothing gets into is none. */
+    /* Thickness 0 is a thin wall of any colour. A volume that no light enters has no effect. */
     s = load(GLASS("", "'transmissionFactor':1", "'attenuationDistance':1,'attenuationColor':[0.5,0.5,0.5]"));
     CHECK(!s->materials->volume && !ec_refracts(s->materials) && s->materials->absorption[0] == 0 && s->materials->transmission == 1);
     ec_scene_free(s);
@@ -97,7 +97,7 @@ static void test_glass(void)
     CHECK_MSG(!strstr(messages, "W "), "%s", messages);
     ec_scene_free(s);
 
-    /* A colour alone says nothing: the distance is infinite. Black absorbs all that it can, in finite numbers. */
+    /* A colour without a distance has no effect: the distance is infinite. Black absorbs as much as finite numbers allow. */
     s = load(GLASS("", "'transmissionFactor':1", "'thicknessFactor':1,'attenuationColor':[0,0.5,1]"));
     CHECK(s->materials->absorption[0] == 0 && s->materials->absorption[1] == 0 && s->materials->absorption[2] == 0);
     ec_scene_free(s);
@@ -106,7 +106,7 @@ static void test_glass(void)
     CHECK_MSG(!strstr(messages, "W "), "%s", messages);
     ec_scene_free(s);
 
-    /* An index of 0 stands for an infinite one: nothing gets in, and no angle is bent. */
+    /* An index of 0 stands for infinity: no light gets in, and nothing is refracted. */
     s = load(GLASS("'ior':0", "'transmissionFactor':1", "'thicknessFactor':1"));
     CHECK(s->materials->ior == 0 && !ec_refracts(s->materials));
     CHECK_MSG(!strstr(messages, "W "), "%s", messages);
@@ -196,15 +196,15 @@ static void test_transform(void)
                                 "{'offset':[0.25,1],'rotation':1.5707963267948966,'scale':[2,3],'texCoord':0}}}", ""));
     const ec_texture_use *use = &s->materials[0].textures[EC_SLOT_EMISSION];
     CHECK(use->texture == 0 && use->uv_set == 0);
-    /* (1, 0): scaled to (2, 0), then turned a quarter counter-clockwise where v points down: (0, -2) */
+    /* (1, 0): scaled to (2, 0), then rotated a quarter counter-clockwise, with v pointing down: (0, -2) */
     CHECK_NEAR(use->transform[0] + use->transform[2], 0.25, 1e-6);
     CHECK_NEAR(use->transform[3] + use->transform[5], 1 - 2, 1e-6);
     /* (0, 1): (0, 3), then (3, 0) */
     CHECK_NEAR(use->transform[1] + use->transform[2], 0.25 + 3, 1e-6);
     CHECK_NEAR(use->transform[4] + use->transform[5], 1, 1e-6);
     ec_scene_free(s);
-    /* Khronos' TextureTransformTest: turned by 22.5 degrees, the green marker's place (0.421, 1.016) on the quad must
-     * show the tip of the arrow, which lies at (0.778, 0.778) in the picture. */
+    /* Khronos' TextureTransformTest: rotated by 22.5 degrees, the place of the green marker (0.421, 1.016) on the quad must show the tip of
+     * the arrow, which is at (0.778, 0.778) in the picture. */
     s = load(TEXTURED(",'emissiveTexture':{'index':0,'extensions':{'KHR_texture_transform':{'rotation':"
                       "0.39269908169872414}}}", ""));
     const float *m = s->materials[0].textures[EC_SLOT_EMISSION].transform;
@@ -215,7 +215,7 @@ static void test_transform(void)
 
 static void test_missing_coordinates(void)
 {
-    /* Two primitives share a material on TEXCOORD_0 and TEXCOORD_1; neither has the latter, one lacks both. */
+    /* Two primitives share a material with TEXCOORD_0 and TEXCOORD_1. Both lack the latter, and one lacks both. */
     ec_error err;
     ec_scene *s = load_text(
         "{'asset':{'version':'2.0'},'nodes':[{'mesh':0}],'meshes':[{'primitives':["

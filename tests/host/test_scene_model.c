@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Scenes made in memory go the way of those from files: matrices in double, the centre subtracted, triangles without area dropped. */
+/* Scenes made in memory are processed as those from files: matrices in double, the centre subtracted, triangles without area dropped. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static void quads_stand_where_they_are_put(void)
     CHECK(s->bounds_min[0] == -2 && s->bounds_max[0] == 2 && s->bounds_min[1] == 0 && s->bounds_max[2] == 2);
     CHECK(s->cameras[0].position[1] == 6 && s->cameras[0].forward[1] == -1);
     CHECK(s->materials[0].base_color[1] == 0.5f && s->materials[0].emission[2] == 2 && s->materials[0].specular == 0);
-    /* the front is where u x v points: up */
+    /* the front is the side of u x v: up */
     const uint32_t *i = s->indices;
     const float *a = s->positions + 3 * i[0], *b = s->positions + 3 * i[1], *c = s->positions + 3 * i[2];
     CHECK((b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]) > 0);
@@ -67,7 +67,7 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Closed, and turned outwards: each directed edge is there once, and so is its opposite. */
+/* Closed and facing outwards: each directed edge occurs once, and so does its opposite. */
 static void spheres_are_closed(void)
 {
     for (int levels = 0; levels < 5; levels++) {

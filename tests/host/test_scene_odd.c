@@ -1,10 +1,10 @@
 /* tier: quick */
-/* Mistakes in a file that leave a picture are told once each, in words that name the place. */
+/* Mistakes in a file that still allow a picture give one warning each, which names the place. */
 #include <float.h>
 
 #include "test_scene_files.h"
 
-/* Loads, and its only warning says `needle`; "": there is none. */
+/* Loads the file; its only warning must contain `needle`; "": no warning. */
 static ec_scene *expect_warning(const char *quoted, const blob *blobs, const char *needle)
 {
     ec_error err;
@@ -60,7 +60,7 @@ static void test_matrices(void)
 {
     static const char node[] = ",'name':'warped','matrix':[1,0,0,@,0,1,0,0,0,0,1,0,0,0,0,1]";
     char *json = replace(TRIANGLE("#", "", "", ""), "#", node), *plain = replace(json, "@", "0"), *warped;
-    /* the first mark is the node's; the positions' is "@pos@" */
+    /* the first mark is in the node; "@pos@" is the mark of the positions */
     ec_scene_free(expect_warning(plain, triangle_blobs, ""));
     warped = replace(json, "@", "0.5");
     ec_scene_free(expect_warning(warped, triangle_blobs, "nodes[0] \"warped\" has a projective matrix, which glTF does not allow; its last row is taken as 0 0 0 1"));

@@ -1,16 +1,16 @@
 /* tier: quick */
-/* Points and lines become closed surfaces, as wide as the camera sees them, in every mode and whatever their node does. */
+/* Points and lines become closed surfaces, as wide as the camera sees them, in every mode and with every transform. */
 #include "test_scene_files.h"
 
 static const double pi = 3.14159265358979323846;
 
-/* Corners of a square, far enough apart that their balls do not meet. */
+/* Corners of a square, so far apart that their balls do not touch. */
 static const float corners[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 static const uint8_t colors[16] = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
 static const uint16_t order[4] = {0, 1, 3, 2};
 static const blob blobs[] = {{"@pos@", corners, sizeof corners}, {"@col@", colors, sizeof colors}, {"@idx@", order, sizeof order}, {0}};
 
-/* The camera stands 4 before the square; where it sees a picture as high as 2 x 4 x tan 0.25. */
+/* The camera is 4 before the square, where its picture is 2 x 4 x tan 0.25 high. */
 #define SCENE(NODE, PRIMITIVE, CAMERA)                                                                                              \
     "{'asset':{'version':'2.0'},'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0" NODE "},{'translation':[0.5,0.5,4]" CAMERA "}],"     \
     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'COLOR_0':1}" PRIMITIVE "}]}],'buffers':[{'byteLength':48,'uri':'@pos@'}," \
@@ -21,7 +21,7 @@ static const blob blobs[] = {{"@pos@", corners, sizeof corners}, {"@col@", color
     "{'type':'orthographic','orthographic':{'xmag':3,'ymag':2,'znear':0,'zfar':9}}]}"
 
 typedef struct measures {
-    double area, volume, width; /* of all; from the leftmost to the rightmost place */
+    double area, volume, width; /* of all balls, from the leftmost to the rightmost place */
     bool faces_out;
 } measures;
 
@@ -57,7 +57,7 @@ static ec_scene *load(const char *json, double size)
     return s;
 }
 
-/* From all around a convex body shows a quarter of its surface: that of a ball of the width that was asked for. */
+/* Averaged over all directions, a convex body shows a quarter of its surface: that of a ball of the requested width. */
 static void test_width(void)
 {
     static const double sizes[] = {0, 3, 20};
@@ -78,7 +78,7 @@ static void test_width(void)
         }
 }
 
-/* Without a camera one pixel of the picture that frames all of it, to within how much the framed box has grown. */
+/* Without a camera, one pixel of the framing camera's picture, to the precision of the framed box's growth. */
 static void test_framed(void)
 {
     ec_scene *s = load(SCENE("", ",'mode':0", ""), 0);
@@ -108,7 +108,7 @@ static void test_modes(void)
     }
 }
 
-/* Each vertex' own colour, to the end of the line that it is at. */
+/* Each vertex has its own colour, which reaches to the end of its line. */
 static void test_colors(void)
 {
     ec_scene *s = load(SCENE("", ",'mode':1", ",'camera':0"), 1);

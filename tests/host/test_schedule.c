@@ -1,5 +1,6 @@
 /* tier: quick */
-/* Which samples a batch is: every sample of every replicate once, rounds where limits are looked at, and the ways back from samples to batches. */
+/* The samples of each batch: every sample of every replicate once; rounds, at which limits are checked; and the conversion of samples to
+ * batches. */
 #include "film/schedule.h"
 #include "support/test.h"
 
@@ -33,7 +34,7 @@ static void every_sample_once(uint32_t replicates)
     }
 }
 
-/* A range of batches is the sum of its replicates' shares. */
+/* A range of batches is the sum of its replicates' parts. */
 static void shares_sum_up(uint32_t replicates)
 {
     for (uint32_t first = 0; first < 300; first += 7)
@@ -44,7 +45,7 @@ static void shares_sum_up(uint32_t replicates)
         }
 }
 
-/* Any number of samples is so many whole batches and a part of the next. */
+/* Any number of samples is a number of whole batches and a part of the next. */
 static void samples_are_found(uint32_t replicates)
 {
     for (uint64_t samples = 0; samples < 40000; samples += samples < 3000 ? 1 : 37) {
@@ -58,7 +59,7 @@ static void samples_are_found(uint32_t replicates)
     }
 }
 
-/* The next round is the first after; between two of them samples grow by at most a quarter, and not by less than a seventh. */
+/* The next round is the first one after; between two rounds samples grow by at most a quarter, and at least a seventh. */
 static void rounds_follow(uint32_t replicates)
 {
     uint64_t rounds = 0;
@@ -69,7 +70,8 @@ static void rounds_follow(uint32_t replicates)
         const double has = (double)ec_schedule_samples(replicates, (uint32_t)n), then = (double)ec_schedule_samples(replicates, (uint32_t)next);
         if (has >= 8 * replicates) CHECK_MSG(then <= 1.25 * has && then >= 8 / 7.0 * has, "%g samples after %g", then, has);
     }
-    CHECK_MSG(rounds > 4 * 14 && rounds <= 4 + 4 * 15, "%llu rounds", (unsigned long long)rounds); /* 2^17.5 samples of a replicate: 14.5 octaves from 8 on */
+    /* 2^17.5 samples in a replicate: 14.5 octaves from 8 on. */
+    CHECK_MSG(rounds > 4 * 14 && rounds <= 4 + 4 * 15, "%llu rounds", (unsigned long long)rounds);
 }
 
 static void beginnings(void)

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Digests of FIPS 180-4's examples, whole and in pieces, from memory and from files; a file that is shorter than it should be says so. */
+/* Digests of FIPS 180-4's examples, whole and in pieces, from memory and from files; a file that is too short is reported. */
 #include <errno.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -57,9 +57,9 @@ int main(void)
     ec_sha256_begin(&hash);
     ec_sha256_add(&hash, many, sizeof many);
     ec_sha256_end_text(&hash, text);
-    check_file(path, sizeof many, text); /* more than is read at once */
+    check_file(path, sizeof many, text); /* more than one read */
     ec_sha256_begin(&hash);
-    CHECK(ec_sha256_add_file(&hash, fd, MILLION) == 0); /* the beginning of it */
+    CHECK(ec_sha256_add_file(&hash, fd, MILLION) == 0); /* its beginning */
     ec_sha256_end_text(&hash, text);
     CHECK(!strcmp(text, of_million));
     ec_sha256_begin(&hash);

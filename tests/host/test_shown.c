@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Noise through tone curves against samples of it, exposures that are found again, and noise that no file states. */
+/* Noise after tone curves against sampled noise, exposures that are found from pictures, and noise that no file states. */
 #include <omp.h>
 
 #include "film/estimated_noise.h"
@@ -12,7 +12,7 @@ enum { W = 40, H = 32, PIXELS = W * H, VALUES = 3 * PIXELS, SAMPLES = 40000, PAI
 
 static test_random rng = {7};
 
-/* Moments of what is shown of one pixel whose channels have noise of their own and noise in common. */
+/* Moments of one pixel's shown values, whose channels have noise of their own and noise in common. */
 static void noise_goes_through_a_curve(ec_tonemap tonemap, const float rgb[3], double alone, double together)
 {
     const ec_look look = {.tonemap = tonemap};
@@ -57,7 +57,7 @@ static void exposure_is_found_again(void)
     }
 }
 
-/* 8 bits of a picture with noise that it does not state, against one with noise that it states. Returns p. */
+/* Compares 8 bits of a picture that does not state its noise with a picture that does. Returns p. */
 static double p_of_pair(double noise, double brightness, double *relative_se)
 {
     static float a[VALUES], b[VALUES], se_a[VALUES], se_b[VALUES], slack[VALUES], se_y[PIXELS];
@@ -88,7 +88,7 @@ static void noise_is_estimated(void)
     double se;
     for (int k = 0; k < PAIRS; k++) alarms += p_of_pair(0.1, 1, &se) < EC_NOISE_SIGNIFICANCE;
     CHECK_NEAR(se, 0.1, 0.005);
-    CHECK_MSG(alarms <= 5, "%d of %d right pictures raised an alarm", alarms, PAIRS); /* at 1 % each, more in 1 of 1000 runs */
+    CHECK_MSG(alarms <= 5, "%d of %d right pictures raised an alarm", alarms, PAIRS); /* 1 % each; more happens in 1 of 1000 runs */
     for (int k = 0; k < 5; k++) CHECK(p_of_pair(0.1, 0.97, NULL) < EC_NOISE_SIGNIFICANCE);
 }
 
@@ -97,7 +97,7 @@ int main(void)
     noise_goes_through_a_curve(EC_TONEMAP_NONE, (const float[3]){0.3f, 0.2f, 0.4f}, 0, 0.1);
     noise_goes_through_a_curve(EC_TONEMAP_NONE, (const float[3]){0.3f, 0.2f, 0.4f}, 0.1, 0);
     noise_goes_through_a_curve(EC_TONEMAP_NEUTRAL, (const float[3]){2, 1, 0.5f}, 0.05, 0.08);
-    omp_set_num_threads(1); /* pictures are so small that threads wait for most of their time */
+    omp_set_num_threads(1); /* pictures are so small that threads mostly wait */
     exposure_is_found_again();
     noise_is_estimated();
     TEST_END();

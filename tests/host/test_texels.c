@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Pictures are decoded where kernels read them: the pack has them without a copy, has the same where it must copy, and keeps them when the scene lets
- * them go. */
+/* Pictures are decoded into the memory that kernels read: packing does not copy them, gives equal bytes where it must copy, and keeps them
+ * when the scene frees them. */
 #include "gltf/reader.h"
 #include "pack/pack.h"
 #include "scene/texels.h"
@@ -53,7 +53,7 @@ int main(void)
 
     ec_scene_drop_data(scene);
     CHECK(!scene->images[0].rgba8 && !scene->images[0].texels);
-    CHECK(!memcmp(common.texels->words, copied.texels->words, 4 * (common.texel_words + 1))); /* and the zero behind them */
+    CHECK(!memcmp(common.texels->words, copied.texels->words, 4 * (common.texel_words + 1))); /* and the zero after them */
     ec_scene_free(scene);
     ec_pack_free(&common);
     ec_pack_free(&copied);

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Texts are cut between characters, of one, two, three and four bytes, and hold nothing that a terminal acts on. */
+/* Texts are cut between characters of one to four bytes, and contain nothing that a terminal interprets. */
 #include "base/error.h"
 #include "base/text.h"
 #include "support/test.h"
@@ -18,12 +18,12 @@ int main(void)
     char out[32], half[8];
     for (int most = 0; most < 13; most++) {
         CHECK_MSG(ec_text_cut(text, most) == ends[most], "%d bytes of at most %d", ec_text_cut(text, most), most);
-        snprintf(half, most < 8 ? (size_t)most + 1 : sizeof half, "%s", text); /* one that was cut before */
+        snprintf(half, most < 8 ? (size_t)most + 1 : sizeof half, "%s", text); /* a text that was cut before */
         CHECK(ec_text_cut(half, 8) == ends[most < 7 ? most : 7]);
     }
     snprintf(out, sizeof out, "%.*s", EC_CUT(text, 5));
     CHECK(!strcmp(out, "aé"));
-    CHECK(ec_text_cut("", 5) == 0 && ec_text_cut("\x80\x80\x80\x80\x80\x80", 5) == 5); /* no UTF-8: as it is */
+    CHECK(ec_text_cut("", 5) == 0 && ec_text_cut("\x80\x80\x80\x80\x80\x80", 5) == 5); /* not UTF-8: unchanged */
     ec_error err;
     char many[3001] = "";
     for (int i = 0; i < 1500; i++) strcat(many, "é");
@@ -35,13 +35,13 @@ int main(void)
     ec_log log = {keep, NULL};
     ec_warn(&log, "%s", many);
     CHECK(strlen(said) == 2046);
-    /* Names: what terminals act on is gone, in messages too; what they show stays. */
+    /* In names and messages, characters that terminals interpret are replaced; visible ones stay. */
     char name[64] = "a\x1b[2J\n\xe2\x80\xae" "b\x7f\xc2\x9b" "é€😀\t\xe2\x81\xa9";
     ec_text_clean(name);
     CHECK_MSG(!strcmp(name, "a?[2J??b??é€😀\t?"), "%s", name);
     ec_fail(&err, "%s: cannot open", "x\r\ny");
     CHECK_MSG(!strcmp(err.text, "x??y: cannot open"), "%s", err.text);
-    ec_fail(&err, "the compiler says:%s", "\n  error: no"); /* its lines stay lines */
+    ec_fail(&err, "the compiler says:%s", "\n  error: no"); /* line breaks stay */
     CHECK(strchr(err.text, '\n') != NULL);
     TEST_END();
 }

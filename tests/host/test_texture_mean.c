@@ -1,6 +1,6 @@
 /* tier: quick */
-/* The mean over a triangle of an emissive texture: of one that lies on a single point, the texel there, in every way to go on beyond the picture's edge;
- * of one that covers two texels, between them. */
+/* The mean of an emissive texture over a triangle: for coordinates on a single point, the texel there, in every wrap mode; for a triangle
+ * over two texels, a value between them. */
 #include "image/image.h"
 #include "pack/texture_mean.h"
 #include "support/test.h"
@@ -9,7 +9,7 @@
 
 enum { WIDTH = 5, HEIGHT = 3 };
 
-/* Where a coordinate leads by glTF's wrapping modes. */
+/* The coordinate after glTF's wrap modes. */
 static uint32_t column(double u, uint32_t size, ec_wrap wrap)
 {
     double x = u;

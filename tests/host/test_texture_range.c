@@ -1,5 +1,5 @@
 /* tier: quick */
-/* The least and largest values of an image's channels, wherever in it they stand. */
+/* The smallest and largest values of an image's channels, anywhere in the image. */
 #include "scene/texture_range.h"
 #include "support/test.h"
 
@@ -23,7 +23,7 @@ static void check(const ec_image *image)
     }
 }
 
-/* Each texel in turn is the one that is different. */
+/* Each texel in turn is different from all others. */
 int main(void)
 {
     uint8_t shallow[4 * 41];

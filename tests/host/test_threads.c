@@ -1,5 +1,5 @@
 /* tier: quick */
-/* What threads share out when a scene is read and packed: the same bytes, and the same words, for any number of them. */
+/* Work that threads share while a scene is read and packed: bytes and messages do not depend on their number. */
 #include <omp.h>
 
 #include "image/image.h"
@@ -12,7 +12,7 @@ enum { SIDE = 24, TRIANGLES = 2 * SIDE * SIDE, TEXTURES = 5, MAP_WIDTH = 203, MA
 static uint32_t noise = 1;
 static uint32_t draw(void) { return (noise = noise * 1664525u + 1013904223u) >> 16; }
 
-/* A picture whose pixels say nothing that deflate could use. */
+/* A picture whose pixels deflate cannot compress. */
 static uint8_t *noise_png(uint32_t side, size_t *size)
 {
     uint8_t *rgb = malloc(3 * (size_t)side * side), *bytes = NULL;
@@ -23,7 +23,7 @@ static uint8_t *noise_png(uint32_t side, size_t *size)
     return bytes;
 }
 
-/* A field of triangles that all glow, by the texture of the last image. */
+/* A field of triangles that all emit, with the texture of the last image. */
 #define FIELD                                                                                                                            \
     "{'asset':{'version':'2.0'},'nodes':[{'mesh':0}],"                                                                                   \
     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'material':0}]}],"                                             \
@@ -64,7 +64,7 @@ static ec_scene *load_field(uint8_t *const images[TEXTURES], const size_t sizes[
     return s;
 }
 
-/* A black row, a black column, and one texel that outshines all. */
+/* A black row, a black column, and one texel that is far brighter than all others. */
 static void light(ec_scene *s)
 {
     noise = 7;
@@ -122,7 +122,7 @@ static void same_bytes(uint8_t *const images[TEXTURES], const size_t sizes[TEXTU
     }
 }
 
-/* The first is decoded for longest, the last fails at once: they are told of in the order in which the material names them. */
+/* Decoding the first takes longest, and the last fails at once: messages come in the order in which the material names the images. */
 static void first_comes_first(uint8_t *const images[TEXTURES], const size_t sizes[TEXTURES])
 {
     char expected[sizeof messages];
@@ -138,7 +138,7 @@ static void first_comes_first(uint8_t *const images[TEXTURES], const size_t size
     CHECK_MSG(first && second && first < second && strstr(expected, "images[4] \"glow\"") && !strstr(expected, "images[2]"), "%s", expected);
 }
 
-/* Of a cube of light, whose faces cannot be left out, the first is told. */
+/* In a cube map, whose faces cannot be left out, the message names the first bad face. */
 static void first_face(uint8_t *const images[TEXTURES], const size_t sizes[TEXTURES])
 {
     char *broken = strdup(TRIANGLE("", "", "", ",'images':[{'uri':'@0@'},{'uri':'@1@'}],'extensionsUsed':['EXT_lights_image_based'],"

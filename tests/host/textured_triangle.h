@@ -15,7 +15,7 @@ static const unsigned char png16[] = {
     132, 145, 232, 19, 0, 0, 0, 0, 73, 69, 78, 68, 174, 66, 96, 130};
 static const float triangle_uv[6] = {0, 0, 1, 0, 0, 1};
 
-/* A triangle with TEXCOORD_0; MATERIAL and ROOT are spliced in; images 0 = png8, 1 = png16, 2 = broken. */
+/* A triangle with TEXCOORD_0; MATERIAL and ROOT are inserted; images 0 = png8, 1 = png16, 2 = broken. */
 #define TEXTURED(MATERIAL, ROOT)                                                                                       \
     "{'asset':{'version':'2.0'},'nodes':[{'mesh':0}],"                                                                 \
     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'material':0}]}],"                           \
