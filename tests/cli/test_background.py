@@ -165,7 +165,7 @@ class Background(Case):
         self.assertLess(sum(difference) / len(difference), 3)
 
     def test_avif_and_jxl_are_the_png(self):
-        """Where the build lacks a library, the refusal names it."""
+        """A build without the library refuses, and names the library."""
         decoders = {"avif": ("avifdec", lambda a, b: ("avifdec", a, b)), "jxl": ("djxl", lambda a, b: ("djxl", a, b))}
         built = {}
         for name in decoders:

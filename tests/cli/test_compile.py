@@ -158,7 +158,7 @@ class Compile(Case):
         self.assertEqual((later["first_kernels"], later["image_sha256"]), ("fast", report["image_sha256"]))
 
     def test_packets_are_not_waited_for(self):
-        """Of two accelerators' kernels, those that take one ray at a time are enough for the fast kernels to take over."""
+        """Fast kernels of the accelerator that takes one ray at a time are enough to take over; those of packets come later."""
         job = dict(scene=os.path.join(SOURCE, "scenes", "stadium", "stadium.gltf"), spp=8000)
         report, _ = self.render(eclat_is=self.idle_compiler(), **job)
         self.skip_unless_late(report)

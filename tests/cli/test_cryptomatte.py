@@ -96,7 +96,7 @@ class Mattes(Case):
             self.assert_coverage("--integrator", integrator)
 
     def assert_coverage(self, *options):
-        """Of 24 x 12 pixels, those covered wholly or not at all are exact. The column at x = 0.7 is covered by 0.6 within the samples'
+        """Pixels (24 x 12) that are covered wholly or not at all are exact. The column at x = 0.7 is covered by 0.6 within the samples'
         discrepancy. An asset is everything below a node."""
         path = self.render("a.exr", "--channels", "A,cryptomatte", *options, scene=two_quads().write(self.path("two.gltf")), size="24x12")
         _, _, mattes = read_mattes(path)

@@ -1,6 +1,6 @@
 # tier: full
-"""Where batches are short, ranks send the sum of 128 or 2048 batches instead of each batch; the bits stay the same. Skips without mpirun,
-or where eclat was built without MPI."""
+"""Ranks with short batches send the sum of 128 or 2048 batches instead of each batch; the bits stay the same. Skips without mpirun, or
+where eclat was built without MPI."""
 import json
 import os
 import signal
@@ -61,7 +61,7 @@ class RankBlocks(Case):
         self.assertLess(bytes_of_each(report), 56 / 1.5)
 
     def test_until_an_error(self):
-        """The same batch ends the job, wherever batches were rendered. The error is looked at when all replicates have a quarter of a power
+        """One certain batch ends the job, wherever batches were rendered. The error is looked at when all replicates have a quarter of a power
         of two, and no block goes beyond such a point. From 32768 samples on, 128 batches or more lie between two looks."""
         past = self.render(*JOB, "--spp", "49152")[0]["error_bound"]
         job = [*JOB, "--adaptive=off", "--error", f"{100 * past}%"]

@@ -82,7 +82,7 @@ static void test_rotation(void)
         expect_corner(floats, &k, 3, 1, (double[3]){cos(170 * degree), sin(170 * degree), 0});
         for (int i = 4; i < 8; i++) k.values[i] = -k.values[i];
     }
-    /* The same in normalised shorts. */
+    /* This rotation in normalised shorts. */
     const char shorts[] = ANIMATED("", NODE_0("rotation"), "LINEAR", "'componentType':5122,'normalized':true,'count':3,'type':'VEC4'", "");
     const int16_t turns[12] = {0, 0, 0, 32767, 0, 0, 32767, 0, 0, 0, 0, 32767};
     memcpy(k.values, turns, sizeof turns);

@@ -6,7 +6,7 @@
 
 enum { STRIDES = 400 }; /* of up to 24320 samples */
 
-/* Where rounds end by the text of schedule.h: 1, 2, 4, 8, then 10, 12, 14, 16, 20, … */
+/* Ends of rounds by the text of schedule.h: 1, 2, 4, 8, then 10, 12, 14, 16, 20, … */
 static bool is_end_of_a_round(uint64_t samples)
 {
     uint64_t power = 8;

@@ -1,12 +1,12 @@
-/* Samples against the density that they are said to have: chi-square, cells that expect fewer than 5 pooled; significance 0.01 over all
- * tests of test_chi2_*.c (Sidak). */
+/* Compares samples with the density that they should have, by chi-square. Cells that expect fewer than 5 are pooled; significance is 0.01
+ * over all tests of test_chi2_*.c (Sidak). */
 #ifndef EC_TESTS_KERNEL_CHI2_H
 #define EC_TESTS_KERNEL_CHI2_H
 
 #include "kernel/kernel_run.h"
 
 #define SAMPLES (1u << 17)
-#define TESTS 190 /* at least as many as there are */
+#define TESTS 190 /* at least the number of those tests */
 
 static ec_cl cl;
 static const double pi = 3.14159265358979323846;
@@ -14,7 +14,7 @@ static float out[5 * SAMPLES];
 static uint32_t samples = SAMPLES, seed = 1;
 static int tests;
 
-/* Upper tail of chi-square by Wilson and Hilferty 1931: good to a few per cent of p for the k here. */
+/* Upper tail of chi-square by Wilson and Hilferty 1931: precise to a few per cent of p for the k here. */
 static inline double chi2_p(double chi2, double k)
 {
     double z = (cbrt(chi2 / k) - (1 - 2 / (9 * k))) / sqrt(2 / (9 * k));

@@ -1,17 +1,17 @@
-/* KHR_materials_iridescence in double precision, by the extension's text, but for Fresnel's formula at the outer face. */
+/* KHR_materials_iridescence in double precision, by the extension's text, except for Fresnel's formula at the outer face. */
 #ifndef EC_TESTS_KERNEL_FILM_REFERENCE_H
 #define EC_TESTS_KERNEL_FILM_REFERENCE_H
 
 #include <math.h>
 
 static inline double film_schlick(double f0, double cosine) { return f0 + (1 - f0) * pow(1 - cosine, 5); }
-/* Of both polarisations, from air into the index n. */
+/* Reflectance of both polarisations, from air into the index n. */
 static inline double film_fresnel(double cosine, double inside, double n)
 {
     return (pow((cosine - n * inside) / (cosine + n * inside), 2) + pow((n * cosine - inside) / (n * cosine + inside), 2)) / 2;
 }
 
-/* What of light late by `way` metres is seen in X, Y, Z, each turned by an angle of its own. */
+/* Response of X, Y and Z to light with a path difference of `way` metres, each with a phase shift of its own. */
 static inline void film_sensed(double way, const double shift[3], double xyz[3])
 {
     const double turn = 6.283185307179586, phase = turn * way;
@@ -23,7 +23,7 @@ static inline void film_sensed(double way, const double shift[3], double xyz[3])
     }
 }
 
-/* Reflectance in red, green, blue of a film over surfaces of reflectance f0 head-on, in air; kept in [0, 1]. */
+/* Reflectance in red, green, blue of a film in air over surfaces of reflectance f0 head-on; limited to [0, 1]. */
 static inline void film_reference(double cosine, double film, double nanometres, const double f0[3], double out[3])
 {
     static const double rec709[3][3] = {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};

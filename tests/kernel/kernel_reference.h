@@ -1,4 +1,4 @@
-/* What the tests against double precision share: N values an array, every lane width, the same bits from all. */
+/* Shared by the tests against double precision: N values an array, every lane width, equal bits from all of them. */
 #ifndef EC_TESTS_KERNEL_REFERENCE_H
 #define EC_TESTS_KERNEL_REFERENCE_H
 
@@ -12,7 +12,7 @@ static cl_program programs[LANE_WIDTHS];
 
 static inline float random_float(double a, double b) { return (float)test_random_in(a, b); }
 
-/* Runs a kernel at every width and compares the arrays in [first, count) with those of LANES 1, which stay. */
+/* Runs a kernel at every width and compares the arrays in [first, count) with those of LANES 1, which are the result. */
 static inline bool run_all(const char *name, kernel_array *arrays, uint32_t count, uint32_t first)
 {
     int before = test_failures;

@@ -1,5 +1,5 @@
-/* For C tests that run kernels over arrays: a device, flattened sources, calls. Kernels for such tests stand in
- * tests/kernel/run_NAME.cl, which the driver of kernel_test.h leaves alone. */
+/* For C tests that run kernels over arrays: a device, flattened sources, calls. Kernels for such tests are in tests/kernel/run_NAME.cl,
+ * which the driver of kernel_test.h leaves out. */
 #ifndef EC_TESTS_KERNEL_RUN_H
 #define EC_TESTS_KERNEL_RUN_H
 
@@ -8,12 +8,12 @@
 #include "cl/workarounds.h"
 #include "support/test.h"
 
-/* The first two differ most; they stand for all in the quick tier. */
+/* The first two differ most; the quick tier tests only these. */
 static const int lane_widths[] = {1, 8, 4, 16};
 #define LANE_WIDTHS 4
-#define EIGHT 1 /* of lane_widths */
+#define EIGHT 1 /* length of lane_widths */
 
-/* How many of them to test: those that the device's compiler can take. */
+/* Number of widths to test: those that the device's compiler supports. */
 static inline int kernel_widths(const ec_cl *cl)
 {
     const ec_workaround *driver = ec_workaround_for(&cl->info);
@@ -23,7 +23,7 @@ static inline int kernel_widths(const ec_cl *cl)
     return count;
 }
 
-/* Opens the device that ECLAT_DEVICE or the rule chooses. 0; 77 without a device; 1 after a failure. */
+/* Opens the device that ECLAT_DEVICE names, or the default. Returns 0; 77 without a device; 1 after a failure. */
 static inline int kernel_open(ec_cl *cl)
 {
     ec_device_info *devices;
@@ -38,7 +38,7 @@ static inline int kernel_open(ec_cl *cl)
     return test_failures ? 1 : 0;
 }
 
-/* The text of tests/FILE with its includes; NULL after a message from the tool. */
+/* Returns the text of tests/FILE with its includes; NULL after an error, which the tool prints. */
 static inline char *kernel_flatten(const char *file)
 {
     char command[4096];
@@ -61,7 +61,7 @@ static inline char *kernel_flatten(const char *file)
     return text;
 }
 
-/* run_NAME.cl built for a lane width; NULL after a failed check. */
+/* Builds run_NAME.cl for a lane width; NULL after a failed check. */
 static inline cl_program kernel_build(ec_cl *cl, const char *name, int lanes, const char *more)
 {
     char file[256], label[256], options[512];
@@ -84,7 +84,7 @@ typedef ec_array kernel_array;
 #define SCALAR EC_SCALAR
 #define KERNEL_ARRAYS EC_CALL_ARRAYS
 
-/* False after a failed check. */
+/* Returns false after a failed check. */
 static inline bool kernel_call(ec_cl *cl, cl_program program, const char *name, uint64_t items, uint32_t local,
                                const kernel_array *arrays, uint32_t count)
 {

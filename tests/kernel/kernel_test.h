@@ -1,8 +1,9 @@
-/* What a kernel test is written with. A test is one file tests/kernel/test_NAME.cl and nothing else: every kernel in it
- * takes the argument `global test_result *result`, and if it wants memory `global uint *scratch` (TEST_SCRATCH_WORDS of
- * 0), and is run as a single work-item for each LANES (1, 4, 8, 16). A line that starts with "// options: " asks for a
- * build with these options; several such lines for several builds.
- * Functions that check take `result` by that name too. Legal in C11, for the driver. */
+/* Macros for kernel tests. A test is one file tests/kernel/test_NAME.cl and nothing else. Every kernel in it has the argument `global
+ * test_result *result` and, if it needs memory, `global uint *scratch` (TEST_SCRATCH_WORDS words of 0). It runs as a single work-item for
+ * each LANES (1, 4, 8, 16). A line that starts with "// options: " requests a build with these options; several such lines request several
+ * builds.
+ *
+ * Functions that use CHECK name the argument `result` too. The header is also legal C11, for the driver. */
 #ifndef EC_TESTS_KERNEL_TEST_H
 #define EC_TESTS_KERNEL_TEST_H
 
@@ -15,9 +16,9 @@ enum test_value_kind { TEST_NO_VALUES, TEST_FLOATS, TEST_UINTS };
 typedef struct test_result {
     ec_uint checks;
     ec_uint failures;
-    ec_uint line;         /* the rest: of the first failure */
+    ec_uint line;         /* this and the rest: of the first failure */
     ec_uint kind;         /* test_value_kind */
-    ec_uint count;        /* of values */
+    ec_uint count;        /* number of values */
     ec_uint values[4];    /* bits */
     ec_uint pad[3];
 } test_result;
@@ -34,7 +35,7 @@ static inline void test_record(global test_result *result, int good, uint line, 
 }
 
 #define CHECK(condition) test_record(result, (condition) != 0, __LINE__, TEST_NO_VALUES, 0, (uint4)(0u))
-/* With up to four floats, or uints, to look at when it fails. */
+/* With up to four floats, or uints, which are printed when the check fails. */
 #define CHECK_FLOATS(condition, a, b, c, d)                                                        \
     test_record(result, (condition) != 0, __LINE__, TEST_FLOATS, 4, as_uint4((float4)(a, b, c, d)))
 #define CHECK_UINTS(condition, a, b, c, d)                                                         \
@@ -42,7 +43,7 @@ static inline void test_record(global test_result *result, int good, uint line, 
 /* Integers, up to 32 bits. */
 #define CHECK_EQUAL(a, b)                                                                          \
     test_record(result, (uint)(a) == (uint)(b), __LINE__, TEST_UINTS, 2, (uint4)((uint)(a), (uint)(b), 0u, 0u))
-/* Floats. A NaN is near nothing. */
+/* Floats. NaN is near no number. */
 #define CHECK_NEAR(a, b, tolerance)                                                                \
     test_record(result, fabs((float)(a) - (float)(b)) <= (float)(tolerance), __LINE__, TEST_FLOATS, 3, \
                 as_uint4((float4)(a, b, tolerance, 0.0f)))

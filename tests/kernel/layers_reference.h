@@ -1,5 +1,5 @@
-/* What the tests of layered surfaces against double precision share: directions, f against a formula, reciprocity, a furnace. One surface
- * a call, N directions. Every lane width must give the same bits. */
+/* Shared by the tests of layered surfaces against double precision: directions, f against a formula, reciprocity, a furnace. One surface a
+ * call, N directions. Every lane width must give the same bits. */
 #ifndef EC_TESTS_KERNEL_LAYERS_REFERENCE_H
 #define EC_TESTS_KERNEL_LAYERS_REFERENCE_H
 
@@ -36,8 +36,8 @@ static inline vector seen_from(const float *m)
     return (vector){sqrt(1 - cosine * cosine), 0, cosine};
 }
 
-/* Anywhere above, a quarter of them near the horizon; half of all where a lobe of this width, bent by this sine, mirrors v;
- * a third of them below where light goes through. */
+/* Directions anywhere above, a quarter of them near the horizon. Half of all are where a lobe of this width, tilted by this sine, reflects
+ * v; a third are below if light is transmitted. */
 static inline void draw_directions(vector v, double alpha, double tilt, bool through)
 {
     for (uint32_t i = 0; i < N; i++) {
@@ -58,8 +58,8 @@ static inline vector direction(uint32_t i) { return (vector){wi[i], wi[N + i], w
 static const float plain[PACKED_FIELDS] = {[PACKED_BASE] = 0.8f, [PACKED_BASE + 1] = 0.6f, [PACKED_BASE + 2] = 0.4f, [PACKED_F0] = 0.04f,
                                            [PACKED_F90] = 1, [PACKED_ALPHA] = 0.3f, [PACKED_ETA] = 1};
 
-/* Runs and compares with want(); relative, as rounding of the half vector turns it by 2 u and a lobe of width alpha changes by that
- * over alpha, twice (as in test_reference.c); relative to `scale`. */
+/* Runs and compares with want(), relative to the value or to `scale`. Rounding turns the half vector by 2 u, and a lobe of width alpha
+ * changes by that over alpha, twice (as in test_reference.c). */
 typedef double value_of(const float *m, vector l, vector v);
 static inline void compare(const char *what, const float *m, double least_alpha, double tilt, value_of *want, value_of *scale)
 {
@@ -70,7 +70,7 @@ static inline void compare(const char *what, const float *m, double least_alpha,
     uint32_t at = 0, dark = 0;
     for (uint32_t i = 0; i < N; i++) {
         vector l = direction(i);
-        double expected = want(m, l, v), sum = sqrt(2 + 2 * product(above(l), v)); /* nearly opposite directions: their half vector is worth less */
+        double expected = want(m, l, v), sum = sqrt(2 + 2 * product(above(l), v)); /* nearly opposite directions have an imprecise half vector */
         double error = fabs(f[i] - expected) / (scale(m, l, v) + 1e-7) / (1 + 0.1 / sum);
         if (error > worst) worst = error, at = i;
         dark += !(pdf[i] > 0) && expected > 1e-6;
@@ -81,7 +81,7 @@ static inline void compare(const char *what, const float *m, double least_alpha,
     CHECK_MSG(dark == 0, "%s: %u directions without a density", what, dark);
 }
 
-/* Mean of f cos / pdf over samples: what white light from everywhere comes back as. */
+/* Mean of f cos / pdf over samples: the light that returns in uniform white light. */
 static inline double albedo(const float *m, double *se)
 {
     enum { COUNT = 1 << 16 };
@@ -100,14 +100,14 @@ static inline double albedo(const float *m, double *se)
     return sum;
 }
 
-/* f(wo, wi) = f(wi, wo) for six cosines each and N / 6 azimuths, but for rounding as in compare(). */
+/* f(wo, wi) = f(wi, wo) for six cosines each and N / 6 azimuths, except for rounding as in compare(). */
 static inline void check_reciprocity(const char *what, const float *m)
 {
     static const double cosines[6] = {0.01, 0.1, 0.3, 0.5, 0.8, 1};
     static float values[6][N];
     double worst = 0;
     for (uint32_t i = 0; i < N; i++) {
-        double z = cosines[i % 6], angle = 2 * pi * (i / 6) / (N / 6.0), r = sqrt(1 - z * z); /* six of the same azimuth */
+        double z = cosines[i % 6], angle = 2 * pi * (i / 6) / (N / 6.0), r = sqrt(1 - z * z); /* six with one azimuth */
         wi[i] = (float)(r * cos(angle)), wi[N + i] = (float)(r * sin(angle)), wi[2 * N + i] = (float)z;
     }
     for (int o = 0; o < 6; o++) {
@@ -127,7 +127,7 @@ static inline void check_reciprocity(const char *what, const float *m)
     printf("%s: reciprocal within %.1e\n", what, worst);
 }
 
-/* Over roughness and angle: never more than comes in, by more than 4 standard errors; says how little comes back at the least. */
+/* Over roughness and angle: never more than arrives, by more than 4 standard errors; prints the smallest value. */
 static inline void furnace(const char *what, const float *white, int roughness_field, double anisotropy)
 {
     static const double roughness[7] = {0.02, 0.07, 0.15, 0.3, 0.5, 0.75, 1}, cosines[6] = {1, 0.7, 0.4, 0.15, 0.03, 0.003};

@@ -1,4 +1,4 @@
-/* Everything whose place host and device must agree on: L(SIZE, FIELD, NUMBER). Used on both sides by test_layouts.c. */
+/* All offsets and sizes on which host and device must agree: L(SIZE, FIELD, NUMBER). test_layouts.c uses it on both sides. */
 #ifndef EC_TESTS_KERNEL_LAYOUTS_H
 #define EC_TESTS_KERNEL_LAYOUTS_H
 

@@ -1,2 +1,2 @@
-/* The stage alone, over radiance that the test makes. */
+/* Runs the stage alone, over radiance made by the test. */
 #include "stages/accumulate.cl"

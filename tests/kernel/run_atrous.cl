@@ -1,2 +1,2 @@
-/* The stage alone, over a picture that the test makes. */
+/* Runs the stage alone, over a picture made by the test. */
 #include "stages/atrous.cl"

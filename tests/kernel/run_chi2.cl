@@ -4,7 +4,7 @@
 #include "lib/scatter.h"
 #include "packed_material.h"
 
-/* Numbers of a hash: what is tested is the map from them to directions. */
+/* Hashed random numbers: the test is about the mapping from them to directions. */
 static void numbers(lane_u i, uint seed, lane_u *r1, lane_u *r2, lane_u *pass)
 {
     lane_u h = hash_u(hash_u(i) ^ seed);
@@ -24,7 +24,7 @@ static void store(global float *out, uint n, v3 w, lane_f pdf)
     LANE_STORE(pdf, out + 3 * n + at);
 }
 
-/* About the normal, by turns. */
+/* Rotates about the normal, by turns. */
 static v3 turned(v3 w, float turns)
 {
     lane_f c, s = sincos_2pi(F(turns), &c);
@@ -75,7 +75,7 @@ kernel void bsdf_samples(uint n, uint seed, constant float *m, global float *out
     LANE_STORE(d.pdf > 0.0f ? d.weight.y : F(0.0f), out + 4 * n + get_global_id(0) * LANES);
 }
 
-/* Light that goes along d scattered in a body. */
+/* Direction after scattering in a body, for light along d. */
 kernel void phase_samples(uint n, uint seed, float g, constant float *d, global float *out)
 {
     lane_u r1, r2, unused;
@@ -85,7 +85,7 @@ kernel void phase_samples(uint n, uint seed, float g, constant float *d, global 
     store(out, n, w, phase_value(F(g), along, w));
 }
 
-/* The density of given directions. */
+/* Density of given directions. */
 kernel void bsdf_densities(uint n, constant float *m, global const float *wi, global float *pdf)
 {
     uint at = get_global_id(0) * LANES;
@@ -107,7 +107,7 @@ kernel void bsdf_values(uint n, constant float *m, global const float *wi, globa
     LANE_STORE(p, pdf + at);
 }
 
-/* One light of a table, seen from p. */
+/* A sample of one light of a table, seen from p. */
 kernel void light_samples(uint n, uint seed, constant ec_params *params, constant float *p, global const float *table,
                           global const uint *shares, global const float *texels, global const uint *texel_table, global float *out)
 {

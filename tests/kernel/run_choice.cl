@@ -8,7 +8,7 @@ kernel void stretch(uint n, global const uint *rest, constant uint *factor, glob
     LANE_STORE(choice_stretch(LANE_LOAD(rest + at), U(factor[0]), U(factor[1]), LANE_LOAD(r + at)), out + at);
 }
 
-/* One of p.length things after the other, or what is left: which, and the rest of the number. */
+/* Chooses one of p.length things in order, or the remainder: which one, and the rescaled number. */
 kernel void chain(uint n, global const uint *r, constant float *p, uint count, global uint *which, global float *out)
 {
     uint at = get_global_id(0) * LANES;
@@ -25,7 +25,7 @@ kernel void chain(uint n, global const uint *r, constant float *p, uint count, g
     LANE_STORE(chooser_end(&c), out + at);
 }
 
-/* What is left of numbers that are `rest` of `all`. */
+/* Rescales numbers that are in the remaining part, `rest` of `all`. */
 kernel void rests(uint n, global const uint *rest, uint all, global const uint *r, global float *out)
 {
     uint at = get_global_id(0) * LANES;
@@ -33,7 +33,7 @@ kernel void rests(uint n, global const uint *rest, uint all, global const uint *
     LANE_STORE(choice_rest(LANE_LOAD(rest + at), U(all), LANE_LOAD(r + at)), out + at);
 }
 
-/* The numbers of the table of lights that they go to. */
+/* Maps numbers to the table of lights. */
 kernel void shares(uint n, constant ec_params *params, global const uint *r, global uint *out)
 {
     uint at = get_global_id(0) * LANES;

@@ -10,7 +10,7 @@ kernel void sample_distribution(uint n, global const uint *table, uint entries, 
     LANE_STORE(rest, left + at);
 }
 
-/* 1 where the short table's entry, its first number or its share are others than the guided ones. */
+/* 1 where the short table's entry, first number or share differs from the guided one's. */
 kernel void pick_few(uint n, global const uint *table, uint entries, global const uint *r, global uint *other)
 {
     uint at = get_global_id(0) * LANES;

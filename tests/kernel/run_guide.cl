@@ -3,7 +3,7 @@
 
 EC_FN v3 load(global const float *xyz, uint n, uint at) { return v3_make(LANE_LOAD(xyz + at), LANE_LOAD(xyz + n + at), LANE_LOAD(xyz + 2 * n + at)); }
 
-/* The densities of directions at points, and how often directions are guided there. */
+/* Densities of directions at points, and the probability of guiding there. */
 kernel void guide_density(uint n, global const float *table, global const float *points, global const float *directions, global float *pdf, global float *share)
 {
     uint at = get_global_id(0) * LANES;

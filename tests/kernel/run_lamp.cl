@@ -1,4 +1,4 @@
-/* Triangles that shine, seen from points, for test_lamp.c. Arrays hold n numbers a component. */
+/* Emitting triangles seen from points, for test_lamp.c. Arrays hold n numbers for each component. */
 #include "lib/light.h"
 
 static v3 load(global const float *from, uint n, uint at)
@@ -6,8 +6,8 @@ static v3 load(global const float *from, uint n, uint at)
     return v3_make(LANE_LOAD(from + at), LANE_LOAD(from + n + at), LANE_LOAD(from + 2 * n + at));
 }
 
-/* points: 3; corners: 9; u: 2. out: solid angle, then of a sample: b1, b2, density, density found by a path to it, can it be
- * sampled, is the lamp near. Every lamp is two-sided and the only one. */
+/* points: 3; corners: 9; u: 2. out: solid angle; then of a sample: b1, b2, density, density found by a path to it, whether it can be
+ * sampled, whether the lamp is near. Every lamp is two-sided and the only one. */
 kernel void lamps(uint n, global const float *points, global const float *corners, global const float *u, global float *out)
 {
     uint at = get_global_id(0) * LANES;

@@ -1,7 +1,7 @@
-/* Parts of lamps, for test_lamp_parts.c. Arrays hold n numbers a component. */
+/* Parts of lamps, for test_lamp_parts.c. Arrays hold n numbers for each component. */
 #include "lib/light.h"
 
-/* By hashed numbers: a part's corner and size, its first number and how many, the same found from a point in it, and what is left. */
+/* For hashed numbers: the part's corner and size, its first number and count, the part found from a point in it, and the rescaled number. */
 kernel void choices(uint n, uint seed, global const float *nodes, uint node, global uint *numbers, global float *out)
 {
     uint at = get_global_id(0) * LANES;
@@ -21,8 +21,8 @@ kernel void choices(uint n, uint seed, global const float *nodes, uint node, glo
 
 EC_FN v3 corner(global const float *p, uint k) { return v3_make(F(p[3 * k]), F(p[3 * k + 1]), F(p[3 * k + 2])); }
 
-/* Seen from p: of a sample its density and that found where it went; of an even point of the lamp the density found times what turns area into
- * solid angle, so that the mean is 1. corners: the lamp's three, and p. */
+/* Seen from p: for a sample, its density and the density found from its direction; for a uniform point of the lamp, the density found times
+ * the factor from area to solid angle, whose mean is 1. corners: the lamp's three, and p. */
 kernel void densities(uint n, uint seed, global const float *nodes, uint node, global const float *corners, global float *out)
 {
     uint at = get_global_id(0) * LANES;

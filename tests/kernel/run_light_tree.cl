@@ -1,9 +1,9 @@
-/* Lamps that the light tree chooses, and their probabilities, for test_light_tree.c. */
+/* Lamps chosen by the light tree, and their probabilities, for test_light_tree.c. */
 #include "lib/light_tree.h"
 
 static v3 point(global const float *points, uint which) { return v3_make(F(points[3 * which]), F(points[3 * which + 1]), F(points[3 * which + 2])); }
 
-/* Of each trail, seen from a point. */
+/* Probability of each trail, seen from a point. */
 kernel void probabilities(uint n, global const float *table, global const float *tree, global const uint *trails, global const float *points, uint which,
                           uint numbers, global float *out)
 {
@@ -13,7 +13,7 @@ kernel void probabilities(uint n, global const float *table, global const float 
     LANE_STORE(light_tree_pmf(&l, TRUE_MASK, point(points, which), numbers, LANE_LOAD(trails + at)), out + at);
 }
 
-/* By hashed ones of `numbers`: the lamp, its probability, that of its trail, and what is left of the number. */
+/* For hashed `numbers`: the lamp, its probability, that of its trail, and the rescaled number. */
 kernel void choices(uint n, uint seed, global const float *table, global const float *tree, global const uint *trails, global const float *points, uint which,
                     uint numbers, global uint *lamps, global float *out)
 {

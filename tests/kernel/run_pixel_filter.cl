@@ -1,4 +1,4 @@
-/* Places of samples, for test_pixel_filter.c. */
+/* Positions of samples in pixels, for test_pixel_filter.c. */
 #include "lib/sampler.h"
 #include "lib/pixel_filter.h"
 

@@ -101,7 +101,7 @@ kernel void bsdf_of(uint n, global const float *wo, global const float *wi, glob
     LANE_STORE(p, pdf + AT);
 }
 
-/* Light leaving along wo from a white metal under uniform light, by sampling: E of one-bounce GGX. One value a work-item:
+/* Light that leaves along wo from a white metal under uniform light, by sampling: E of GGX with single scattering. One value a work-item:
  * the sum of f cos / pdf over `count` stratified samples. */
 kernel void albedo_of(uint count, global const float *cosine, global const float *alpha, global float *sum)
 {

@@ -1,4 +1,4 @@
-/* Each operation that the kernels take to be correctly rounded, on arrays. What is built of two, too: compilers know shortcuts. */
+/* Each operation that kernels expect to be correctly rounded, on arrays. Also combinations of two, for which compilers have shortcuts. */
 #include "lib/lanes.h"
 
 #define LOAD(array) LANE_LOAD((array) + get_global_id(0) * LANES)

@@ -1,2 +1,2 @@
-/* The stage by itself, for test_splat.c. */
+/* Runs the stage alone, for test_splat.c. */
 #include "../../kernels/stages/splat.cl"

@@ -1,4 +1,4 @@
-/* Texture look-ups over arrays, and the seam's arithmetic. */
+/* Texture look-ups over arrays, and the arithmetic at the seam. */
 #include "lib/geometry.h"
 
 kernel void sample(uint n, uint is_srgb, global const int *id, global const float *u, global const float *v, global const uint *on,
@@ -14,7 +14,7 @@ kernel void sample(uint n, uint is_srgb, global const int *id, global const floa
     LANE_STORE(r.a, out + 3 * n + at);
 }
 
-/* Through a material: uv set and transform of its base colour. prims and attributes as in a scene. */
+/* By a material: uv set and transform of its base colour. prims and attributes as in a scene. */
 kernel void look_up(uint n, global const uint *prim, global const float *b1, global const float *b2, global const float *prims,
                     global const float *indices, global const float *uvs, global const float *materials,
                     global const float *table, global const uint *texels, constant float *srgb, global float *out)
@@ -29,7 +29,7 @@ kernel void look_up(uint n, global const uint *prim, global const float *b1, glo
     LANE_STORE(r.a, out + 3 * n + at);
 }
 
-/* Texels chosen along one axis, for coordinates that are not finite too. */
+/* Texels chosen along one axis, including coordinates that are not finite. */
 kernel void axis(global const float *u, global const uint *size, global const uint *wrap, global const uint *nearest,
                  global uint *first, global uint *second, global float *weight)
 {

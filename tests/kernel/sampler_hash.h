@@ -1,4 +1,4 @@
-/* The host's copy of hash_u in kernels/lib/sampler.h: what kernels put below the digits of a number. */
+/* Host copy of hash_u in kernels/lib/sampler.h, which gives the digits below those of a rescaled number. */
 #ifndef TESTS_SAMPLER_HASH_H
 #define TESTS_SAMPLER_HASH_H
 

@@ -1,7 +1,9 @@
 /* tiers: quick, long */
-/* What a batch tells of a pixel against sums in double: mean radiance, and of the samples' luminance the largest and the powers in units of that.
- * Means are of floats added one by one, 64 at a time: 64 roundings of half an ulp, of sums of what is not negative. A luminance is rounded five
- * times, a ratio twice more; a fourth power takes four times that. */
+/* A batch's fields of a pixel against sums in double: mean radiance, the samples' largest luminance, and sums of powers of luminance in
+ * units of it.
+ *
+ * Means add floats one by one, 64 at a time: 64 roundings of half an ulp, in sums of numbers that are not negative. A luminance is rounded
+ * five times, a ratio twice more; a fourth power has four times that error. */
 #include "kernel/kernel_run.h"
 #include "shared/params.h"
 
@@ -9,8 +11,8 @@ enum { WIDTH = 11, HEIGHT = 9, PIXELS = WIDTH * HEIGHT, MOST = 200, WAVE = PIXEL
 
 static float radiance[3 * WAVE], film[EC_BATCH_FIELDS * PIXELS];
 
-/* Kinds of pixels, by place in the wave: black, one lit sample, even, heavy-tailed, so bright that sums leave the range of a float, tiny, the
- * brightest there is. */
+/* Kinds of pixels, by their place in the wave: black, one lit sample, uniform, heavy-tailed, so bright that sums exceed float's range,
+ * tiny, the brightest possible. */
 static float sample_of(uint32_t pixel, uint32_t sample)
 {
     switch (pixel % 7) {
@@ -43,7 +45,7 @@ static void check_pixel(const float *out, uint32_t wave, uint32_t at, uint32_t b
     if (kind == 1) CHECK(out[EC_BATCH_SQUARES] == 1 && out[EC_BATCH_FOURTHS] == 1);
 }
 
-/* Place in row order of pixel `number`: tiles of 8 x 8, rows of tiles first, narrower and lower at the edges. */
+/* Index in row order of pixel `number`. Tiles are 8 x 8, in rows of tiles, and smaller at the right and bottom edges. */
 static uint32_t place_of(uint32_t number)
 {
     const uint32_t tile_row = number / (8 * WIDTH), in_row = number % (8 * WIDTH), rows = HEIGHT - 8 * tile_row < 8 ? HEIGHT - 8 * tile_row : 8;
@@ -51,12 +53,13 @@ static uint32_t place_of(uint32_t number)
     return (8 * tile_row + in_tile / columns) * WIDTH + 8 * tile + in_tile % columns;
 }
 
-/* A wave of `count` pixels of the picture from number `first` on, or entries of a list, whose batch film goes by entry. Others stay as they are. */
+/* Takes a wave of `count` pixels of the picture from number `first` on, or of entries of a list, whose batch film is by entry. Other pixels
+ * stay as they are. */
 static void check_wave(ec_cl *cl, cl_program program, uint32_t batch, uint32_t first, uint32_t count, bool has_list)
 {
     static uint32_t list[EC_LIST_WORDS * PIXELS];
     static bool is_of_wave[PIXELS];
-    const uint32_t wave = count * batch + 13; /* with room to spare */
+    const uint32_t wave = count * batch + 13; /* more room than needed */
     const ec_params params = {.width = WIDTH, .height = HEIGHT, .batch = batch, .wave = wave, .part = wave};
     for (uint32_t i = 0; i < count * batch; i++) {
         const float x = sample_of(i / batch, i % batch);

@@ -1,7 +1,7 @@
 /* tier: quick */
-/* A pass of the à-trous filter against one in double, over a picture of noise, edges of albedo, normal and depth, and a pixel as bright as floats go far.
- * A weight is a product of numbers from 0 to 1, each 1 less a quotient of 12 roundings at most; a sum has 25 of them. And what it is for: an
- * even picture stays, nothing crosses an edge, the variance falls. */
+/* A pass of the à-trous filter against one in double, over a picture of noise, edges of albedo, normal and depth, and a pixel near float's
+ * maximum. A weight is a product of numbers from 0 to 1, each 1 minus a quotient with at most 12 roundings; a sum has 25 of them. Also the
+ * filter's purpose: a uniform picture stays, nothing crosses an edge, the variance falls. */
 #include "denoise/atrous.h"
 #include "kernel/kernel_run.h"
 #include "support/films.h"
@@ -61,7 +61,7 @@ static void check_pixel(int x, int y, int apart)
     CHECK_NEAR(out[3], sum[3] / (weights * weights), ROUNDINGS * 0x1p-23 * sum[3] / (weights * weights));
 }
 
-/* Noise about 1 on the left of a checkerboard's line, about 4 on its right: four areas by albedo, normal and depth. */
+/* Noise about 1 on the left of a checkerboard's line and about 4 on its right: four areas by albedo, normal and depth. */
 static void make(double noise)
 {
     for (int i = 0; i < PIXELS; i++) {
@@ -103,7 +103,7 @@ static void check_purpose(ec_cl *cl, cl_program program)
     CHECK(after < before / 4);
 }
 
-/* A half is filtered by its own colours and features alone: it is judged by the other half. */
+/* A half is filtered only by its own colours and features, since the other half judges it. */
 static void check_halves(const ec_cl *cl)
 {
     enum { SIDE = 16, COUNT = SIDE * SIDE };

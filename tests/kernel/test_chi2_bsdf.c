@@ -1,25 +1,25 @@
 /* tiers: quick, full, long */
-/* What bsdf_sample samples against bsdf_eval's density, by chi-square; the density against 1. A sample where the density is 0 fails at
- * once. Polar cells about the mirrored direction above the surface and about the refracted one below, finer where the lobe is. */
+/* Compares bsdf_sample with bsdf_eval's density by chi-square, and the density's integral with 1. A sample where the density is 0 fails at
+ * once. Polar cells are about the mirrored direction above the surface and the refracted one below, and are finer where the lobe is. */
 #include "kernel/chi2.h"
 #include "kernel/packed_material.h"
 
-/* Without and with transmission; with all that lies over a surface; with multiple scattering. Of every width the first
- * alone: the code is written once for all widths, and that of the others takes long to compile. */
+/* Kernels without and with transmission, with all layers, and with multiple scattering. Only the first is built for every width: the code
+ * is the same for all widths, and the others take long to compile. */
 static cl_program programs[LANE_WIDTHS], glass_programs[LANE_WIDTHS], layered_programs[LANE_WIDTHS], multi_programs[LANE_WIDTHS];
 
 #define RINGS 20
 #define SECTORS 24
-#define CELLS (RINGS * SECTORS) /* each side */
-#define FINE 24 /* points of a cell's integral: along the radius, which the rims of stretched lobes cross, … */
-#define FINEST 96 /* … and around, where the horizon cuts cells in two */
+#define CELLS (RINGS * SECTORS) /* on each side */
+#define FINE 24 /* points of a cell's integral: radially, where rims of stretched lobes cross cells, … */
+#define FINEST 96 /* … and in azimuth, where the horizon cuts cells */
 
 typedef struct material {
     float metallic, alpha, cosine, base, transmission, eta; /* eta 1: thin */
 } material;
 
 typedef struct frame {
-    double r[3], s[3], t[3]; /* r: where the lobe points */
+    double r[3], s[3], t[3]; /* r: the lobe's direction */
     double width;
 } frame;
 
@@ -40,7 +40,7 @@ static uint32_t cell_of(const frame *f, const double *w)
     return i * SECTORS + j;
 }
 
-/* In the plane of incidence, at (x, z). */
+/* The direction in the plane of incidence at (x, z). */
 static frame frame_about(double x, double z, double width)
 {
     return (frame){{x, 0, z}, {z, 0, -x}, {0, 1, 0}, width};
@@ -52,7 +52,7 @@ static frame frame_above(const material *m)
     return frame_about(-sine, m->cosine, m->metallic == 1 || m->transmission == 1 ? 2 * (double)m->alpha : 0.5);
 }
 
-/* By Snell's law; along the surface where a flat one would reflect everything. */
+/* By Snell's law; along the surface where a flat interface would reflect everything. */
 static frame frame_below(const material *m)
 {
     double sine = fmin(sqrt(1 - (double)m->cosine * m->cosine) / m->eta, 1), alpha = m->alpha;
@@ -80,8 +80,8 @@ static void integrate_cells(cl_program program, const frame *f, int side, const 
     free(weight);
 }
 
-/* What all microfacets return of white light is F + (1 - F) = 1 times masking where nothing is scattered diffusely: the mean
- * weight may not exceed 1. (glTF's sum of a diffuse base may.) 4 standard errors, of weights that are at most 1. */
+/* Without a diffuse base, all microfacets return F + (1 - F) = 1 of white light, times masking: the mean weight may not exceed 1. (glTF's
+ * sum with a diffuse base may.) 4 standard errors of weights that are at most 1. */
 static void check_energy(const char *name, const material *m)
 {
     double sum = 0, squares = 0;
@@ -95,7 +95,7 @@ static void check_energy(const char *name, const material *m)
     CHECK_MSG(!closed || (sum <= 1 + 4 * se + 1e-5 && sum > 0.2), "%s: a white surface returns %g +- %g of what comes in", name, sum, se);
 }
 
-/* over: what lies over the surface, its fields from PACKED_COAT on. */
+/* over: the layers, by the fields from PACKED_COAT on. */
 static void check_covered(cl_program *built, int lanes, material m, const char *what, const float *over)
 {
     char name[240];
@@ -118,7 +118,7 @@ static void check_covered(cl_program *built, int lanes, material m, const char *
                      IN(packed, PACKED_FIELDS), OUT(out, 5 * SAMPLES)))
         return;
     seed++;
-    expected[2 * CELLS] = fmax(0, 1 - total) * SAMPLES; /* off a microfacet onto the wrong side */
+    expected[2 * CELLS] = fmax(0, 1 - total) * SAMPLES; /* reflected by a microfacet to the wrong side */
     for (uint32_t i = 0; i < SAMPLES; i++) {
         double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]}, pdf = out[3 * SAMPLES + i];
         bool lost = w[2] == 0 || (w[2] < 0 && m.transmission == 0 && over[PACKED_DIFFUSE_TRANSMISSION] == 0);
@@ -139,8 +139,7 @@ static void check_bsdf(cl_program *built, int lanes, material m)
     check_covered(built, lanes, m, "BSDF", nothing);
 }
 
-/* Thin walls, bodies from outside and from inside, where part or all of the light is reflected totally; half of the base
- * diffuse; half metal. */
+/* Thin walls, and bodies from outside and inside, where part or all of the light is totally reflected; half diffuse base; half metal. */
 static void check_glass(void)
 {
     static const float alphas[3] = {0.1f, 0.5f, 1.0f}, cosines[3] = {1.0f, 0.5f, 1e-2f}, etas[3] = {1.0f, 1.5f, 1 / 1.5f};
@@ -155,9 +154,9 @@ static void check_glass(void)
                 }
     check_bsdf(glass_programs, EIGHT, (material){0, 1e-3f, 0.5f, 1, 1, 1.5f});
     check_bsdf(glass_programs, EIGHT, (material){0, 1e-3f, 0.8f, 1, 1, 1 / 1.5f});
-    check_bsdf(glass_programs, EIGHT, (material){0, 0.3f, 0.7f, 1, 1, 1.01f}); /* nearly air: a lobe of width 0.003 */
+    check_bsdf(glass_programs, EIGHT, (material){0, 0.3f, 0.7f, 1, 1, 1.01f}); /* nearly the index of air: a lobe of width 0.003 */
     check_bsdf(glass_programs, EIGHT, (material){0, 0.3f, 0.7f, 1, 1, 2.4f});
-    check_bsdf(glass_programs, EIGHT, (material){0, 0.5f, 0.5f, 0.8f, 0, 1}); /* what is opaque beside glass */
+    check_bsdf(glass_programs, EIGHT, (material){0, 0.5f, 0.5f, 0.8f, 0, 1}); /* an opaque part beside glass */
 }
 
 static void check_opaque(void)
@@ -177,7 +176,7 @@ static void check_coat_over(material m, float weight, float alpha, float tilt)
     check_covered(layered_programs, EIGHT, m, tilt == 0 ? "coat" : "bent coat", over);
 }
 
-/* Clear coats over matt, metal and glass; bent away from the surface's normal; over black, where only the coat is left. */
+/* Clear coats over matt, metal and glass; with a tilted normal; over black, where only the coat is left. */
 static void check_coat(void)
 {
     static const float alphas[3] = {0.1f, 0.4f, 1.0f}, cosines[3] = {1.0f, 0.5f, 0.05f};
@@ -190,7 +189,7 @@ static void check_coat(void)
     check_coat_over((material){0, 0.5f, 0.3f, 0, 0, 1}, 1, 0.5f, 0);
 }
 
-/* Fibres, coated too. */
+/* Fibres, also with a coat. */
 static void check_sheen(void)
 {
     static const float roughness[3] = {0.2f, 0.5f, 1.0f}, cosines[3] = {1.0f, 0.5f, 0.05f};
@@ -202,7 +201,7 @@ static void check_sheen(void)
         }
 }
 
-/* Lobes five times and twenty times as long as wide, along, across and askew; of panes and of bodies from either side too. */
+/* Lobes five and twenty times as long as wide, along, across and askew; also of panes, and of bodies from either side. */
 static void check_anisotropy(void)
 {
     static const float stretches[2] = {5, 20}, turns[3] = {0, 0.25f, 0.1f}, cosines[3] = {1, 0.5f, 0.1f}, etas[3] = {1, 1.5f, 1 / 1.5f};
@@ -216,7 +215,7 @@ static void check_anisotropy(void)
         }
 }
 
-/* Thin films: they decide how often light is reflected, passes or reaches the base. */
+/* Thin films, which decide how often light is reflected, transmitted or reaches the base. */
 static void check_film(void)
 {
     const float over[PACKED_FIELDS] = {[PACKED_FILM] = 1, [PACKED_FILM + 1] = 1.6f, [PACKED_FILM + 2] = 350};
@@ -227,7 +226,7 @@ static void check_film(void)
     check_covered(layered_programs, EIGHT, (material){0, 0.2f, 0.6f, 1, 0.5f, 1 / 1.5f}, "film on glass from inside", over);
 }
 
-/* Paper, a leaf that is black on one side, frosted panes and glass whose base transmits diffusely. */
+/* Paper, a leaf that is black on one side, frosted panes, and glass with a diffusely transmitting base. */
 static void check_diffuse_transmission(void)
 {
     const float over[PACKED_FIELDS] = {[PACKED_DIFFUSE_TRANSMISSION] = 0.4f, [PACKED_DIFFUSE_TRANSMISSION + 1] = 0.3f, [PACKED_DIFFUSE_TRANSMISSION + 2] = 0.9f, [PACKED_DIFFUSE_TRANSMISSION + 3] = 0.1f};
@@ -237,7 +236,7 @@ static void check_diffuse_transmission(void)
     check_covered(layered_programs, EIGHT, (material){0.5f, 0.4f, 0.6f, 0.8f, 0.5f, 1.5f}, "diffuse transmission", over);
 }
 
-/* What facets scatter more than once, on either side. */
+/* Multiple scattering between facets, on either side. */
 static void check_multiscatter(void)
 {
     check_bsdf(multi_programs, EIGHT, (material){1, 0.25f, 0.5f, 1, 0, 1});
@@ -270,7 +269,7 @@ int main(void)
         check_multiscatter();
     }
     printf("%d chi-square tests\n", tests);
-    CHECK(tests <= TESTS - 20); /* the lights' */
+    CHECK(tests <= TESTS - 20); /* the lights' tests */
     chi2_release(programs);
     chi2_release(glass_programs);
     chi2_release(layered_programs);

@@ -1,5 +1,6 @@
 /* tiers: quick, long */
-/* What light_sample_one samples, triangles and environments, against its densities by chi-square; the environment's density against 1. */
+/* Compares samples of light_sample_one, for triangles and environments, with its densities by chi-square; the environment's density must
+ * integrate to 1. */
 #include "kernel/chi2.h"
 #include "pack/distribution.h"
 #include "pack/pack.h"
@@ -7,7 +8,7 @@
 
 static cl_program programs[LANE_WIDTHS];
 
-/* ---- a triangle: cells of equal area, and what of its solid angle they have where it is near ---- */
+/* ---- a triangle: cells of equal area, and their parts of its solid angle where it is near ---- */
 
 static double solid_angle_of_cells(const float (*v)[3], const float *p, const double *n, double area, double *cells)
 {
@@ -111,14 +112,14 @@ static double bilinear(const float *rgb, double u, double v)
     return sum;
 }
 
-/* The sine, but linear between the poles and the middles of rows. */
+/* The sine, interpolated linearly between the poles and the centres of rows. */
 static double sine_along_chords(double v)
 {
     double y = v * HEIGHT, above = fmax(floor(y - 0.5) + 0.5, 0), below = fmin(floor(y - 0.5) + 1.5, HEIGHT), t = (y - above) / (below - above);
     return (1 - t) * sin(pi * above / HEIGHT) + t * sin(pi * below / HEIGHT);
 }
 
-/* Chances of the cells, by the midpoint rule; the integral over (u, v) is returned. */
+/* Probabilities of the cells, by the midpoint rule; returns the integral over (u, v). */
 static double cell_chances(const float *rgb, double *chance)
 {
     double total = 0;
@@ -134,7 +135,7 @@ static double cell_chances(const float *rgb, double *chance)
     return total;
 }
 
-/* Directions by their density, which is told of each as it is, and told again of the direction alone. */
+/* Sampled directions with their densities, and the density computed again from the direction alone. */
 static void check_sampled(const char *name, const float *rgb, const ec_pack *pack, const ec_params *params, int lanes)
 {
     static const ec_light_data light = {.kind = EC_KIND_ENVIRONMENT, .prim = EC_NO_ID, .pmf = 1};
@@ -155,7 +156,8 @@ static void check_sampled(const char *name, const float *rgb, const ec_pack *pac
         double w[3] = {out[i], out[SAMPLES + i], out[2 * SAMPLES + i]}, sine = sqrt(w[0] * w[0] + w[2] * w[2]), pdf = out[3 * SAMPLES + i];
         double u = atan2(w[2], w[0]) / (2 * pi) + 0.5, v = atan2(sine, w[1]) / pi;
         double want = bilinear(rgb, u, v) * sine_along_chords(v) / total / (2 * pi * pi * sine);
-        /* The direction's floats move it by 1e-6 of a texel or so, and luminances fall from 200 to 0.01 over one: 1e-4 of the largest near it. */
+        /* Float directions are off by about 1e-6 of a texel, over which luminance may fall from 200 to 0.01: 1e-4 of the largest value
+         * nearby. */
         double around = fmax(fmax(bilinear(rgb, u - 0.5 / WIDTH, v), bilinear(rgb, u + 0.5 / WIDTH, v)), bilinear(rgb, u, v)) / bilinear(rgb, u, v);
         double tolerance = 2e-4 + 2e-5 * around + 1e-6 / sine;
         count[(uint32_t)fmin(v * CELLS_Y, CELLS_Y - 1) * CELLS_X + (uint32_t)fmin(u * CELLS_X, CELLS_X - 1)]++;
@@ -168,7 +170,7 @@ static void check_sampled(const char *name, const float *rgb, const ec_pack *pac
     check_chi2(name, expected, count, CELLS);
 }
 
-/* The density of look-ups integrates to 1, and what is looked up is the bilinear map. 288 texels of 21 x 21 points. */
+/* The density of look-ups integrates to 1, and look-ups give the bilinear map. 288 texels of 21 x 21 points. */
 static void check_looked_up(const char *name, const float *rgb, const ec_pack *pack, const ec_params *params)
 {
     static float wi[3 * SAMPLES], look[2 * SAMPLES];
@@ -189,7 +191,8 @@ static void check_looked_up(const char *name, const float *rgb, const ec_pack *p
         worst = fmax(worst, fabs(look[n + i] - want) / (want + 0.02 * most));
     }
     printf("environment, %s: density integrates to 1 %+.1e, bilinear error %.1e\n", name, total - 1, worst);
-    CHECK_MSG(fabs(total - 1) < 1e-3, "environment, %s: the density integrates to %.6f", name, total); /* 21 points a texel, odd: corners fall between */
+    /* 21 points a texel, an odd number: no point is on a corner. */
+    CHECK_MSG(fabs(total - 1) < 1e-3, "environment, %s: the density integrates to %.6f", name, total);
     CHECK_MSG(worst < 1e-4, "environment, %s: the look-up is off by %g", name, worst);
 }
 
@@ -212,8 +215,7 @@ static void check_environment(const char *name, const float *rgb)
     free(pack.environment_table);
 }
 
-/* A map of contrasts with a sun and a black part; one that is the same all around; and suns of one texel by either pole and at the seam,
- * with nothing else in the sky. */
+/* Maps: high contrast with a sun and a black part; a constant one; suns of one texel near either pole and at the seam, in a black sky. */
 static void check_environments(void)
 {
     static float rgb[3 * WIDTH * HEIGHT];
@@ -242,11 +244,11 @@ int main(void)
     if (open) return open;
     chi2_build(programs, "-DFEATURES=(EC_FEATURE_AREA_LIGHTS+EC_FEATURE_PUNCTUAL_LIGHTS+EC_FEATURE_ENVIRONMENT+EC_FEATURE_ENVIRONMENT_MAP)");
     if (!test_failures) {
-        check_triangle(0, false, true, (const float[4]){0.1f, -0.3f, 0.2f}); /* before it */
+        check_triangle(0, false, true, (const float[4]){0.1f, -0.3f, 0.2f}); /* in front of the lamp */
         check_triangle(3, false, true, (const float[4]){0.1f, 6.0f, 0.2f}); /* behind it */
         check_triangle(2, true, true, (const float[4]){0.1f, 6.0f, 0.2f});
         check_triangle(1, false, true, (const float[4]){0.2f, 2.45f, 0.6f}); /* 0.04 from its face */
-        check_triangle(3, false, true, (const float[4]){1.4f, 2.4f, -0.3f}); /* by a corner */
+        check_triangle(3, false, true, (const float[4]){1.4f, 2.4f, -0.3f}); /* near a corner */
         check_triangle(0, false, false, (const float[4]){0.1f, -9.0f, 0.2f});
         check_triangle(2, true, false, (const float[4]){-14.0f, 6.0f, 0.2f});
         check_environments();

@@ -1,17 +1,17 @@
 /* tiers: quick, long */
-/* Directions of light that is scattered inside a body, against Henyey and Greenstein's distribution by chi-square: cells of equal
- * probability by its closed form in double precision, which also says what density each sample has. */
+/* Directions of light scattered inside a body, against the Henyey-Greenstein distribution by chi-square. Cells of equal probability come
+ * from its closed form in double precision, which also gives each sample's density. */
 #include "kernel/chi2.h"
 
 enum { RINGS = 40, SECTORS = 12, CELLS = RINGS * SECTORS };
 
-/* Square of the third side of a triangle of 1 and g with an angle between whose cosine is 1 - fall and rise - 1. */
+/* Squared third side of a triangle of 1 and g, with an angle between them whose cosine is 1 - fall and rise - 1. */
 static double far2(double g, double fall, double rise)
 {
     return g < 0 ? (1 + g) * (1 + g) - 2 * g * rise : (1 - g) * (1 - g) + 2 * g * fall;
 }
 
-/* Probability of at least that cosine. */
+/* Probability of a cosine at least as large. */
 static double above(double g, double fall, double rise)
 {
     return g == 0 ? fall / 2 : 1 - (1 - g * g) / (2 * g) * (1 / sqrt(far2(g, fall, rise)) - 1 / (1 + g));

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Numbers that choose and go on: what is left of evenly spread ones is evenly spread in each of the things they choose, in its order, and
- * whole numbers are stretched exactly. */
+/* Random numbers that choose and are used again: after evenly spaced numbers have chosen, the rescaled ones are evenly spaced for each
+ * choice, in order, and whole numbers are rescaled exactly. */
 #include "device/light_share.h"
 #include "kernel/kernel_run.h"
 #include "kernel/sampler_hash.h"
@@ -15,7 +15,7 @@ static uint32_t r[NUMBERS], rest[NUMBERS], which[NUMBERS], stretched[NUMBERS];
 static float left[NUMBERS];
 static uint32_t numbers = NUMBERS;
 
-/* (rest + hash / 2^32) 2^32 / share, with the quotient of the powers cut to a whole number. */
+/* (rest + hash / 2^32) 2^32 / share, with the quotient of the powers truncated to a whole number. */
 static void check_stretch(uint64_t share)
 {
     const uint64_t factor = ec_distribution_stretch(share);
@@ -36,8 +36,8 @@ static void check_stretch(uint64_t share)
     CHECK_MSG(!wrong, "%u numbers of a share of %llu are stretched to others", wrong, (unsigned long long)share);
 }
 
-/* Numbers 2^16 apart. Of n that choose one thing, the k-th lies in its place among n but for an interval's ends, that is within 1 / n, and
- * half as much again for the digits from a hash. */
+/* Numbers 2^16 apart. Among n numbers that choose one thing, the k-th is in its interval of n except for the interval's ends, that is
+ * within 1 / n, plus half of that for the digits from a hash. */
 static void check_chain(const float *p, uint32_t count)
 {
     double chance[8], remains = 1;
@@ -62,7 +62,7 @@ static void check_chain(const float *p, uint32_t count)
     CHECK_MSG(worst <= 1.5 && !disordered, "%u things: off by %.2f places, %u out of order", count, worst, disordered);
 }
 
-/* Few numbers are left, and the digits below them are evenly filled: the mean within 4 standard errors, sqrt(1 / 12 / n). */
+/* Few numbers remain, and their lower digits are uniform: the mean is within 4 standard errors, sqrt(1 / 12 / n). */
 static void check_fill(void)
 {
     uint32_t all = 3;
@@ -79,8 +79,8 @@ static void check_fill(void)
     CHECK_MSG(fabs(sum - 0.5) < 4 * sqrt(1.0 / 12 / NUMBERS) && least < 1e-3 && most > 1 - 1e-3 && most < 1, "mean %.4f, from %g to %g", sum, least, most);
 }
 
-/* Numbers 2^16 apart: those of lights at infinity, `share` of all, go to the lower half of the table in their order, evenly, the others to the upper
- * one. Halves stay what they are. */
+/* Numbers 2^16 apart. A share of all, `share`, is for lights at infinity, and maps evenly and in order to the lower half of the table, the
+ * others to the upper half. With equal halves numbers do not change. */
 static void check_share(double share)
 {
     ec_params params = {.environment_pmf = 0.5f};

@@ -32,13 +32,13 @@ static void broken_source_says_where(ec_cl *cl)
     setenv("ECLAT_DUMP_KERNELS", dump, 1);
     CHECK(ec_program_build(cl, "shade", source, NULL, &program, &err) == EC_FAILED);
     CHECK(size_of("shade.cl") > (long)sizeof source - 1 && size_of("shade.log") > 0);
-    build_doubler(cl, "-DA=1"); /* its entry is not read, or there would be no log */
+    build_doubler(cl, "-DA=1"); /* not from the cache, or there would be no log */
     CHECK(cl->cache_hits == 0 && size_of("doubler.log") >= 0);
     cl->cache = EC_CACHE_AUTO;
     unsetenv("ECLAT_DUMP_KERNELS");
 }
 
-/* What NVIDIA's compiler says of it (driver 580.159, November 2026). */
+/* A message of NVIDIA's compiler (driver 580.159, November 2026). */
 static void lines_counted_from_the_start_are_put_right(const ec_cl *cl)
 {
     static const char source[] = "#line 1 \"kernels/stages/shade.cl\"\n#line 41 \"kernels/lib/bsdf.h\"\n\nfloat f(float x);\n#line 2 \"kernels/stages/shade.cl\"\n}\n";
@@ -68,7 +68,7 @@ static void buffers_are_limited(ec_cl *cl)
     CHECK(ec_buffer_create(cl, "film", cl->info.max_allocation_bytes + 1, NULL, &buffer, &err) == EC_FAILED);
     CHECK(buffer == NULL && strstr(err.text, "film needs") && strstr(err.text, "MiB in one piece"));
     ec_buffer_release(cl, &buffer);
-    cl->info.memory_bytes = before + 1000; /* a smaller device than there is */
+    cl->info.memory_bytes = before + 1000; /* a smaller device than the real one */
     CHECK_OK(ec_buffer_create(cl, "nodes", 600, NULL, &buffer, &err), err);
     CHECK(ec_buffer_create(cl, "triangles", 401, NULL, &second, &err) == EC_FAILED && !second);
     CHECK(strstr(err.text, "triangles needs") && strstr(err.text, "are in use"));
@@ -105,7 +105,7 @@ static void buffers_hold_bytes(ec_cl *cl)
     ec_buffer_release(cl, &buffer);
 }
 
-/* The command runs late, when the memory that was sent holds something else, as after a device that failed was given up. */
+/* The command runs late, when the sent memory has other contents, as after a failed device was given up. */
 static void what_is_sent_may_change_meanwhile(ec_cl *cl)
 {
     ec_error err = {0};
@@ -138,7 +138,7 @@ static void programs_are_kept_where_asked(ec_cl *cl)
     CHECK(all[1] != all[0] && all[2] == all[1] && all[3] != all[1] && cl->kept_count == 2);
     for (int i = 0; i < 4; i++)
         if (all[i]) clReleaseProgram(all[i]);
-    cl_kernel kernel = NULL; /* still there, though the caller has given back both */
+    cl_kernel kernel = NULL; /* still there, though the caller has released both */
     CHECK_OK(ec_program_build(cl, "doubler", doubler, "", &all[0], &err), err);
     CHECK_OK(ec_kernel_create(all[0], "doubler", &kernel, &err), err);
     if (kernel) clReleaseKernel(kernel);

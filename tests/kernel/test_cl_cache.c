@@ -1,5 +1,5 @@
 /* tier: quick */
-/* host/cl/cache: what an entry's key covers, entries that are damaged, where they are kept, and programs that come from there. */
+/* host/cl/cache: what an entry's key depends on, damaged entries, the folder of entries, and programs from the cache. */
 #include <dirent.h>
 
 #include "cl/cache.h"
@@ -19,7 +19,7 @@ static void key_covers_everything(void)
     CHECK(!same_key(&key, &changed));
     changed = ec_cache_key_of(base, "source2", "-DA=1");
     CHECK(!same_key(&key, &changed));
-    changed = ec_cache_key_of(base, "source-", "DA=1"); /* the same letters in a row */
+    changed = ec_cache_key_of(base, "source-", "DA=1"); /* equal letters in a row */
     CHECK(!same_key(&key, &changed));
     const size_t texts[] = {offsetof(ec_device_info, name),          offsetof(ec_device_info, vendor),
                             offsetof(ec_device_info, version),       offsetof(ec_device_info, driver),
@@ -53,7 +53,7 @@ static int loads(const char *cache, const ec_cache_key *key, const char *expecte
     return verdict;
 }
 
-/* Changes a byte; behind the end it adds one. */
+/* Changes a byte; beyond the end, adds one. */
 static void flip_byte(const char *path, long at)
 {
     FILE *file = fopen(path, "r+b");
@@ -80,7 +80,7 @@ static void entries_are_checked(void)
     CHECK(LOADS(&key) == 0);
     CHECK(STORE());
     CHECK(LOADS(&key) == 1);
-    CHECK(files_in(cache) == 1); /* no temporary file left */
+    CHECK(files_in(cache) == 1); /* no temporary file is left */
     struct stat status;
     CHECK(stat(path, &status) == 0 && status.st_size == 80 + (off_t)sizeof binary && (status.st_mode & 0077) == 0);
     for (off_t size = 0; size < status.st_size; size += 7) { /* truncated anywhere */
@@ -100,7 +100,7 @@ static void entries_are_checked(void)
     CHECK(mkdir(path, 0700) == 0); /* a folder in the place of the entry */
     CHECK(LOADS(&key) == 0);
     CHECK(!STORE() && files_in(cache) == 2);
-    snprintf(cache, sizeof cache, "/dev/null/cache"); /* unwritable, for root too */
+    snprintf(cache, sizeof cache, "/dev/null/cache"); /* not writable, not even for root */
     CHECK(!STORE());
     CHECK(LOADS(&key) == 0);
 }
@@ -136,7 +136,7 @@ static void programs_are_cached(ec_cl *cl)
     CHECK(cl->cache_hits == 1 && cl->cache_misses == 0);
     build_doubler(cl, "-DA=2");
     CHECK(cl->cache_hits == 0 && cl->cache_misses == 1 && files_in(cache) == 2);
-    /* A sound entry that the driver does not take: back to the source, and the entry is replaced. */
+    /* A valid entry that the driver rejects: the source is compiled, and the entry is replaced. */
     snprintf(all, sizeof all, "-cl-std=CL1.2%s -DA=1",
              cl->info.correctly_rounded_divide_sqrt ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
     ec_cache_key key = ec_cache_key_of(&cl->info, doubler, all);

@@ -1,11 +1,11 @@
 /* tier: quick */
-/* Which device is chosen, and what is known of its driver. Asks no device. */
+/* The choice of a device, and the facts about its driver. Uses no device. */
 #include "cl/workarounds.h"
 #include "device/pipeline.h"
 #include "render/render.h"
 #include "support/cl_case.h"
 
-/* The index that `id` chooses among the first `count` fake devices, or -1. */
+/* Returns the index that `id` chooses among the first `count` fake devices, or -1. */
 static int chosen(const char *id, uint32_t count, const char **why, ec_error *err)
 {
     ec_device_info devices[4];
@@ -23,7 +23,7 @@ static void workarounds_go_by_the_driver(void)
     CHECK(ec_pipeline_lanes(&cl, 1, &lanes, &err) == EC_OK && lanes == 1);
     CHECK(ec_pipeline_lanes(&cl, 4, &lanes, &err) == EC_FAILED);
     CHECK_MSG(strstr(err.text, "--lanes 4 on llvmpipe") && strstr(err.text, "choose 1") && !strchr(err.text, '\n'), "%s", err.text);
-    strcpy(cl.info.platform_name, "another"); /* no workaround: what the device says, or what is asked for */
+    strcpy(cl.info.platform_name, "another"); /* no workaround: what the device states, or what is requested */
     CHECK(ec_pipeline_lanes(&cl, 0, &lanes, &err) == EC_OK && lanes == 8);
     CHECK(ec_pipeline_lanes(&cl, 16, &lanes, &err) == EC_OK && lanes == 16);
     CHECK(!ec_workaround_for(&cl.info));
@@ -36,7 +36,7 @@ static void workarounds_go_by_the_driver(void)
     CHECK(ec_device_rounds(&devices[3]));
 }
 
-/* Every row, forced on a device that is none of its drivers, does what it says; none of them on one that is. */
+/* Forces every row on a device with another driver, where it must have its effect, and none on a device that has a row. */
 static void workarounds_can_be_forced(void)
 {
     ec_cl cl = {.info = {.name = "GeForce", .platform_name = "NVIDIA CUDA", .type = CL_DEVICE_TYPE_CPU, .native_float_width = 8}};
@@ -66,16 +66,16 @@ static void workarounds_can_be_forced(void)
     CHECK(ec_workaround_check(&err) == EC_OK && ec_workaround_for(&cl.info));
 }
 
-/* NVIDIA's threads go in step by 32, AMD's by 32 or 64, Intel's by up to 32. */
+/* NVIDIA's threads run in lockstep by 32, AMD's by 32 or 64, Intel's by up to 32. */
 static void groups_of_cards_fill_their_threads(void)
 {
     ec_device_info devices[4];
     fake_devices(devices);
     CHECK(ec_local_size(&devices[3]) % 64 == 0);
-    CHECK(ec_local_size(&devices[0]) == EC_LOCAL_SIZE); /* what PoCL has compiled for */
+    CHECK(ec_local_size(&devices[0]) == EC_LOCAL_SIZE); /* the targets that PoCL compiles for */
 }
 
-/* What stands in many names: "8" is no device of two. Nor is a part of another number. */
+/* A word in several names does not choose: "8" is no device of two, and neither is part of another number. */
 static void short_numbers_are_no_names(void)
 {
     static const char *const none[] = {"8", "16", "309", "090"};
@@ -100,16 +100,16 @@ static void device_rule(void)
     CHECK(chosen("", 4, NULL, &err) == 3);
     CHECK(chosen("1", 4, &why, &err) == 1 && strstr(why, "--device"));
     CHECK(chosen("geforce", 4, &why, &err) == 3);
-    CHECK(chosen("3090", 4, &why, &err) == 1); /* no index: the first name with it */
+    CHECK(chosen("3090", 4, &why, &err) == 1); /* not an index: the first name that contains it */
     CHECK(chosen("pocl", 4, &why, &err) == 0);
-    CHECK(chosen("nvidia", 4, &why, &err) == 3); /* names come before platforms */
+    CHECK(chosen("nvidia", 4, &why, &err) == 3); /* names are searched before platforms */
     CHECK(chosen("2", 4, &why, &err) == -1 && strstr(err.text, "not available"));
     CHECK(chosen("radeon", 4, &why, &err) == -1);
     CHECK(strstr(err.text, "--device radeon") && strstr(err.text, "0: pthread-EPYC") && strstr(err.text, "3: NVIDIA"));
     CHECK(chosen("4", 4, &why, &err) == -1);
     CHECK(chosen("1x", 4, &why, &err) == -1);
     static const char *const nothing[] = {"1", "3", "7", " 3", "30", "090", "3.0", " ", "-", ","};
-    for (size_t i = 0; i < sizeof nothing / sizeof nothing[0]; i++) /* in a name or the platform's version, by chance */
+    for (size_t i = 0; i < sizeof nothing / sizeof nothing[0]; i++) /* in a name or the platform's version, by coincidence */
         CHECK_MSG(chosen(nothing[i], 1, &why, &err) == -1, "'%s'", nothing[i]);
     CHECK(chosen("30", 4, &why, &err) == -1 && chosen("090", 4, &why, &err) == -1);
     CHECK(chosen(" 1 ", 4, &why, &err) == 1);
@@ -121,7 +121,7 @@ static void device_rule(void)
     unsetenv("ECLAT_DEVICE");
 }
 
-/* The indices that `id` chooses, as digits: at most three. */
+/* Returns the indices that `id` chooses, as digits: at most three. */
 static const char *several(const char *id, const char **why, ec_error *err)
 {
     static char text[8];

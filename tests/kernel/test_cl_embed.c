@@ -1,5 +1,6 @@
 /* tier: quick */
-/* tools/embed_kernels.py: includes flattened, comments gone, lines kept, headers once, mistakes named; and what it embedded here. */
+/* tools/embed_kernels.py: it inlines includes, removes comments, keeps lines and includes headers once; mistakes are reported; and the
+ * sources that it embedded here. */
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,7 +20,7 @@ static void put(const char *name, const char *text)
     fclose(file);
 }
 
-/* Runs the tool on files of `root`; its words, stdout and stderr, are then in output. */
+/* Runs the tool on files of `root`; `output` then has its stdout and stderr. */
 static int embed(const char *arguments)
 {
     char command[9000];
@@ -45,7 +46,7 @@ static void make_kernels(void)
     CHECK(system(command) == 0);
     put("kernels/lib/a.h", "/* a */\n#ifndef A_H\n#define A_H\n#include \"b.h\" /* beside */\nint a;\n#endif\n");
     put("kernels/lib/b.h", "#ifndef B_H\n#define B_H\nint b;\n#ifdef HOST\n#include <stdint.h>\n#endif\n#endif\n");
-    put("kernels/lib/fields.h", "FIELD(x)\n"); /* no guard: a list, meant to be included again */
+    put("kernels/lib/fields.h", "FIELD(x)\n"); /* no guard: a list that is included several times */
     put("kernels/stages/good.cl", "#include \"lib/a.h\"\n// #include \"lib/none.h\"\n  #  include \"lib/b.h\"\n"
                                   "#include \"lib/fields.h\"\n#include \"lib/fields.h\"\n"
                                   "\"trigraph ?\?= \\\\ \xc3\xa9\"\nlast\n"
@@ -67,10 +68,10 @@ static void text_is_flattened(void)
     CHECK(strstr(output, "#line 6 \"kernels/stages/good.cl\"\n\"trigraph ?\?= \\\\ \xc3\xa9\"\nlast\n\n\n\n"));
     CHECK(times("beside") == 0 && times("none.h") == 0); /* comments */
     CHECK(strstr(output, "#error \"<stdint.h> in a kernel"));
-    CHECK(times("#include") == 0); /* PoCL preprocesses a source with the word in it */
+    CHECK(times("#include") == 0); /* PoCL preprocesses a source that contains this word */
 }
 
-/* The first text may not be compiled; the second must be there then. */
+/* The first text may be missing from what is compiled; the second must be there. */
 static void condition_keeps_both(void)
 {
     CHECK(embed("--stdout kernels/stages/either.cl") == 0);
@@ -126,7 +127,7 @@ static bool is_stage(const char *name)
     return strstr(ec_kernel_source(name), place) != NULL;
 }
 
-/* A header comes once, and a compiler reads the same in the whole as in the sources in a row. */
+/* Each header comes once, and a compiler reads the same text in the whole as in the single sources. */
 static void joined_stages_hold_all(void)
 {
     enum { MOST = 64 };

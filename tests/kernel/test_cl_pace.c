@@ -1,23 +1,23 @@
 /* tier: quick */
-/* Launches are cut so that none takes longer than the limit, whatever a card needs for a work-item: cards that are none, whose times are made up. */
+/* Launches are cut so that none takes longer than the limit, whatever a work-item costs. The cards are simulated, with made-up times. */
 #include "cl/pace.h"
 #include "support/test.h"
 
 enum { WAVE = 1 << 20, WAVES = 24, GROUP = 64 };
 
 typedef struct scene {
-    int waves;                 /* from here on it is the other half's turn */
-    uint32_t busy[2];          /* work-items of a wave that have something to do … */
-    double seconds[2];         /* … and what each takes */
+    int waves;                 /* from this wave on, the other half of the arrays applies */
+    uint32_t busy[2];          /* busy work-items of a wave … */
+    double seconds[2];         /* … and the time of each */
 } scene;
 
 typedef struct card {
     uint32_t units;
-    double latency;            /* of a launch of nothing */
+    double latency;            /* time of an empty launch */
     scene scene;
 } card;
 
-/* Parts of the queue are filled alike, so that each piece has its share of the busy ones. */
+/* All parts of the queue are filled alike, so that each piece has its share of the busy work-items. */
 static void run_wave(ec_cl *cl, const card *card, int half)
 {
     const double share = (double)card->scene.busy[half] / WAVE;
@@ -30,12 +30,12 @@ static void run_wave(ec_cl *cl, const card *card, int half)
         ec_pace_took(cl, pace, card->latency + (double)count * share * card->scene.seconds[half]);
         cl->paces.pieces++;
     }
-    ec_pace_learn(cl); /* what was launched is done, and then the queues are counted */
+    ec_pace_learn(cl); /* the launches are done; then the queues are counted */
     ec_cl_busy(cl, "kernel", card->scene.busy[half]);
     ec_pace_learn(cl);
 }
 
-/* Pieces of the last wave, in which none may take much more than is aimed at. */
+/* Returns the pieces of the last wave, none of which may take much longer than intended. */
 static uint64_t run(const card *card)
 {
     ec_cl cl = {.info = {.type = CL_DEVICE_TYPE_GPU, .compute_units = card->units}};
@@ -62,7 +62,7 @@ static void cards(void)
     CHECK(run(&slowest) >= 840);
 }
 
-/* What a kernel has to do changes from wave to wave. */
+/* A kernel's work changes from wave to wave. */
 static void scenes(void)
 {
     const card begins_thin = {24, 2e-5, {12, {WAVE / 10, WAVE}, {2e-6, 2e-6}}}, begins_cheap = {24, 2e-5, {1, {WAVE, WAVE}, {1e-9, 2e-6}}};
@@ -70,7 +70,7 @@ static void scenes(void)
     CHECK(run(&begins_thin) >= 16);
     CHECK(run(&begins_cheap) >= 16);
     CHECK(run(&gets_dear) > 1);
-    CHECK(run(&does_little) <= 200); /* near to nothing is known of its work-items */
+    CHECK(run(&does_little) <= 200); /* almost nothing is known about its work-items */
 }
 
 static void limits(void)
@@ -92,7 +92,7 @@ static void limits(void)
     unsetenv("ECLAT_LAUNCH_SECONDS");
 }
 
-/* A clock that tells of no time: nothing is learnt. */
+/* A clock that always shows the same time teaches nothing. */
 static void clocks(void)
 {
     ec_cl cl = {.info = {.type = CL_DEVICE_TYPE_GPU, .compute_units = 24}};
@@ -108,7 +108,7 @@ static void clocks(void)
     CHECK(pace->most == first && cl.paces.longest == 0);
 }
 
-/* More kernels than there is room for: all have a pace. */
+/* More kernels than there is room for: all share a pace. */
 static void many(void)
 {
     ec_cl cl = {.info = {.type = CL_DEVICE_TYPE_GPU}};

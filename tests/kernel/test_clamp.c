@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Indirect light limited by the accumulate stage, against sums in double, and what is cut off by way of a film: several batches, whose units
- * differ. A luminance is rounded five times, the scaled light three times more, sums of up to 64 once a sample. */
+/* Indirect light limited by the accumulate stage, against sums in double; and the removed light in a film of several batches with different
+ * units. A luminance is rounded five times, the scaled light three times more, and sums of up to 64 once for each sample. */
 #include "film/clamp.h"
 #include "film/pixel.h"
 #include "kernel/kernel_run.h"
@@ -13,7 +13,7 @@ typedef struct sums {
     double rgb[3], cut, squares;
 } sums;
 
-/* Kinds of pixels: black, direct light alone, indirect light alone, both, an outlier of each, and what nearly leaves the range of a float. */
+/* Kinds of pixels: black, direct light only, indirect light only, both, an outlier of each, and one near float's maximum. */
 static float sample_of(uint32_t pixel, bool indirect)
 {
     const double u = test_random();
@@ -67,10 +67,10 @@ static void check_limit(ec_cl *cl, cl_program program, float limit)
     ec_film film;
     ec_error err;
     memset(expected, 0, sizeof expected);
-    CHECK_OK(ec_film_create(&film, PIXELS, 1, BATCHES, &err), err); /* replicates, so that all have the same weight */
+    CHECK_OK(ec_film_create(&film, PIXELS, 1, BATCHES, &err), err); /* replicates: all have the same weight */
     film.limit = limit;
     for (uint32_t k = 0; k < BATCHES && run_batch(cl, program, limit, expected); k++) CHECK_OK(ec_film_add(&film, k, film_of, &err), err);
-    for (uint32_t r = 0; r < BATCHES; r++) film.samples[r] = BATCH; /* as the stage took them: the schedule's first batches have one */
+    for (uint32_t r = 0; r < BATCHES; r++) film.samples[r] = BATCH; /* as the stage took them: the schedule's first batches have one sample */
     for (uint32_t p = 0; p < PIXELS; p++) check_pixel(&film, p, &expected[p]);
     ec_film_destroy(&film);
 }

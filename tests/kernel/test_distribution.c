@@ -15,20 +15,20 @@ static uint32_t r[NUMBERS], expected[NUMBERS], entry[NUMBERS];
 static float left[NUMBERS];
 static double share_left[NUMBERS];
 
-/* to_unit of the hash: the digits below those of a number. */
+/* to_unit of the hash: the digits below a number's own. */
 static double digits_of(uint32_t x) { return (sampler_hash(x) >> 8) * 0x1p-24; }
 
 static void make_weights(uint32_t n, int kind)
 {
     for (uint32_t i = 0; i < n; i++) {
         weights[i] = kind == 0 ? 1 : pow(10, 30 * test_random_in(0, 1) - 20);
-        if (kind == 2 && i % 3 != 1) weights[i] = 0; /* the first and often the last */
+        if (kind == 2 && i % 3 != 1) weights[i] = 0; /* often the first and the last */
         if (kind == 3 && i != n / 2) weights[i] = 0;
     }
     if (kind == 4) weights[n / 3] = 1e300;
 }
 
-/* Shares follow one another and are what weights ask for. Notes the first, the last and any number of each. */
+/* Shares are consecutive and follow the weights. Collects the first, the last and a random number of each. */
 static uint32_t check_shares(uint32_t n)
 {
     double sum = 0, worst = 0;
@@ -66,7 +66,7 @@ static void check(uint32_t n, int kind)
         off += !(fabs(left[i] - share_left[i]) <= 0x1p-21 && left[i] < 1); /* four roundings and a quotient of 2.5 ulp */
     }
     const uint32_t positive = kind < 2 || kind == 4;
-    if (positive && n <= 9) { /* looked through one after the other */
+    if (positive && n <= 9) { /* found by linear search */
         uint32_t others = 0;
         if (!KERNEL_CALL(&cl, program, "pick_few", all / 8, SCALAR(all), IN(table, n), SCALAR(n), IN(r, NUMBERS), OUT(entry, NUMBERS))) return;
         for (uint32_t i = 0; i < NUMBERS; i++) others += entry[i] != 0;

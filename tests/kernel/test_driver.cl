@@ -1,5 +1,5 @@
-/* The driver tests itself, and the arithmetic that every kernel relies on. Operands come through volatile variables, so
- * that the device computes and not its compiler. */
+/* Tests the driver itself, and the arithmetic that every kernel relies on. Operands pass through volatile variables, so that the device
+ * computes them and not the compiler. */
 #include "kernel_test.h"
 
 kernel void contraction_is_off(global test_result *result) {
@@ -55,7 +55,7 @@ kernel void sqrt_is_correctly_rounded(global test_result *result) {
 }
 #endif
 
-/* With -DTEST_MUST_FAIL the driver has to count, place and show these failures; it builds this file so once. */
+/* With -DTEST_MUST_FAIL the driver must count, locate and print these failures; it builds this file once that way. */
 #ifdef TEST_MUST_FAIL
 kernel void must_fail(global test_result *result) {
     CHECK(1);

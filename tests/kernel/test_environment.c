@@ -1,6 +1,6 @@
 /* tier: quick */
-/* An environment map of 4096 x 2048 whose sun is one texel of 1e6 in a sky of 1, with a hundred black rows: the density is the one sampled.
- * In 32 bits a patch by the pole would have less than one random number to itself; a row has some, and its patches all. */
+/* A map of 4096 x 2048 whose sun is one texel of 1e6 in a sky of 1, with a hundred black rows: the density is that of the samples. With 32
+ * bits, a patch near the pole would have less than one random number; a row of patches has several, which its patches share. */
 #include "kernel/kernel_run.h"
 #include "pack/pack.h"
 #include "shared/params.h"
@@ -42,7 +42,7 @@ static void make_map(void)
     free(rgb);
 }
 
-/* Luminance at a corner of row y of patches, which lies between rows y - 1 and y of texels. */
+/* Luminance at a corner of row y of patches, which is between rows y - 1 and y of texels. */
 static double corner(uint32_t x, int64_t y)
 {
     y = y < 0 ? 0 : y < (int64_t)HEIGHT ? y : (int64_t)HEIGHT - 1;
@@ -59,13 +59,13 @@ static double integral(uint32_t x, uint32_t y)
     return part * (upper * (above / 3 + below / 6) + lower * (above / 6 + below / 3));
 }
 
-/* Numbers of n that each entry has: how many there are from its first to the next one's. */
+/* Share of n numbers for each entry: from its first number to the next entry's. */
 static uint64_t share(const ec_distribution_entry *table, uint32_t n, uint32_t i)
 {
     return (uint32_t)((i + 1 < n ? table[i + 1].first : 0) - table[i].first);
 }
 
-/* How often the tables pick each patch is what its scale says, and never a black one. */
+/* The tables pick each patch as often as its scale says, and never a black one. */
 static void check_table(void)
 {
     uint64_t wrong = 0, dark = 0, empty = 0;
@@ -84,8 +84,8 @@ static void check_table(void)
               (unsigned long long)wrong, (unsigned long long)dark, (unsigned long long)empty);
 }
 
-/* The density that a path finds, at the middle of every texel: those are its corners, where it is highest and lowest, and their mean is
- * that of the patches but for the sun's, whose pyramid's mean is a quarter of its peak's and stands for as many texels. */
+/* The density that a path finds at the centre of every texel. Centres are patches' corners, where the density is extreme, and their mean is
+ * that of the patches. Only the sun differs: the mean of its pyramid is a quarter of its peak, and counts for as many texels. */
 static void check_integral(void)
 {
     for (uint32_t i = 0; i < TEXELS; i++) {
@@ -103,13 +103,13 @@ static void check_integral(void)
     for (uint32_t i = 0; i < TEXELS; i++) {
         bool black = i / WIDTH >= BLACK_FIRST && i / WIDTH < BLACK_END;
         total += (double)look[i] * sin(pi * (i / WIDTH + 0.5) / HEIGHT) * 2 * pi / WIDTH * pi / HEIGHT;
-        dark += black && look[i] > 1e-3f * look[0]; /* a direction's floats lie beside the row */
+        dark += black && look[i] > 1e-3f * look[0]; /* a float direction lies beside the row */
     }
     printf("density integrates to 1 %+.1e\n", total - 1);
     CHECK_MSG(fabs(total - 1) < 1e-3 && dark == 0, "the density integrates to %.8f; %u black directions have one", total, dark);
 }
 
-/* Irradiance of a plane that looks up: pi, and the sun's pyramid over 2 x 2 texels. */
+/* Irradiance of a plane that faces up: pi, and the sun's pyramid over 2 x 2 texels. */
 static double irradiance(void)
 {
     enum { STEPS = 100 };
@@ -147,8 +147,8 @@ static void check_samples(void)
     printf("irradiance %.5f +- %.5f, expected %.5f; %u samples of other densities than looked up\n", sum, se, want, other);
     CHECK_MSG(dark == 0, "%u samples in black rows", dark);
     CHECK_MSG(fabs(sum - want) < 4 * se && se < 2e-3 * want, "irradiance %.6f +- %.6f, expected %.6f", sum, se, want);
-    /* Angles of float directions are 6e-4 of such a texel off: where light falls to that part of the sun's, or to black, its density does not
-     * keep its digits. */
+    /* Angles of float directions are off by 6e-4 of such a texel. Where light falls to that fraction of the sun's, or to black, its density
+     * loses digits. */
     CHECK_MSG(other < SAMPLES / 2000, "%u samples are found again with another density", other);
 }
 

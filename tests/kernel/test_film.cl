@@ -1,4 +1,4 @@
-/* Where slots and pixels lie: tiles of 8 x 8, cut off at the edges. */
+/* Order of slots and pixels: tiles of 8 x 8, cut at the edges. */
 #include "kernel_test.h"
 #include "lib/film.h"
 

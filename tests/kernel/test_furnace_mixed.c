@@ -1,7 +1,7 @@
 /* tier: full */
-/* White surfaces that mix all effects, at random and at the ends of their ranges, in white light: no more comes back than comes in where
- * nothing is scattered diffusely under Fresnel's reflection (that is glTF's own mix, which returns up to twice what comes along the
- * surface); nowhere is a weight negative or not a number. */
+/* White surfaces with random mixtures of all effects, also at the ends of their ranges, in white light. No more light returns than arrives,
+ * unless there is diffuse reflection below a Fresnel layer (glTF's own mix returns up to twice the light at grazing angles). No weight is
+ * negative or NaN. */
 #include "kernel/layers_reference.h"
 
 enum { SURFACES = 600 };
@@ -12,7 +12,8 @@ static double log_between(double a, double b) { return a * pow(b / a, test_rando
 
 static void put(float *m, int field, double value) { m[field] = (float)value; }
 
-/* As host and surface.h leave it of a file: nothing passes through metal, what refracts is no narrower than float half vectors tell apart. */
+/* Values as host and surface.h make them from a file: metal transmits nothing, and refracting lobes are no narrower than float half vectors
+ * resolve. */
 static void draw_lobe(float *m)
 {
     double eta = PICK(1, 1, 1.5, 1 / 1.5, 2.4, 1 / 2.4, 1.001, 1 / 1.001, 1.33 / 1.5), transmission = PICK(0, 0.3, 0.7, 1, 1);
@@ -42,7 +43,7 @@ static void draw_layers(float *m)
     put(m, PACKED_COAT_ALPHA, PICK(1e-4, 0.01, 1, log_between(1e-4, 1)));
     const double tilt = PICK(0, 0, 0.3, -0.3, 0.9), cosine = m[PACKED_COSINE], sine = sqrt(1 - cosine * cosine);
     const double across = sine * cos(2 * pi * (double)m[PACKED_TURN]);
-    put(m, PACKED_COAT_TILT, tilt * across + sqrt(1 - tilt * tilt) * cosine > 0.01 ? tilt : 0); /* surface_seen_normal: never its back */
+    put(m, PACKED_COAT_TILT, tilt * across + sqrt(1 - tilt * tilt) * cosine > 0.01 ? tilt : 0); /* surface_seen_normal: never from behind */
     put(m, PACKED_FILM, PICK(0, 0, 1, 0.5));
     put(m, PACKED_FILM + 1, PICK(1.3, 1, 2.5, 1.0001, test_random_in(1, 3)));
     put(m, PACKED_FILM + 2, PICK(0, 1e-3, 100, 400, 1200, 1e5));
@@ -82,7 +83,7 @@ static void surfaces(const char *what)
     }
     say(what, worst, most, most_se);
     say("scattered diffusely under it", open_worst, open_most, open_se);
-    /* 5 standard errors: of 600 one is further off by chance 2 times in 10,000. */
+    /* 5 standard errors: of 600 values, one exceeds that by chance 2 times in 10,000. */
     CHECK_MSG(most <= 1 + 5 * most_se + 2e-5, "%s: a white surface returns %.5f +- %.5f of what comes in", what, most, most_se);
     CHECK(closed_count > SURFACES / 3);
 }

@@ -1,12 +1,12 @@
 /* tiers: quick, long */
-/* Path guiding's table: densities of directions integrate to 1, samples go by them, the host reads the same ones, and they lie where photons came
- * from. Where light comes evenly from all around, nothing is guided. */
+/* The table of path guiding: densities of directions integrate to 1, samples follow them, the host reads the same ones, and they are high
+ * where photons came from. In uniform light nothing is guided. */
 #include "device/guide.h"
 #include "kernel/chi2.h"
 
 #define PHOTONS 40000u
 #define N SAMPLES
-#define COLUMNS 64u /* of cells of equal area, the finest that the table can have here being a multiple */
+#define COLUMNS 64u /* of cells of equal area; a multiple of the finest that the table can have here */
 #define ROWS 64u
 
 static float points[3 * N], u[2 * N], *const directions = out, *const pdf = out + 3 * N, *const share = out + 4 * N;
@@ -22,7 +22,7 @@ static void set_direction(float *d, size_t stride, double x, double y)
     d[2 * stride] = (float)z;
 }
 
-/* Half of the light comes straight from above into x < 0, all other from everywhere. */
+/* Half of the light comes straight from above into x < 0, the rest from all directions. */
 static void make_photons(void)
 {
     for (uint32_t i = 0; i < PHOTONS; i++) {
@@ -41,7 +41,7 @@ static uint32_t cell_of(uint32_t i)
     return row * COLUMNS + column;
 }
 
-/* The host (ec_guide_pdf) and the kernel read the same densities, but where a direction lies on the side of a square, which rounding decides. */
+/* Host (ec_guide_pdf) and kernel read the same densities, except for directions on the side of a square, where rounding decides. */
 static void check_host(const float *table, const float p[3])
 {
     uint32_t apart = 0;
@@ -55,7 +55,8 @@ static void check_host(const float *table, const float p[3])
     CHECK_MSG(apart < N / 7 / 500, "%u densities differ from the kernel's", apart);
 }
 
-/* At one point: N directions, one in each cell of a fine grid, and then N samples. above: share of the light; 0: nothing is guided. */
+/* At one point: N directions, one in each cell of a fine grid, and then N samples. above: share of the light from above; 0: nothing is
+ * guided. */
 static void check_at(cl_program program, int lanes, const float *table, size_t words, const float p[3], double above)
 {
     double sum = 0, narrow = 0;
@@ -63,7 +64,7 @@ static void check_at(cl_program program, int lanes, const float *table, size_t w
     memset(counts, 0, sizeof counts);
     for (uint32_t i = 0; i < N; i++)
         for (int k = 0; k < 3; k++) points[(size_t)k * N + i] = p[k];
-    for (uint32_t i = 0; i < N; i++) { /* 512 columns, 256 rows: x is finer, since light from above lies in the last columns */
+    for (uint32_t i = 0; i < N; i++) { /* 512 columns, 256 rows: finer in x, since light from above is in the last columns */
         set_direction(directions + i, N, (i % 512 + 0.5) / 512, (i / 512 + 0.5) / 256);
         u[i] = (float)test_random_in(0, 1 - 0x1p-24);
         u[N + i] = (float)test_random_in(0, 1 - 0x1p-24);
@@ -93,7 +94,7 @@ int main(void)
     ec_error err = {0};
     const float left[3] = {-0.5f, 0.1f, 0.2f}, right[3] = {0.5f, -0.3f, 0.2f};
     const int open = kernel_open(&cl);
-    (void)seed; /* of other tests of densities */
+    (void)seed; /* tolerance of other tests of densities */
     if (open) return open;
     make_photons();
     CHECK_OK(ec_guide_build(photons, 10, &table, &words, &err), err);

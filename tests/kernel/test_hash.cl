@@ -1,4 +1,4 @@
-/* The integer functions under the samplers: known values, computed in Python, and their defining properties. */
+/* The integer functions of the samplers: known values, computed in Python, and their defining properties. */
 #include "kernel_test.h"
 #include "lib/sampler.h"
 
@@ -30,7 +30,7 @@ kernel void scrambling_gives_known_values(global test_result *result)
     for (int i = 0; i < 5; i++) CHECK_EQUAL(first(owen_reversed(U(in[i]), U(seed[i]))), out[i]);
 }
 
-/* Owen scrambling: bit b of the result is bit b of x, flipped or not by the bits below it alone. */
+/* Owen scrambling: bit b of the result is bit b of x, possibly flipped, depending only on the bits below it. */
 kernel void scrambling_is_nested(global test_result *result)
 {
     for (uint i = 0; i < 256; i++) {

@@ -1,6 +1,6 @@
 /* tiers: quick, long */
-/* The one driver of kernel tests: runs every tests/kernel/test_*.cl on the device, for each lane width. See
- * kernel_test.h. `kernel_test_kernels driver lanes` runs test_driver.cl and test_lanes.cl only. */
+/* The driver of kernel tests: runs every tests/kernel/test_*.cl on the device, for each lane width. See kernel_test.h. `kernel_test_kernels
+ * driver lanes` runs only test_driver.cl and test_lanes.cl. */
 #include <dirent.h>
 
 #include "kernel/kernel_run.h"
@@ -68,7 +68,7 @@ cleanup:
     return result;
 }
 
-/* Every kernel of one program. */
+/* Runs every kernel of one program. */
 static void run_program(ec_cl *cl, cl_program program, const char *file, int lanes)
 {
     char names[8192] = "";
@@ -90,7 +90,7 @@ static void run_program(ec_cl *cl, cl_program program, const char *file, int lan
     CHECK_MSG(kernels > 0, "test_%s.cl has no kernels", file);
 }
 
-/* One lane width, one set of options more. */
+/* Builds and runs one lane width with one set of options. */
 static void run_variant(ec_cl *cl, const char *name, const char *source, int lanes, const char *more)
 {
     char options[512], label[128];
@@ -108,7 +108,7 @@ static void run_variant(ec_cl *cl, const char *name, const char *source, int lan
     if (test_failures > before && *more) fprintf(stderr, "(built with %s)\n", more);
 }
 
-/* Every "// options: -DX …" line of a test is one more build; without such a line there is one without options. */
+/* Every line "// options: -DX …" of a test requests a build; without such a line there is one build without options. */
 static void run_test(ec_cl *cl, const char *name)
 {
     static const char directive[] = "\n// options:";
@@ -127,7 +127,7 @@ static void run_test(ec_cl *cl, const char *name)
     free(source);
 }
 
-/* A driver that never fails would let everything pass. */
+/* The driver must report failures, or it would let everything pass. */
 static void driver_sees_failures(ec_cl *cl)
 {
     char *source = flatten("driver");

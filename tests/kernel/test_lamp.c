@@ -1,6 +1,6 @@
 /* tiers: quick, long */
-/* Triangles as lamps, against double precision: solid angle, the map from random numbers to points, densities that are the same
- * from both sides, and nothing that is not a number where a point touches its lamp. (Distributions: test_chi2_lights.c.) */
+/* Triangles as lamps, against double precision: solid angle, the mapping from random numbers to points, densities that agree from both
+ * sides, and no NaN where a point touches its lamp. (Distributions: test_chi2_lights.c.) */
 #include "kernel/kernel_reference.h"
 
 static float points[3 * N], corners[9 * N], u[2 * N], out[10 * N];
@@ -12,7 +12,7 @@ static void cross(const double *a, const double *b, double *c)
 
 static double length(const double *a) { return sqrt(dot(a, a)); }
 
-/* van Oosterom and Strackee 1983. condition: how much larger rounding errors of the corners come out in it. */
+/* van Oosterom and Strackee 1983. condition: the factor by which rounding errors of the corners grow. */
 static double solid_angle(const double *a, const double *b, const double *c, double *condition)
 {
     double n[3], e1[3], e2[3], la = length(a), lb = length(b), lc = length(c);
@@ -61,7 +61,7 @@ static bool run(void)
     return RUN_ALL("lamps", 4, SCALAR(n), IN(points, 3 * N), IN(corners, 9 * N), IN(u, 2 * N), OUT(out, 10 * N));
 }
 
-/* What must hold whatever the lamp: a point of it; if it can be sampled, a density; never one that is not a number. */
+/* Holds for every lamp: the sample is a point of it; if it can be sampled it has a density; the density is never NaN. */
 static void check_sound(uint32_t i, const char *name)
 {
     float b1 = out[N + i], b2 = out[2 * N + i], pdf = out[3 * N + i], found = out[4 * N + i];
@@ -72,7 +72,7 @@ static void check_sound(uint32_t i, const char *name)
     if (out[6 * N + i] != 0) CHECK_MSG(found >= 0 && isfinite(found), "%s %u: found with density %g", name, i, (double)found);
 }
 
-/* Lamps of edges up to `size` at distance 1, turned at random. Four roundings of a unit go into each term. */
+/* Lamps with edges up to `size` at distance 1, randomly rotated. Each term has four roundings relative to 1. */
 static void check_lamps(double size)
 {
     for (uint32_t i = 0; i < N; i++) {
@@ -102,9 +102,9 @@ static void check_lamps(double size)
         double want = is_near ? 1 / l.solid_angle : pow(length(w), 3) / (fabs(dot(w, normal)) / 2);
         if (l.condition < 1000) worst_pdf = fmax(worst_pdf, fabs(pdf / want - 1));
         CHECK_MSG(is_near ? pdf == found : fabs(found / pdf - 1) < 1e-6 * l.condition, "lamp %u: density %.9g, found again %.9g", i, pdf, found);
-        /* The map: u1 is the share of the solid angle up to the arc through the point, u2 that of 1 - cosine along it. */
+        /* The mapping: u1 is the share of the solid angle up to the arc through the point, u2 that of 1 - cosine along the arc. */
         double m[3], q[3], condition, share = b0 + b2;
-        if (share < 1e-3) continue; /* at the corner b the arc is not known */
+        if (share < 1e-3) continue; /* at the corner b the arc is undefined */
         for (int k = 0; k < 3; k++) {
             m[k] = (b0 * l.seen[0][k] + b2 * l.seen[2][k]) / share;
             q[k] = b0 * l.seen[0][k] + b1 * l.seen[1][k] + b2 * l.seen[2][k];
@@ -121,7 +121,7 @@ static void check_lamps(double size)
     CHECK(worst < 1e-3 && worst_pdf < 1e-3);
 }
 
-/* Points touch the lamp: at a corner, on an edge, on its face, in its plane beside it; and 1e-2 to 1e-9 above those. */
+/* Points that touch the lamp: at a corner, on an edge, on its face, in its plane beside it; and 1e-2 to 1e-9 above these. */
 static void check_touching(void)
 {
     for (uint32_t i = 0; i < N; i++) {
@@ -147,7 +147,7 @@ static void check_touching(void)
         if (lamp_of(i).area > 0) check_sound(i, "touching");
 }
 
-/* 1e-6 and 1e6 of the distance: a point, and half of all there is to see. */
+/* Sizes of 1e-6 and 1e6 times the distance: a point, and half of the view. */
 static void check_extremes(void)
 {
     for (uint32_t i = 0; i < N; i++) {
@@ -168,7 +168,7 @@ static void check_extremes(void)
         worst[i % 2] = fmax(worst[i % 2], fabs(out[3 * N + i] * l.solid_angle - 1));
     }
     printf("lamps of 1e-6 and 1e6: density times solid angle off by %.1e, %.1e\n", worst[0], worst[1]);
-    CHECK(worst[0] < 5e-6 && worst[1] < 5e-6); /* 1e-6 of the distance makes densities differ by 3e-6 */
+    CHECK(worst[0] < 5e-6 && worst[1] < 5e-6); /* at 1e-6 of the distance, densities differ by 3e-6 */
 }
 
 int main(void)

@@ -1,6 +1,6 @@
 /* tiers: quick, long */
-/* A lamp in parts, as kernels take them: numbers choose each part as often as its share says, what is left of them is even, a point finds the part
- * that it was chosen by, a sample's density is the one found where it went, and densities add up to 1 from near and far. */
+/* A lamp in parts, as kernels use them: numbers choose each part as often as its share says, rescaled numbers are uniform, a point finds
+ * the part that chose it, a sample's density is the one found from its direction, and densities integrate to 1 from near and far. */
 #include "gltf/reader.h"
 #include "kernel/chi2.h"
 #include "pack/pack.h"
@@ -16,7 +16,7 @@ static ec_pack pack_lamp(void)
     ec_scene *scene;
     ec_pack pack = {0};
     ec_error err = {0};
-    texel_lamp_add(w, "kernel-parts", -1, 30, 255, 10); /* a thirtieth of the light is the texel's */
+    texel_lamp_add(w, "kernel-parts", -1, 30, 255, 10); /* the texel has a thirtieth of the light */
     CHECK_OK(ec_scene_load(gltf_write(w, "kernel-parts"), &scene, NULL, &err), err);
     CHECK_OK(ec_pack_scene(scene, &pack, &err), err);
     ec_scene_free(scene);
@@ -24,7 +24,7 @@ static ec_pack pack_lamp(void)
     return pack;
 }
 
-/* Counts by the parts' first numbers, which the table has in order; the last entry is the whole. */
+/* Counts by the parts' first numbers, which are in order in the table; the last entry is the whole. */
 static void check_choices(cl_program program, uint32_t width, const ec_pack *pack, uint32_t node)
 {
     enum { CELLS = 4096 };
@@ -60,7 +60,7 @@ static void check_densities(cl_program program, uint32_t width, const ec_pack *p
     float corners[12], p[3] = {0.14f, (float)(1 - height), -0.33f};
     const uint32_t node = l->kind >> EC_LIGHT_PARTS;
     memcpy(corners, l->a, sizeof l->a), memcpy(corners + 3, l->b, sizeof l->b), memcpy(corners + 6, l->c, sizeof l->c);
-    for (int k = 0; k < 3; k++) corners[9 + k] = p[k] + (k == 1 ? l->a[1] - 1 : 0); /* the frame is the scene's middle's */
+    for (int k = 0; k < 3; k++) corners[9 + k] = p[k] + (k == 1 ? l->a[1] - 1 : 0); /* the frame's origin is the scene's centre */
     if (!KERNEL_CALL(&cl, program, "densities", samples / width, SCALAR(samples), SCALAR(seed),
                      IN((float *)pack->lamp_nodes, 4 * pack->lamp_node_count), SCALAR(node), IN(corners, 12), OUT(out, 3 * SAMPLES)))
         return;
@@ -74,7 +74,7 @@ static void check_densities(cl_program program, uint32_t width, const ec_pack *p
     }
     const double mean = sum / SAMPLES, error = sqrt((squares / SAMPLES - mean * mean) / SAMPLES);
     printf("%g below: density integrates to %.4f +- %.4f; %u of %u found otherwise\n", height, mean, error, off, SAMPLES);
-    CHECK_MSG(off < SAMPLES / 500, "%g below: %u densities are found otherwise", height, off); /* by rounding a point may lie in the next part */
+    CHECK_MSG(off < SAMPLES / 500, "%g below: %u densities are found otherwise", height, off); /* after rounding, a point may be in the next part */
     CHECK_MSG(invalid < SAMPLES / 1000, "%g below: %u samples are invalid", height, invalid);
     CHECK_MSG(fabs(mean - 1) < 4 * error && error < 0.1, "%g below: the density integrates to %g +- %g", height, mean, error);
 }

@@ -6,7 +6,7 @@
 #define MASKS (LANES == 16 ? 2048u : 1u << LANES)
 #define SENTINEL 0xdeadbeefu
 
-/* Every mask of up to eight lanes; of sixteen a spread of 2048 with the empty and the full one. */
+/* Every mask of up to eight lanes; for sixteen lanes 2048 of them, including the empty and the full one. */
 static uint mask_number(uint i)
 {
     return LANES == 16 ? (i == 0 ? 0u : (i == 1 ? ALL : (i * 40503u) & ALL)) : i;
@@ -66,7 +66,7 @@ kernel void select_takes_a_where_the_mask_is_set(global test_result *result)
         float f[16];
         uint u[16];
         int n[16];
-        /* Both sides are evaluated; what is not chosen leaves nothing behind. */
+        /* Both sides are evaluated; the one that is not chosen has no effect. */
         LANE_STORE(m ? to_lane_f(LANE_NUMBERS) : F(zero / zero), f);
         LANE_STORE(m ? (U(0) + LANE_NUMBERS) : U(100u), u);
         LANE_STORE(m ? I(-1) : I(0x7fffffff), n);
@@ -83,11 +83,11 @@ kernel void select_takes_a_where_the_mask_is_set(global test_result *result)
 kernel void division_is_exact(global test_result *result)
 {
     for (uint i = 0; i < 4096; i++) {
-        /* Small ones, powers of two and their neighbours, the largest, any. */
+        /* Small numbers, powers of two and their neighbours, the largest, random ones. */
         uint d = i < 300 ? i + 1u : i < 396 ? (1u << (i / 3u % 32u)) + i % 3u - 1u : i < 400 ? 0u - (i - 395u) : scrambled(i) >> (i % 31u);
         d = max(d, 1u);
         uint q[16], n[16], good = 1;
-        lane_u near = d * (scrambled(i + 77u) / d) + LANE_NUMBERS - LANES / 2u; /* about a multiple, and about 0 where that wraps */
+        lane_u near = d * (scrambled(i + 77u) / d) + LANE_NUMBERS - LANES / 2u; /* near a multiple, and near 0, where it wraps */
         lane_u numbers = i % 3u ? near : 0u - LANE_NUMBERS * (i % 5u);
         LANE_STORE(numbers, n);
         LANE_STORE(divide(numbers, d), q);
@@ -162,7 +162,7 @@ kernel void scatters_touch_their_lanes_only(global test_result *result, global u
         uint bits = mask_number(i), good = 1;
         for (uint k = 0; k < 64; k++) p[k] = 1000.0f + k;
         for (uint k = 64; k < 256; k++) p[k] = 2000.0f + k;
-        lane_u at = (LANE_NUMBERS * 3u + i) & 63u; /* no two lanes alike */
+        lane_u at = (LANE_NUMBERS * 3u + i) & 63u; /* all lanes differ */
         lane_f x = to_lane_f(U(0) + LANE_NUMBERS);
         scatter_f(p, at, x, bits);
         scatter_add_3(p + 64, 64, at, x + 0.5f, x + 100.0f, -x, bits);

@@ -1,5 +1,5 @@
 /* tier: quick */
-/* The structs of kernels/shared are the same bytes to the device's compiler as to the host's. */
+/* The structs of kernels/shared have the same layout for the device's compiler as for the host's. */
 #include <stddef.h>
 
 #include "kernel/kernel_run.h"
@@ -30,7 +30,7 @@ static void words_are_those_of_the_structs(void)
     CHECK(EC_PRIM_WORDS * 4 == sizeof(ec_prim));
     CHECK(EC_MATERIAL_WORDS * 4 == sizeof(ec_material_data));
     CHECK(EC_LIGHT_WORDS * 4 == sizeof(ec_light_data));
-    CHECK(sizeof(ec_texture_slot) == 32 && sizeof(ec_texture_data) == 16 && sizeof(ec_distribution_entry) == 8); /* as kernels count */
+    CHECK(sizeof(ec_texture_slot) == 32 && sizeof(ec_texture_data) == 16 && sizeof(ec_distribution_entry) == 8); /* in the unit that kernels use */
     CHECK(offsetof(ec_prim, flags) == 44 && offsetof(ec_prim, light_pdf_a) == 28 && offsetof(ec_prim, material) == 12);
 }
 

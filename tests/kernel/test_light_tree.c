@@ -1,7 +1,7 @@
 /* tiers: quick, long */
-/* The light tree's probabilities, lamp by lamp and point by point: they add up to the share of all lamps, are those sampled, are the same
- * found from the lamp's trail, and no lamp that shines on a point is left without; among the lamps a ball and a panel that are bulbs. What is left of
- * the numbers that choose is uniform. */
+/* The light tree's probabilities, for each lamp and point: they add up to the share of all lamps, are those of the samples, are equal when
+ * found from the lamp's trail, and are never 0 for a lamp that shines on the point. A ball and a panel among the lamps are bulbs. Numbers
+ * are uniform after they have chosen. */
 #include "kernel/chi2.h"
 #include "pack/light_tree.h"
 
@@ -15,7 +15,7 @@ static const ec_bulb bulbs[] = {{301, 151}, {600, 64}};
 static uint32_t trails[LAMPS], ids[LAMPS], chosen[SAMPLES];
 static float points[3 * POINTS], pmf[LAMPS], first_pmf[POINTS][LAMPS];
 
-/* Triangles of all sizes and powers in clusters, some two-sided, some alike; points and spots among them. */
+/* Triangles of all sizes and powers in clusters, some two-sided, some equal; with points and spots among them. */
 static void make_lamps(void)
 {
     for (int i = 0; i < LAMPS; i++) {
@@ -27,7 +27,7 @@ static void make_lamps(void)
             l->b[k] = (float)(l->a[k] + size * test_random_in(-1, 1));
             l->c[k] = (float)(l->a[k] + size * test_random_in(-1, 1));
         }
-        if (i > 900) *l = lamps[900]; /* that nothing can part */
+        if (i > 900) *l = lamps[900]; /* lamps that no split can separate */
         if (l->kind == EC_KIND_SPOT) {
             double length = sqrt(pow(l->b[0], 2) + pow(l->b[1], 2) + pow(l->b[2], 2));
             for (int k = 0; k < 3; k++) l->b[k] = (float)(l->b[k] / length);
@@ -41,7 +41,7 @@ static void make_lamps(void)
             points[3 * i + k] = i == 9 ? 3 : i == 10 ? 3.3f : i < 4 ? lamps[i * 30].a[k] : i < 8 ? (float)test_random_in(-1e4, 1e4) : (float)test_random_in(-1, 7);
 }
 
-/* A ball of pairs, and one lamp more; a panel of equal ones. Sizes differ by a thousand. */
+/* A ball of pairs, and one lamp more; a panel of equal ones. Sizes differ by a factor of a thousand. */
 static void make_bulbs(void)
 {
     for (uint32_t i = 0; i < 151; i++) {
@@ -52,7 +52,7 @@ static void make_bulbs(void)
         for (int k = 0; k < 3; k++) length += towards[k] * towards[k];
         for (int k = 0; k < 3; k++) n[k] = towards[k] / sqrt(length);
         *l = (ec_light_data){.kind = EC_KIND_TRIANGLE | (i == 150 ? 0 : i % 2 ? EC_LIGHT_PAIR_SECOND : EC_LIGHT_PAIR_FIRST)};
-        for (int k = 0; k < 3; k++) { /* corners at n and beside it, so that it looks away from the middle; the partner's on the other side */
+        for (int k = 0; k < 3; k++) { /* corners at n and beside it, so that it faces outwards; the partner is on the other side */
             const double u = n[(k + 1) % 3] * 0.3 - n[(k + 2) % 3] * 0.5, at = 3 + 0.2 * n[k];
             l->a[k] = (float)at;
             l->b[k] = (float)(at + 0.1 * size * u);
@@ -64,12 +64,12 @@ static void make_bulbs(void)
     for (uint32_t i = 0; i < 64; i++) {
         ec_light_data *l = &lamps[600 + i];
         *l = (ec_light_data){.kind = EC_KIND_TRIANGLE, .a = {i % 8 * 0.1f, i / 8 * 0.1f, 5}};
-        for (int k = 0; k < 3; k++) l->b[k] = l->a[k] + (k == 1) * 0.1f, l->c[k] = l->a[k] + (k == 0) * 0.1f; /* looks down on most points */
+        for (int k = 0; k < 3; k++) l->b[k] = l->a[k] + (k == 1) * 0.1f, l->c[k] = l->a[k] + (k == 0) * 0.1f; /* faces most points */
         bounds[600 + i] = ec_light_bounds_of(l, 10);
     }
 }
 
-/* Does it shine on p, by a cosine that rounding cannot have made? */
+/* Tells whether it shines on p, with a cosine above rounding error. */
 static bool shines_on(const ec_light_data *l, const float *p)
 {
     double e[3], f[3], w[3], n[3], d2 = 0, along = 0, n2 = 0;
@@ -89,7 +89,7 @@ static void check_point(cl_program program, int lanes, uint32_t which, uint32_t 
 {
     static double expected[LAMPS];
     static uint32_t count[LAMPS];
-    /* All of 2^31 numbers, or an odd part of them. */
+    /* All of 2^31 numbers, or a subset of odd size. */
     uint32_t width = (uint32_t)lane_widths[lanes], n = LAMPS, other = 0, numbers = which % 4 ? 1u << 31 : 1234567891;
     const double whole = numbers * 0x1p-31;
     if (!KERNEL_CALL(&cl, program, "probabilities", LAMPS / width, SCALAR(n), IN((float *)lamps, EC_LIGHT_WORDS * LAMPS), IN((float *)nodes, sizeof nodes / 4), IN(trails, LAMPS),
@@ -145,7 +145,7 @@ int main(void)
         if (program) clReleaseProgram(program);
     }
     printf("%d chi-square tests; %.1f %% of lamps are known to be dark\n", tests, 100.0 * unlit / (LAMPS * POINTS * widths));
-    CHECK(unlit > LAMPS * POINTS / 20); /* dark lamps are told at all */
+    CHECK(unlit > LAMPS * POINTS / 20); /* dark lamps are reported */
     ec_cl_close(&cl);
     TEST_END();
 }

@@ -74,7 +74,7 @@ kernel void frames_are_orthonormal(global test_result *result)
         lane_f z = fma(to_unit(h), F(2.0f), F(-1.0f)), cosine, sine = sincos_2pi(to_unit(hash_u(h + 1u)), &cosine);
         lane_f r = sqrt(max(1.0f - z * z, F(0.0f)));
         check_frame(result, v3_normalize(v3_make(r * cosine, r * sine, z)));
-        /* Near the poles, down to a distance of 2^-30, and to the equator, where copysign changes. */
+        /* Near the poles, down to a distance of 2^-30, and at the equator, where copysign changes. */
         lane_f small = as_lane_f((127u - 30u + (h & 31u)) << 23);
         small = min(small, F(0.5f));
         check_frame(result, v3_normalize(v3_make(small * cosine, small * sine, F(-1.0f))));
@@ -105,7 +105,7 @@ kernel void frames_do_not_see_signs_of_zeros(global test_result *result)
     CHECK_SAME_BITS(first(t[0].y), first(t[1].y));
 }
 
-/* w(a, b) + w(b, a) = 1 within 2 ulp for all magnitudes; and each is a^2 / (a^2 + b^2) where that can be computed. */
+/* w(a, b) + w(b, a) = 1 within 2 ulp for all magnitudes; each is a^2 / (a^2 + b^2) where that can be computed. */
 kernel void weights_sum_to_one(global test_result *result)
 {
     float decade[61];

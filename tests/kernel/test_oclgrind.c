@@ -1,10 +1,10 @@
 /* tiers: quick, full, long */
-/* Kernel tests and renders once more inside Oclgrind's simulator: out-of-bounds accesses, data races, uninitialised values, wrong
- * API calls. Runs itself inside it too, with a kernel that is wrong on purpose, to know that it would be told.
+/* Kernel tests and renders inside Oclgrind's simulator: out-of-bounds accesses, data races, uninitialised values, wrong API calls. The test
+ * also runs itself there with a kernel that is wrong on purpose, to check that errors are reported.
  *
- * Oclgrind 21.10 has its own limits: LLVM's inliner leaves an intrinsic that it does not know, so nothing is inlined; and
- * its shadow of uninitialised values breaks on sub-vectors (x.lo, x.hi) and vload, and takes rays that the host has written for
- * uninitialised, with which the path tracer looks for light that is hard to find; so --uninitialized is for tests without. */
+ * Oclgrind 21.10 has limits. LLVM's inliner leaves an intrinsic that it does not know, so nothing is inlined. Its tracking of uninitialised
+ * values fails for sub-vectors (x.lo, x.hi) and vload, and reports rays written by the host, which the path tracer uses to look for light
+ * that is hard to find. So --uninitialized is only for tests without these. */
 #include "kernel/kernel_run.h"
 
 #define OPTIONS "--check-api --build-options '-cl-opt-disable -Dalways_inline=unused' "
@@ -15,7 +15,7 @@ static const char wrong[] = "kernel void wrong(global uint *x, uint how) {\n"
                             "    if (how == 1) x[0] = i;\n"
                             "    if (how == 2 && y[1] == 7) x[0] = 1;\n}\n";
 
-/* In the simulator: how = 0 writes behind the end, 1 races, 2 reads what nobody wrote. */
+/* Runs in the simulator. how: 0 writes beyond the end, 1 has a race, 2 reads uninitialised memory. */
 static int be_wrong(uint32_t how)
 {
     ec_cl cl;
@@ -33,7 +33,7 @@ static int be_wrong(uint32_t how)
     TEST_END();
 }
 
-/* Runs a command in the simulator; the log's size, -1 if the command failed. The log's start is printed. */
+/* Runs a command in the simulator and prints the start of its log. Returns the log's size, -1 if the command failed. */
 static long simulate(const char *options, const char *command, bool show)
 {
     char line[8192], log[2048], text[2048];
@@ -50,7 +50,7 @@ static long simulate(const char *options, const char *command, bool show)
     return good ? (long)size : -1;
 }
 
-/* Every stage and accelerator, on scenes that call for every effect: a few pixels each, since a sample takes a tenth of a second. */
+/* Every stage and accelerator, on scenes that need every effect: a few pixels each, since a sample takes a tenth of a second. */
 static const struct {
     const char *tier, *ways, *options;
 } renders[] = {

@@ -1,11 +1,11 @@
 /* tiers: quick, long */
-/* Places that the pixel filter's table gives to uniform numbers, against the density of Blackman and Harris' window by chi-square. */
+/* Positions that the pixel filter's table gives for uniform numbers, against the density of the Blackman-Harris window by chi-square. */
 #include "kernel/chi2.h"
 #include "device/pixel_filter.h"
 
 #define CELLS 64
 
-/* Integral of 0.35875 - 0.48829 cos + 0.14128 cos 2 - 0.01168 cos 3 from 0 to x, over the whole. */
+/* Integral of 0.35875 - 0.48829 cos + 0.14128 cos 2 - 0.01168 cos 3 from 0 to x, relative to the whole. */
 static double window(double x)
 {
     return x - 0.48829 / 0.35875 * sin(2 * pi * x) / (2 * pi) + 0.14128 / 0.35875 * sin(4 * pi * x) / (4 * pi) - 0.01168 / 0.35875 * sin(6 * pi * x) / (6 * pi);

@@ -1,5 +1,5 @@
 /* tiers: quick, long */
-/* Ray against triangle, compared with double precision; every lane width must give the same bits. */
+/* Ray-triangle intersection against double precision; every lane width must give the same bits. */
 #include "kernel/kernel_reference.h"
 
 static float rays[6 * N], triangles[9 * N], hits[4 * N];
@@ -12,12 +12,12 @@ static void cross(const double *a, const double *b, double *c)
 }
 
 typedef struct exact_hit {
-    double t, b1, b2, inside; /* inside: the least barycentric, < 0 outside */
+    double t, b1, b2, inside; /* inside: the smallest barycentric coordinate, < 0 outside */
     double cosine;            /* between ray and normal */
     bool parallel, front;
 } exact_hit;
 
-/* Moeller and Trumbore 1997 in double, on the float numbers. */
+/* Moeller and Trumbore 1997 in double, with the float inputs. */
 static exact_hit exact_intersection(uint32_t i)
 {
     double o[3], d[3], e1[3], e2[3], s[3], p[3], q[3], normal[3];
@@ -43,7 +43,7 @@ static exact_hit exact_intersection(uint32_t i)
     return h;
 }
 
-/* Triangles of edge `size` about points up to `position`; rays at them under a cosine of about `cosine`. */
+/* Triangles of edge `size` about points up to `position`; rays hit them at cosines of about `cosine`. */
 static void make_intersections(double size, double position, double cosine)
 {
     for (uint32_t i = 0; i < N; i++) {
@@ -91,8 +91,8 @@ static void check_intersections(double size, double position, double cosine)
         longest = sqrt(longest);
         cross(e1, e2, normal);
         double area2 = sqrt(dot(normal, normal));
-        /* The vertices in the ray's frame are off by some 8 u of their distance. Along the triangle that is 1 / cosine as
-         * much; in barycentrics over the least height. */
+        /* The vertices in the ray's frame have an error of about 8 u of their distance. Along the triangle that is 1 / cosine times as
+         * much; in barycentrics it is divided by the smallest height. */
         double slack = 8 * U * reach / e.cosine * longest / fmax(area2, 1e-300) + 8 * U;
         double t = hits[i];
         bool got = t >= 0.0f;
@@ -127,13 +127,13 @@ static void intersections_are_right(void)
     for (double cosine = 0.1; cosine > 3e-5; cosine *= 0.1) check_intersections(1, 0, cosine);
 }
 
-/* No normal, no area: no hit, no NaN. */
+/* A triangle without a normal or an area is never hit, and gives no NaN. */
 static void degenerate_triangles_are_missed(void)
 {
     make_intersections(1, 1, 0);
     for (uint32_t i = 0; i < N; i++)
         for (uint32_t k = 0; k < 3; k++) {
-            if (i % 3 == 0) triangles[(6 + k) * N + i] = triangles[k * N + i];                /* two corners alike */
+            if (i % 3 == 0) triangles[(6 + k) * N + i] = triangles[k * N + i];                /* two equal corners */
             if (i % 3 == 1) triangles[(3 + k) * N + i] = triangles[(6 + k) * N + i] = triangles[k * N + i];
             if (i % 3 == 2) triangles[(3 + k) * N + i] = triangles[(6 + k) * N + i] = rays[k * N + i]; /* at the origin */
         }

@@ -40,12 +40,12 @@ static void arcs(void)
         for (uint32_t i = 0; i < N; i++) {
             double want = x[i] == 0.0f && y[i] == 0.0f ? 0.0 : atan2((double)y[i], (double)x[i]) / (2 * pi);
             double error = fabs(a[i] - want);
-            if (y[i] == 0.0f && x[i] < 0.0f) error = fabs(fabs(a[i]) - 0.5); /* either end of the seam */
+            if (y[i] == 0.0f && x[i] < 0.0f) error = fabs(fabs(a[i]) - 0.5); /* either side of the seam */
             if (error > worst) worst = error;
             CHECK_MSG(fabsf(a[i]) <= 0.5f, "atan2(%g, %g) = %g", (double)y[i], (double)x[i], (double)a[i]);
         }
         printf("atan2_over_2pi: error %.2e\n", worst);
-        CHECK_MSG(worst <= 2.5e-8 / 8 + 2 * U, "atan2_over_2pi: error %g", worst); /* as its comment says, + rounding */
+        CHECK_MSG(worst <= 2.5e-8 / 8 + 2 * U, "atan2_over_2pi: error %g", worst); /* as its comment states, plus rounding */
     }
 }
 
@@ -65,7 +65,7 @@ static void logarithms(void)
         if (x[i] < 1) worst = fmax(worst, fabs(out[i] - want) / exp2(floor(log2(-want)) - 23));
     }
     printf("log_unit: error %.2f ulp\n", worst);
-    CHECK_MSG(worst < 2, "log_unit: error %g ulp", worst); /* as its comment says */
+    CHECK_MSG(worst < 2, "log_unit: error %g ulp", worst); /* as its comment states */
     CHECK(out[0] == 0.0f && out[1] == out[3] && out[2] == out[3]);
 }
 
@@ -75,8 +75,8 @@ typedef struct material {
     double base[3], f0[3], f90, metallic, alpha;
 } material;
 
-/* glTF 2.0, B.2 and B.3, in its own terms: mix(dielectric_brdf, metal_brdf, metallic), times n.l. D from tan^2 so that
- * the smallest alphas keep their digits in double, G by Smith's height-correlated form (Heitz 2014, eq. 99). */
+/* glTF 2.0, B.2 and B.3, in their own terms: mix(dielectric_brdf, metal_brdf, metallic), times n.l. D is computed from tan^2, so that the
+ * smallest alphas keep their digits in double; G is Smith's height-correlated form (Heitz 2014, eq. 99). */
 static void gltf_brdf(const material *m, const double *l, const double *v, double *f)
 {
     double h[3] = {l[0] + v[0], l[1] + v[1], l[2] + v[2]}, length = sqrt(dot(h, h));
@@ -165,10 +165,10 @@ static void brdf_is_gltf(void)
             continue;
         }
         gltf_brdf(&m, l, o, want);
-        /* Rounding of the half vector turns it by about 2 u; a narrow lobe changes by that over alpha, twice. */
+        /* Rounding turns the half vector by about 2 u; a narrow lobe changes by that over alpha, twice. */
         double tolerance = 4e-6 + 16 * U / m.alpha / fmax(0.02, fmin(o[2] + l[2], 1));
-        /* Unit vectors are so to 2 u: between two that are nearly opposite, wo . h differs by that over |wo + wi| from wi . h,
-         * and (1 - wo . h)^5 by five times as much. */
+        /* Unit vectors have an error of 2 u. For two that are nearly opposite, wo . h differs from wi . h by that over |wo + wi|, and (1 -
+         * wo . h)^5 by five times as much. */
         tolerance += 10 * U / sqrt(pow(o[0] + l[0], 2) + pow(o[1] + l[1], 2) + pow(o[2] + l[2], 2));
         for (uint32_t k = 0; k < 3; k++) {
             double error = fabs(values[k * N + i] - want[k]) / (want[k] + 1e-7);
@@ -191,8 +191,8 @@ static void brdf_is_gltf(void)
     printf("bsdf_eval: relative error %.1e (alpha >= 0.1), %.1e / alpha below\n", worst_wide, worst_narrow);
 }
 
-/* Relative, but for what is small beside a diffuse surface, where 1 - F cancels at grazing angles; and where a and b are
- * nearly opposite their half vector is worth less. f(wo, wi) cos wi / cos wi = f(wi, wo) cos wo / cos wo */
+/* Relative error, except for small values beside a diffuse surface, where 1 - F cancels at grazing angles; and where a and b are nearly
+ * opposite, their half vector is imprecise. f(wo, wi) cos wi / cos wi = f(wi, wo) cos wo / cos wo */
 static void brdf_is_reciprocal(void)
 {
     make_brdf_arguments();
@@ -214,7 +214,7 @@ static void brdf_is_reciprocal(void)
               (double)materials[8 * N + at], (double)materials[7 * N + at]);
 }
 
-/* One-bounce albedo of a white metal (Smith, height-correlated), by 2000^2-point quadrature in double over visible normals. */
+/* Albedo of a white metal with single scattering (Smith, height-correlated), by quadrature over 2000^2 visible normals in double. */
 static void albedo_is_that_of_ggx(void)
 {
     static const double expected[9] = {.98831, .96920, .88345, .68785, .69825, .86010, .30685, .45069, .76021};

@@ -1,6 +1,6 @@
 /* tiers: quick, long */
-/* Glass against double precision: Fresnel's reflectance, Snell's law, Beer and Lambert's exponential, the rough transmission of
- * Walter et al. 2007, and the single directions of smooth surfaces. Every lane width must give the same bits. */
+/* Glass against double precision: Fresnel's reflectance, Snell's law, the Beer-Lambert exponential, the rough transmission of Walter et al.
+ * 2007, and the single directions of smooth surfaces. Every lane width must give the same bits. */
 #include "kernel/kernel_reference.h"
 
 static float cosines[N], etas[N], values[N], pdf[N], wo[3 * N], wi[3 * N], there[3 * N], materials[6 * N];
@@ -19,8 +19,8 @@ static void exponentials(void)
         else CHECK_MSG(error <= 0x1p-125, "exp(%g) = %g", (double)x[i], (double)values[i]);
     }
     printf("exp_negative: error %.2f ulp\n", worst);
-    CHECK_MSG(worst < 2, "exp_negative: error %g ulp", worst); /* as its comment says */
-    CHECK(values[0] == 1.0f && values[1] == 1.0f && values[2] == 0.0f && values[4] == 1.0f); /* no absorption is none */
+    CHECK_MSG(worst < 2, "exp_negative: error %g ulp", worst); /* as its comment states */
+    CHECK(values[0] == 1.0f && values[1] == 1.0f && values[2] == 0.0f && values[4] == 1.0f); /* without absorption, exactly 1 */
 }
 
 /* Born and Wolf, Principles of Optics, 1.5.2: amplitudes of the two polarisations. 1 beyond the critical angle. */
@@ -59,13 +59,13 @@ static void reflectances(void)
         else if (error > worst) worst = error, worst_at = cosines[i], worst_eta = etas[i];
     }
     printf("fresnel_dielectric: error %.1e, within 1e-6 rad of the critical angle %.1e\n", worst, near);
-    /* cos_t^2 is a difference there, and R falls as its root. */
+    /* cos_t^2 is a difference there, and R falls as its square root. */
     CHECK_MSG(worst <= 1e-6, "fresnel_dielectric: error %g at cosine %g, index %.7g", worst, worst_at, worst_eta);
     CHECK_MSG(near <= 2e-3, "fresnel_dielectric: error %g at the critical angle", near);
 }
 
-/* Towards grazing angles reflectance rises, but for rounding; exactly 1 from the critical angle on. (Indices above 2 + sqrt(3)
- * dip before they rise.) And where nothing changes, nothing is reflected: index 1 gives exactly 0. */
+/* Reflectance rises towards grazing angles, except for rounding, and is exactly 1 from the critical angle on. (Indices above 2 + sqrt(3)
+ * dip before they rise.) An interface of index 1 reflects exactly 0. */
 static void reflectance_rises(void)
 {
     static const float rising[4] = {1.5f, 1 / 1.5f, 2.4f, 1 / 2.4f};
@@ -75,7 +75,7 @@ static void reflectance_rises(void)
             cosines[i] = (float)cos(angle);
             etas[i] = k == 4 ? 1.0f : rising[k];
         }
-        for (uint32_t i = 1; i < N; i++) /* by insertion, since half of them are in order */
+        for (uint32_t i = 1; i < N; i++) /* insertion sort, since half of them are in order */
             for (uint32_t j = i; j > 0 && cosines[j] > cosines[j - 1]; j--) {
                 float c = cosines[j];
                 cosines[j] = cosines[j - 1], cosines[j - 1] = c;
@@ -105,7 +105,7 @@ static void random_direction(float *w, double z)
     w[2 * N] = (float)z;
 }
 
-/* w refracted about m (Snell): the tangential part shrinks by the index. False beyond the critical angle. */
+/* Refracts w about m (Snell): the tangential part is divided by the index. False beyond the critical angle. */
 static bool snell(const double *w, const double *m, double eta, double *out)
 {
     double c = dot(w, m), cos2_t = 1 - (dot(w, w) - c * c) / (eta * eta);
@@ -153,13 +153,13 @@ static glass glass_at(uint32_t i)
     return (glass){m[0], m[N], m[2 * N], m[3 * N], m[4 * N], m[2 * N] * (double)m[5 * N]};
 }
 
-/* Above an index of 2 + sqrt(3) the exact reflectance dips before it rises; ours stays at its value head-on (fresnel_rise). */
+/* Above an index of 2 + sqrt(3) the exact reflectance dips before it rises; ours keeps its value at normal incidence (fresnel_rise). */
 static double schlick_or_exact(const glass *g, double cosine)
 {
     return g->eta == 1 ? g->f0 + (1 - g->f0) * pow(1 - cosine, 5) : fmax(fresnel(cosine, g->eta), g->f0);
 }
 
-/* GGX from slopes (Walter et al. 2007, eq. 33; of two widths Heitz 2014, eq. 85). */
+/* GGX by slopes (Walter et al. 2007, eq. 33; with two widths Heitz 2014, eq. 85). */
 static double ggx(const glass *g, const double *h)
 {
     double x = h[0] / h[2] / g->along, y = h[1] / h[2] / g->alpha;
@@ -173,8 +173,9 @@ static double smith(const glass *g, const double *w) /* Lambda (Heitz 2014, eq. 
 }
 
 /* f |cos wi| for wi below the surface.
- * Bodies: Walter et al. 2007, eq. 16 and 21, with height-correlated masking 1 / (1 + L(o) + L(i)) for their G. Their f_s is
- * between radiances; ours is between basic radiances L / n^2, so that what arrives from side i has n_i^2 for their n_o^2:
+ *
+ * Bodies: Walter et al. 2007, eq. 16 and 21, with height-correlated masking 1 / (1 + L(o) + L(i)) for their G. Their f_s is between
+ * radiances; ours is between basic radiances L / n^2, so that what arrives from side i has n_i^2 for their n_o^2:
  *   f = |i.h| |o.h| / (|i.n| |o.n|) n_i^2 (1 - F) G D / (n_i (i.h) + n_o (o.h))^2
  * Thin walls: the reflected lobe mirrored, with 1 - F for F (KHR_materials_transmission). density: of h seen from wo. */
 static double below(const glass *g, const double *o, const double *i, double *density)
@@ -191,7 +192,7 @@ static double below(const glass *g, const double *o, const double *i, double *de
     return thin ? passes * masking * D / (4 * o[2]) : fabs(ih) * oh / o[2] * g->eta * g->eta * passes * masking * D / (denominator * denominator);
 }
 
-/* stretched: up to 300 times, and no further than to a width of 1; narrow lobes across keep 1e-3. */
+/* stretched: up to 300 times, but at most to a width of 1; narrow lobes keep a width of 1e-3 across. */
 static void make_glass(bool stretched)
 {
     static const double alphas[6] = {1.0, 0.5, 0.1, 0.01, 1e-3, 0.3}, bodies[7] = {1, 1.5, 1 / 1.5, 1.33, 2.4, 1 / 2.4, 1.05};
@@ -221,8 +222,8 @@ static void make_glass(bool stretched)
     }
 }
 
-/* What rounding may do, relative: h has an error of about u / |wo + eta wi|, which the flank of a narrow lobe multiplies by
- * 4 / alpha; and so has its cosine with wo, on which 1 - F depends the more the nearer the critical angle is. */
+/* Relative error by rounding: h has an error of about u / |wo + eta wi|, which the flank of a narrow lobe multiplies by 4 / alpha. Its
+ * cosine with wo has that error too, and 1 - F depends on it more strongly near the critical angle. */
 static double glass_tolerance(const glass *g, const double *o, const double *i)
 {
     double sum[3] = {o[0] + g->eta * i[0], o[1] + g->eta * i[1], o[2] + (g->eta == 1 ? -1 : g->eta) * i[2]}, length = sqrt(dot(sum, sum));
@@ -246,7 +247,7 @@ static void glass_is_walter(bool stretched)
         lit += want > 0;
         worst = fmax(worst, error / tolerance);
         bool right = error <= tolerance;
-        /* With all of it transmitted the choice is reflect or pass alone, by F against (1 - F) base. */
+        /* With full transmission the only choice is between reflection and transmission, by F against (1 - F) base. */
         if (g.transmission == 1) {
             double p = density * (1 - F) * g.base / (F + (1 - F) * g.base);
             right &= fabs(pdf[i] - p) <= tolerance * (p + 1e-6);
@@ -262,8 +263,8 @@ static void glass_is_walter(bool stretched)
     CHECK(lit > N / 2);
 }
 
-/* Between basic radiances light goes both ways alike per n^2 cos d omega (Nicodemus 1963; Veach 1997, 5.2): from the other side
- * eta is its inverse, up is down and f(o, i) / n_i^2 = f(i, o) / n_o^2. */
+/* For basic radiances light goes both ways alike per n^2 cos d omega (Nicodemus 1963; Veach 1997, 5.2): from the other side eta is its
+ * inverse, up is down, and f(o, i) / n_i^2 = f(i, o) / n_o^2. */
 static void glass_is_reciprocal(bool stretched)
 {
     make_glass(stretched);
@@ -279,7 +280,7 @@ static void glass_is_reciprocal(bool stretched)
     double worst = 0;
     uint32_t at = 0;
     for (uint32_t i = 0; i < N; i++) {
-        glass g = glass_at(i), front = g; /* g: as seen from behind */
+        glass g = glass_at(i), front = g; /* g: seen from behind */
         front.eta = 1 / g.eta;
         double o[3] = {wo[i], wo[N + i], wo[2 * N + i]}, l[3] = {there[i], there[N + i], there[2 * N + i]};
         double a = (double)values[i] / wo[2 * N + i] * g.eta * g.eta, b = (double)back[i] / -there[2 * N + i];
@@ -292,8 +293,8 @@ static void glass_is_reciprocal(bool stretched)
               (double)materials[2 * N + at], (double)materials[4 * N + at]);
 }
 
-/* One direction of reflection, one of transmission; white glass gives back all that comes in, so each weight is 1. It reflects
- * for u below Fresnel's reflectance, and passes at Snell's angle, or straight on through a thin wall. */
+/* One direction of reflection, one of transmission. White glass returns all light, so each weight is 1. It reflects for u below Fresnel's
+ * reflectance, and otherwise transmits at Snell's angle, or straight through a thin wall. */
 static void smooth_glass(void)
 {
     static float u[N], weight[N];

@@ -1,12 +1,12 @@
 /* tier: full */
-/* What lies over a surface against double precision, by the formulas of the extensions' texts; the energy of all of it, at roughness and
- * angles from end to end. */
+/* Layers over a surface against double precision, by the formulas of the extensions' texts; and the energy of all layers, over all
+ * roughnesses and angles. */
 #include "kernel/film_reference.h"
 #include "kernel/layers_reference.h"
 #define constant static const
 #include "lib/sheen_table.h"
 
-/* Appendix B's plastic of one grey, no metal, f90 1. */
+/* Appendix B's plastic of one grey: no metal, f90 1. */
 static double plastic(const float *m, vector l, vector v)
 {
     double fresnel = m[PACKED_F0] + (1 - (double)m[PACKED_F0]) * pow(1 - product(half_of(l, v), v), 5);
@@ -35,7 +35,7 @@ static void coats(void)
         snprintf(name, sizeof name, "coat %g alpha %g tilt %g", (double)cases[i][0], (double)cases[i][1], (double)cases[i][2]);
         compare(name, m, fmin(cases[i][1], 0.3), cases[i][2], coated, coated);
     }
-    /* Over a mirror of roughness 0.07 whose albedo is 1 but for 1e-3: what is missing is the coat's. */
+    /* Over a mirror of roughness 0.07 whose albedo is 1 to 1e-3: the difference is the coat's. */
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_F0] = 1, [PACKED_F90] = 1,
                                   [PACKED_METALLIC] = 1, [PACKED_ALPHA] = 0.005f, [PACKED_ETA] = 1, [PACKED_COAT] = 1};
     furnace("coat over white metal", white, PACKED_COAT_ALPHA, 0);
@@ -43,7 +43,7 @@ static void coats(void)
     furnace("bent coat over white metal", white, PACKED_COAT_ALPHA, 0);
 }
 
-/* ---- KHR_materials_sheen, by Estevez and Kulla 2017; eclat's own: divided by E where E is more than 1 ---- */
+/* ---- KHR_materials_sheen, by Estevez and Kulla 2017; eclat divides it by E where E is more than 1 ---- */
 
 static double sheen_fit(double x, double alpha)
 {
@@ -65,7 +65,7 @@ static double charlie(double alpha, vector l, vector v) /* times the cosine */
     return d / ((1 + sheen_lambda(v.z, alpha) + sheen_lambda(l.z, alpha)) * 4 * v.z);
 }
 
-/* E of one direction by midpoints, z = u^3, azimuth dense where l mirrors v. */
+/* E of one direction by the midpoint rule, z = u^3, with more azimuths where l mirrors v. */
 static double charlie_albedo(double alpha, double cosine)
 {
     enum { STEPS = 160 };
@@ -89,12 +89,12 @@ static double table_albedo(double roughness, double cosine)
     return (1 - w) * ((1 - u) * (double)at[0] + u * (double)at[1]) + w * ((1 - u) * (double)at[SHEEN_COSINES] + u * (double)at[SHEEN_COSINES + 1]);
 }
 
-/* The table against quadrature between its nodes: hardly under the truth, or what lies below would get too much; over it, what is lost. */
+/* The table against quadrature between its nodes: hardly below the truth, or the base would get too much light; above it, light is lost. */
 static void sheen_table_is_right(void)
 {
     double over = 0, under = 0;
     for (int i = 0; i < 120; i++) {
-        double roughness = test_random_in((double)SHEEN_LEAST_ROUGHNESS, 1), cosine = pow(test_random_in(0.032, 1), 2); /* below, E turns up again, and the table is far above */
+        double roughness = test_random_in((double)SHEEN_LEAST_ROUGHNESS, 1), cosine = pow(test_random_in(0.032, 1), 2); /* not below */
         double error = fmin(table_albedo(roughness, cosine), 1) - fmin(charlie_albedo(roughness * roughness, cosine), 1);
         over = fmax(over, error), under = fmax(under, -error);
     }
@@ -150,7 +150,7 @@ static void anisotropies(void)
         memcpy(m, plain, sizeof m);
         m[PACKED_ALPHA] = cases[i][0], m[PACKED_STRETCH] = cases[i][1], m[PACKED_TURN] = cases[i][2], m[PACKED_COSINE] = cases[i][3];
         snprintf(name, sizeof name, "anisotropy alpha %g stretch %g turn %g", (double)cases[i][0], (double)cases[i][1] + 1, (double)cases[i][2]);
-        compare(name, m, cases[i][0], 0, stretched, stretched); /* whose formula does not change when l and v do: reciprocal */
+        compare(name, m, cases[i][0], 0, stretched, stretched); /* its formula is symmetric in l and v: reciprocal */
     }
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_F0] = 1, [PACKED_F90] = 1,
                                   [PACKED_METALLIC] = 1, [PACKED_ETA] = 1, [PACKED_TURN] = 0.1f};
@@ -169,7 +169,7 @@ static void anisotropies(void)
     }
 }
 
-/* ---- KHR_materials_iridescence: both Fresnel terms become the film's ---- */
+/* ---- KHR_materials_iridescence: the film replaces both Fresnel terms ---- */
 
 static double filmed(const float *m, vector l, vector v)
 {
@@ -183,7 +183,7 @@ static double filmed(const float *m, vector l, vector v)
     return ((1 - metallic) * reflected[0] + metallic * reflected[1]) * lobe(m[PACKED_ALPHA], l, v) + (1 - metallic) * left * m[PACKED_BASE + 1] / pi * l.z;
 }
 
-/* Colours are differences: a channel's error is one of the light that both faces send, not of what interference leaves of it. */
+/* Colours are differences: a channel's error is relative to the light from both faces, not to what interference leaves of it. */
 static double all_sent(const float *m, vector l, vector v)
 {
     return filmed(m, l, v) + lobe(m[PACKED_ALPHA], l, v) + m[PACKED_BASE + 1] / pi * l.z;
@@ -195,7 +195,7 @@ static double bare(const float *m, vector l, vector v)
            m[PACKED_METALLIC] * film_schlick(m[PACKED_BASE + 1], product(half_of(l, v), v)) * lobe(m[PACKED_ALPHA], l, v);
 }
 
-/* Not of the surface's own index: there the inner face has no side, and the text's formula for it no answer that lasts. */
+/* Without the surface's own index: there the inner face has no sides, and the text's formula no stable result. */
 static void films(void)
 {
     static const float cases[8][5] = {{1, 1.3f, 400, 0, 0.7f}, {1, 1.33f, 100, 1, 0.3f}, {0.5f, 2.5f, 700, 0.5f, 0.9f}, {1, 1.8f, 1200, 1, 0.05f},
@@ -207,11 +207,11 @@ static void films(void)
         memcpy(m + PACKED_FILM, cases[i], 3 * sizeof *m);
         m[PACKED_METALLIC] = cases[i][3], m[PACKED_COSINE] = cases[i][4];
         snprintf(name, sizeof name, "film %g index %g thickness %g metallic %g", (double)cases[i][0], (double)cases[i][1], (double)cases[i][2], (double)cases[i][3]);
-        /* A way of t wavelengths to and fro turns by 2 pi t, of which 3 roundings are lost: the tolerance of a lobe of that width less. */
+        /* A path of t wavelengths there and back has a phase of 2 pi t, with 3 roundings: the tolerance of a lobe of that width, reduced. */
         double turns = 2 * (double)cases[i][1] * (double)cases[i][2] / 400;
         compare(name, m, fmin(0.3, 1 / (1 + turns)), 0, filmed, all_sent);
         if (i < 2) check_reciprocity(name, m);
-        m[PACKED_FILM + i % 2 + 1] = i % 2 == 0 ? 1 : 0; /* of the air's index, or of no thickness: as if it were not there */
+        m[PACKED_FILM + i % 2 + 1] = i % 2 == 0 ? 1 : 0; /* with air's index, or no thickness, it has no effect */
         compare("film of nothing", m, 0.3, 0, bare, all_sent);
     }
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_F0] = 0.04f, [PACKED_F90] = 1,
@@ -244,7 +244,7 @@ static void check_diffuse_transmission(void)
         m[PACKED_DIFFUSE_TRANSMISSION] = cases[i][0], m[PACKED_DIFFUSE_TRANSMISSION + 1] = 0.2f, m[PACKED_DIFFUSE_TRANSMISSION + 2] = 0.9f, m[PACKED_DIFFUSE_TRANSMISSION + 3] = 0.5f;
         m[PACKED_ALPHA] = cases[i][1], m[PACKED_COSINE] = cases[i][2];
         snprintf(name, sizeof name, "diffuse transmission %g alpha %g cosine %g", (double)cases[i][0], (double)cases[i][1], (double)cases[i][2]);
-        compare(name, m, fmin(0.3, cases[i][1]), 0, diffuse_transmission, diffuse_transmission); /* the same formula from below: reciprocal */
+        compare(name, m, fmin(0.3, cases[i][1]), 0, diffuse_transmission, diffuse_transmission); /* this formula from below: reciprocal */
     }
     float white[PACKED_FIELDS] = {[PACKED_BASE] = 1, [PACKED_BASE + 1] = 1, [PACKED_BASE + 2] = 1, [PACKED_ETA] = 1, [PACKED_DIFFUSE_TRANSMISSION] = 0.5f,
                                   [PACKED_DIFFUSE_TRANSMISSION + 1] = 1, [PACKED_DIFFUSE_TRANSMISSION + 2] = 1, [PACKED_DIFFUSE_TRANSMISSION + 3] = 1};

@@ -1,6 +1,6 @@
 /* tier: full */
-/* What facets scatter more than once (--scattering multiple): its table against quadrature, its value against Kulla and Conty's formula
- * in double, both ways alike, and the energy of all with and without it. */
+/* Multiple scattering between facets (--scattering multiple): its table against quadrature, its value against Kulla and Conty's formula in
+ * double, reciprocity, and the energy with and without it. */
 #include "kernel/layers_reference.h"
 #define constant static const
 #include "lib/multiscatter_table.h"
@@ -50,7 +50,7 @@ static double seen(double z, double cosine, double alpha) /* G2 / G1 */
     return z > 0 ? z * (cosine + masking(cosine, alpha)) / (z * masking(cosine, alpha) + cosine * masking(z, alpha)) : 0;
 }
 
-/* What is lost of white light, over visible normals by spherical caps (Dupuy, Benyoub 2023). Root: the cap's own at its ends. */
+/* Loss of white light over visible normals by spherical caps (Dupuy, Benyoub 2023). Root: the cap's own at its ends. */
 static double quadrature(double roughness, double eta, double cosine)
 {
     enum { STEPS = 400 };
@@ -85,7 +85,7 @@ static void table_is_right(void)
     }
     printf("table: over the truth by at most %.1e, under it by %.4f, of wide metal %.4f\n", over, under, wide);
     CHECK(under < 0.12 && wide < 0.01);
-    for (int i = 0; i < 40; i++) { /* the means are those of what is interpolated */
+    for (int i = 0; i < 40; i++) { /* the means are those of the interpolated table */
         double roughness = test_random_in(0.02, 1), eta = i % 3 ? exp(test_random_in(-1, 1)) : 0, sum = 0;
         for (int k = 0; k < 20000; k++) sum += lost(roughness, eta, sqrt((k + 0.5) / 20000)) / 20000;
         CHECK_MSG(fabs(sum - lost_mean(roughness, eta)) < 1e-6 + 1e-4 * sum, "mean %.8f, not %.8f", lost_mean(roughness, eta), sum);
@@ -100,7 +100,7 @@ static double share_of(double f0, double mean)
     return f * f * (1 - mean) / (1 - f * mean);
 }
 
-/* Green. */
+/* Green channel. */
 static double again(const float *m, vector l, vector v)
 {
     double roughness = sqrt((double)m[PACKED_ALPHA]), base = m[PACKED_BASE + 1], z = fabs(l.z), metallic = m[PACKED_METALLIC];
@@ -113,7 +113,7 @@ static double again(const float *m, vector l, vector v)
     return (l.z > 0 ? metallic * of_metal : 0) + glass * of_glass * lost(roughness, here, v.z) / pi * z;
 }
 
-/* With it less without it. */
+/* The value with it minus the value without it. */
 static void values(const char *what, const float *m)
 {
     static float without[N];
@@ -127,10 +127,10 @@ static void values(const char *what, const float *m)
         worst = fmax(worst, fabs(f[i] - all) / (all + 1e-7));
     }
     printf("%s: relative error %.1e\n", what, worst);
-    CHECK_MSG(worst < 3e-5, "%s: %g off, relatively", what, worst); /* some 60 roundings, and as many of a place between nodes */
+    CHECK_MSG(worst < 3e-5, "%s: %g off, relatively", what, worst); /* about 60 roundings, and as many for a position between nodes */
 }
 
-/* Through a body's face: n^2 f is the same both ways, as basic radiance has it. */
+/* Through a body's face: n^2 f is symmetric, as for basic radiance. */
 static void through_both_ways(float alpha, float eta)
 {
     static const float cosines[4] = {0.05f, 0.3f, 0.7f, 1};
@@ -155,7 +155,7 @@ static void through_both_ways(float alpha, float eta)
 
 /* ---- energy ---- */
 
-/* Returned by each of two builds at a roughness, over the cosines by 2 cosine. */
+/* Light that each of two builds returns at one roughness, integrated over cosines with weight 2 cosine. */
 static void energy(const char *what, const float *white)
 {
     static const float roughness[3] = {0.25f, 0.5f, 1};
@@ -204,7 +204,7 @@ int main(void)
         float white[PACKED_FIELDS] = {1, 1, 1, 0.04f, 1, 1, 0.3f, 0.5f, 0, 1};
         furnace("white metal", white, PACKED_ALPHA, 0);
         energy("white metal", white);
-        furnace("white metal of anisotropy 0.5", white, PACKED_ALPHA, 0.5); /* which scatters once */
+        furnace("white metal of anisotropy 0.5", white, PACKED_ALPHA, 0.5); /* this one has single scattering */
         white[PACKED_METALLIC] = 0, white[PACKED_TRANSMISSION] = 1;
         for (int e = 0; e < 5; e++) {
             char name[64];

@@ -1,6 +1,6 @@
 /* tiers: quick, long */
-/* Trees whose triangles have moved: refitted ones find the hits of every triangle with every ray, bit by bit, however badly the boxes lie
- * by then; and where nothing has moved not a byte of them changes. */
+/* Trees whose triangles have moved: refitted trees find every hit with every ray, bit by bit, however poor the boxes are; and where nothing
+ * has moved, no byte changes. */
 #include "accel/refit.h"
 #include "kernel/traversal_run.h"
 
@@ -41,7 +41,7 @@ static void check_still(const ec_accel_input *input, uint32_t which, const char 
     ec_accel_free(&after);
 }
 
-/* from: where the trees are built; to: the same triangles elsewhere. */
+/* from: the triangles for which trees are built; to: the same triangles, moved. */
 static void check_moved(set from, set to)
 {
     uint32_t *indices, none = ec_accel_find("none");
@@ -86,7 +86,7 @@ static set copy_of(const set *s)
     return copy;
 }
 
-/* Every corner for itself: quads part, edges open. */
+/* Every corner moves by itself: quads separate, edges open. */
 static void check_shaken(set s, float by)
 {
     set to = copy_of(&s);
@@ -94,7 +94,7 @@ static void check_shaken(set s, float by)
     check_moved(s, to);
 }
 
-/* All of them together: quads stay quads. */
+/* All corners move together: quads stay quads. */
 static void check_turned(set s)
 {
     set to = copy_of(&s);
@@ -107,7 +107,7 @@ static void check_turned(set s)
     check_moved(s, to);
 }
 
-/* The tree is worth less where what lay together lies apart, and that is measured. */
+/* The tree's measured cost rises when triangles that were together are apart. */
 static void check_expense(void)
 {
     set s = set_random("random", 1500, 1.0f, 0.02f), other = set_random("elsewhere", 1500, 1.0f, 0.02f);

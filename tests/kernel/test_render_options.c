@@ -1,6 +1,6 @@
 /* tier: quick */
-/* What ec_render refuses by itself, whoever calls it, and what it does not. The scene is open, so that even a path that only
- * leaving it can end does so: the test fails then rather than hang. */
+/* Requests that ec_render itself refuses, for every caller, and requests that it accepts. The scene is open, so that even endless paths end
+ * by leaving it: the test would fail rather than hang. */
 #include "support/render_case.h"
 
 static const ec_scene *scene;
@@ -13,7 +13,7 @@ static ec_result attempt(double survival, uint32_t max_depth, ec_integrator inte
     o.max_depth = max_depth;
     o.integrator = integrator;
     ec_result result = case_try(scene, &o, &image, err);
-    if (result != EC_OK) CHECK(!image.film.part_count && !image.film.batch_count); /* nothing was begun */
+    if (result != EC_OK) CHECK(!image.film.part_count && !image.film.batch_count); /* nothing was started */
     case_free(&image);
     return result;
 }

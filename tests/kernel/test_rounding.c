@@ -1,8 +1,8 @@
 /* tiers: quick, long */
-/* The bits of a picture are the same on two devices if these operations are correctly rounded on both. Expected values are the
- * host's, which rounds as IEEE 754 asks. Sum, product and fma have to be right on every device of OpenCL 1.2; quotient and root
- * where the device says so, elsewhere within the 2.5 and 3 ulp of the specification (7.4), and how often is printed. Numbers
- * that are denormal, or come out so, are a device's own affair: 2^-40 to 2^40 stays clear of them. */
+/* A picture has the same bits on two devices if these operations are correctly rounded on both. Expected values are the host's, which
+ * rounds by IEEE 754. Sum, product and fma must be right on every device of OpenCL 1.2. Quotient and root must be right if the device
+ * claims it; otherwise within the 2.5 and 3 ulp of the specification (7.4), and the test prints how often they differ. Denormal numbers are
+ * up to the device: operands from 2^-40 to 2^40 avoid them. */
 #include "kernel/kernel_run.h"
 
 enum { COUNT = 1 << 16, OPERATIONS = 11 };
@@ -22,13 +22,13 @@ static float random_signed(void)
     return test_random() < 0.5 ? -size : size;
 }
 
-/* volatile: not to be folded or fused by the host's compiler. */
+/* volatile: the host's compiler must not fold or fuse these. */
 static void expect(void)
 {
     for (int i = 0; i < COUNT; i++) {
         a[i] = random_signed();
         b[i] = random_signed();
-        c[i] = i % 2 ? random_signed() : -a[i] * b[i]; /* every second one cancels: only what the product rounded off is left */
+        c[i] = i % 2 ? random_signed() : -a[i] * b[i]; /* every second one cancels: only the product's rounding error is left */
         volatile float product = a[i] * b[i], root = sqrtf(fabsf(a[i])), sum = a[i] + b[i],
                        other = a[i] * c[i], inverse = 1.0f / a[i];
         const float values[OPERATIONS] = {a[i] + b[i],          a[i] * b[i],    a[i] / b[i], root,

@@ -4,7 +4,7 @@
 #include "kernel_test.h"
 #include "lib/sampler.h"
 
-/* Sample i of a pixel, whatever the lane it is computed in. */
+/* Sample i of a pixel, in any lane. */
 kernel void lanes_do_not_matter(global test_result *result)
 {
     uint a[16], b[16], c[16], d[16];
@@ -39,7 +39,7 @@ static void take(uint seed, uint pixel, uint pair, uint from, uint count, uint *
     }
 }
 
-/* Is there one of the 2^k points in each box of 2^-j by 2^(j-k), for every j? */
+/* Checks that each box of 2^-j by 2^(j-k), for every j, contains one of the 2^k points. */
 static bool is_net(const uint *a, const uint *b, uint k)
 {
     for (uint j = 0; j <= k; j++) {
@@ -67,10 +67,10 @@ kernel void blocks_are_stratified(global test_result *result)
             nets += k >= 4 && net;
             blocks += k >= 4;
         }
-    if (!HAS(SOBOL)) CHECK_UINTS(nets == 0, nets, blocks, 0, 0); /* or this test sees nothing */
+    if (!HAS(SOBOL)) CHECK_UINTS(nets == 0, nets, blocks, 0, 0); /* otherwise this test shows nothing */
 }
 
-/* Pearson's correlation and the variances' sanity, of pairs of 32-bit numbers. */
+/* Pearson's correlation, and a check of the variances, for pairs of 32-bit numbers. */
 typedef struct moments {
     float n, x, y, xx, yy, xy;
 } moments;
@@ -93,7 +93,7 @@ static float correlation(const moments *m)
 #define PIXELS 4096u
 #define BOUND (4.0f / 64.0f) /* 4 / sqrt(PIXELS) */
 
-/* Over many pixels at one sample number: neighbours, the pair's two numbers, other pairs, batches and samples. */
+/* Over many pixels at one sample number: neighbouring pixels, both numbers of a pair, other pairs, batches and samples. */
 kernel void pixels_are_independent(global test_result *result)
 {
     for (uint sample = 0; sample < 3; sample++) {
@@ -124,7 +124,7 @@ kernel void pixels_are_independent(global test_result *result)
                 moments_add(&next, va[k], vg[k]);
             }
         }
-        /* Samples 0 and 4, 5 and 9, 10 and 14 of one sequence repel each other: no bound there with Sobol. */
+        /* Samples 0 and 4, 5 and 9, 10 and 14 of one sequence repel each other: no limit for these with Sobol. */
         CHECK_FLOATS(fabs(correlation(&right)) < BOUND, correlation(&right), sample, 0, 0);
         CHECK_FLOATS(fabs(correlation(&below)) < BOUND, correlation(&below), sample, 0, 0);
         CHECK_FLOATS(fabs(correlation(&within)) < BOUND, correlation(&within), sample, 0, 0);

@@ -1,4 +1,4 @@
-/* Rays by octants of their origins and directions. */
+/* Sorts rays by octants of their origins and directions. */
 #include "kernel_test.h"
 #include "lib/sort_rays.h"
 
@@ -7,13 +7,13 @@
 
 static uint scrambled(uint x) { return (x * 747796405u + 2891336453u) ^ (x >> 3); }
 
-/* Six fields of numbers of both signs, in steps that make all bins uneven. */
+/* Six fields of numbers of both signs, in steps that fill all bins unevenly. */
 static void fill(global float *queue)
 {
     for (uint i = 0; i < 6 * WAVE; i++) queue[i] = (float)(scrambled(i) >> 8) * 0x1p-24f - 0.4f;
 }
 static uint sign(global const float *queue, uint field, uint i) { return queue[field * WAVE + i] < 0.0f; }
-/* What the bin's Gray code is to be. */
+/* The expected Gray code of the bin. */
 static uint signs(global const float *queue, uint i)
 {
     uint bits = 0;
@@ -40,7 +40,7 @@ kernel void every_ray_is_there_once_by_bins(global test_result *result, global u
             for (uint i = 0; i < count; i++) {
                 CHECK(order[i] >= first && order[i] < first + count);
                 uint next = bin_of(signs(queue, order[i]));
-                if (i) CHECK_UINTS(next > bin || (next == bin && order[i] > last), bin, next, last, order[i]); /* so none is there twice */
+                if (i) CHECK_UINTS(next > bin || (next == bin && order[i] > last), bin, next, last, order[i]); /* so no ray occurs twice */
                 sum += order[i];
                 last = order[i];
                 bin = next;
@@ -70,7 +70,7 @@ kernel void work_items_share_a_part(global test_result *result, global uint *scr
     CHECK_EQUAL(sorted, 77u + PART);
 }
 
-/* Launches have a few work-items more a part than it has entries for; those begin nowhere, neither in a queue nor among slots. */
+/* Launches have a few work-items more for each part than it has entries; the additional ones must not touch a queue or slots. */
 kernel void work_items_begin_at_every_entry_once(global test_result *result, global uint *scratch)
 {
     global uint *ends = scratch;

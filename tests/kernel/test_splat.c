@@ -1,6 +1,7 @@
 /* tiers: quick, long */
-/* Light of light paths in the pixels it goes to, against sums in double: what is less than a step is rounded up as often as it is large, sums of
- * over 32 bits carry, the same bits come of it in any order and width, slots are empty afterwards, and those behind the last path are left out. */
+/* Light of light paths in the pixels that it reaches, against sums in double. Amounts below one step are rounded up with a probability of
+ * their size; sums over 32 bits carry; bits do not depend on order or width; slots are empty afterwards; slots after the last path are left
+ * out. */
 #include "kernel/kernel_run.h"
 #include "shared/params.h"
 #include "shared/path_state.h"
@@ -11,7 +12,7 @@ static const float unit = 0x1p-20f;
 static float radiance[3 * PATHS], slots[EC_LIGHT_SLOT_FIELDS * PATHS];
 static uint32_t splats[EC_SPLAT_WORDS * PIXELS], again[EC_SPLAT_WORDS * PIXELS];
 
-/* Steps of a path to a pixel: a part of one, some, more than a word holds, nothing, from a few to all of 2^24. */
+/* Steps from a path to a pixel: a fraction of one, some, more than a word holds, none, from a few to all of 2^24. */
 static float steps_of(uint32_t path)
 {
     switch (path % PIXELS) {
@@ -45,7 +46,7 @@ static bool run(ec_cl *cl, cl_program program, uint32_t lanes, uint32_t count, u
     return kernel_call(cl, program, "ec_splat", PATHS / lanes, 64, arrays, sizeof arrays / sizeof *arrays);
 }
 
-/* Three paths less than there are slots with light in them: as if these three had brought none. */
+/* Three paths fewer than there are slots with light: as if these three had no light. */
 static void widths_agree(ec_cl *cl, cl_program one, const float *light)
 {
     enum { COUNT = PATHS - 3 };
@@ -84,12 +85,12 @@ int main(void)
             float most;
             memcpy(&most, &w[EC_SPLAT_LARGEST], sizeof most);
             CHECK_NEAR(most, largest[p], 4 * 0x1p-24 * largest[p]);
-            for (int c = 0; c < 3; c++) { /* five standard deviations of so many roundings up or down: half a step each at most */
+            for (int c = 0; c < 3; c++) { /* five standard deviations of so many roundings: at most half a step each */
                 const double sum = w[2 * c] + 0x1p32 * w[2 * c + 1];
                 CHECK_NEAR(sum, sums[p], p == 3 ? 0 : 5 * 0.5 * sqrt(PATHS / PIXELS));
             }
         }
-        CHECK(splats[EC_SPLAT_WORDS * 2 + 1] > 1000); /* there was something to carry */
+        CHECK(splats[EC_SPLAT_WORDS * 2 + 1] > 1000); /* some sums did carry */
         memcpy(radiance, before, sizeof before);
         if (run(&cl, program, 1, PATHS, again)) CHECK(!memcmp(splats, again, sizeof splats));
         widths_agree(&cl, program, before);

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* A render that is stopped within its first batch stops after the wave that is under way: what that has reached has the bits of the whole render,
- * first-hit features too, and the rest is marked and black. */
+/* A render that is stopped within its first batch ends after the wave that is under way. Pixels reached so far have the bits of the whole
+ * render, first-hit features too; the rest is marked and black. */
 #include "support/render_case.h"
 
 enum { W = 203, H = 117, PIXELS = W * H }; /* narrow and low tiles at the edges; waves end within rows of tiles */
@@ -29,7 +29,7 @@ static void check_pixels(const case_image *some, const case_image *all)
               (unsigned long long)some->stats.samples);
 }
 
-/* All pixels are in flight at once where the wave allows, and then there is nothing to stop. */
+/* If the wave allows it, all pixels are in flight at once, and there is nothing to stop. */
 static void after_a_wave(const ec_scene *scene, uint32_t wave, uint32_t spp)
 {
     ec_render_options o = case_options(W, H, 1);
@@ -41,7 +41,7 @@ static void after_a_wave(const ec_scene *scene, uint32_t wave, uint32_t spp)
     CHECK(!all.film.unsampled && some.film.unsampled && some.film.batch_count == 1);
     CHECK_MSG(!strcmp(some.stats.stopped_by, "time"), "stopped by %s", some.stats.stopped_by);
     CHECK_MSG(some.stats.samples <= some.stats.wave, "%llu samples after the stop, in waves of %u", (unsigned long long)some.stats.samples, some.stats.wave);
-    CHECK(isinf(some.stats.film.error) && isinf(some.stats.film.error_bound)); /* one replicate tells none */
+    CHECK(isinf(some.stats.film.error) && isinf(some.stats.film.error_bound)); /* one replicate gives no error */
     if (some.film.unsampled) check_pixels(&some, &all);
     case_free(&some);
     case_free(&all);

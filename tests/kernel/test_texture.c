@@ -39,14 +39,14 @@ static void make_images(void)
     add_image(1, 1, 0, 0, false, false);
     add_image(1, 5, 2, 1, false, false);
     add_image(64, 128, 0, 0, false, false);
-    for (uint32_t s = 0; s < 3; s++) add_image(2, 2, s, s, false, false); /* across the seam stands the texel before */
+    for (uint32_t s = 0; s < 3; s++) add_image(2, 2, s, s, false, false); /* across the seam is the previous texel */
     for (int i = 0; i < 256; i++) srgb[i] = (float)ec_srgb_to_linear(i / 255.0);
 }
 
 /* IEC 61966-2-1, from its text and not from the host's code. */
 static double decode(double c) { return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4); }
 
-/* Texel `i` of an infinite row that wraps: glTF's samplers are OpenGL's (4.6, table 8.20). */
+/* Texel `i` of an infinite, wrapped row: glTF's samplers are OpenGL's (4.6, table 8.20). */
 static int64_t wrapped(int64_t i, int64_t size, uint32_t wrap)
 {
     if (wrap == 1) return i < 0 ? 0 : (i >= size ? size - 1 : i);
@@ -70,7 +70,7 @@ static void texel(const image *im, int64_t x, int64_t y, bool is_srgb, double *r
     }
 }
 
-/* least, most: what the look-up may give if its coordinates are off by `slack` texels. */
+/* least, most: range of the look-up if its coordinates are off by `slack` texels. */
 static void reference(const image *im, double uu, double vv, bool is_srgb, double slack, double *least, double *most)
 {
     for (int k = 0; k < 4; k++) least[k] = 1e300, most[k] = -1e300;
@@ -112,7 +112,7 @@ static void make_coordinates(void)
         on[i] = i % 13 != 0;
         u[i] = random_float(-3, 4);
         v[i] = random_float(-3, 4);
-        if (i % 3 == 1) { /* middles of texels, where nothing is interpolated */
+        if (i % 3 == 1) { /* centres of texels, where nothing is interpolated */
             u[i] = ((float)(test_random_u64() % (4 * im->width)) + 0.5f) / (float)im->width - 2;
             v[i] = ((float)(test_random_u64() % (4 * im->height)) + 0.5f) / (float)im->height - 2;
         }
@@ -139,7 +139,7 @@ static void look_ups_are_right(bool is_srgb)
     }
 }
 
-/* Every byte at the middle of a texel comes back as its exact linear value, rounded to float. */
+/* Every byte, at the centre of a texel, gives its exact linear value, rounded to float. */
 static void srgb_is_exact(void)
 {
     for (uint32_t i = 0; i < 256; i++) texels[images[14].offset + i] = i * 0x01010101u;
@@ -175,7 +175,7 @@ static void materials_are_looked_up(void)
     }
     for (uint32_t p = 0; p < 6; p++) {
         prims[p].material = p % 3;
-        for (uint32_t k = 0; k < 3; k++) indices[3 * p + k] = 17 - 3 * p - k; /* backwards */
+        for (uint32_t k = 0; k < 3; k++) indices[3 * p + k] = 17 - 3 * p - k; /* reversed */
     }
     for (int i = 0; i < 4 * 18; i++) uvs[i] = random_float(-2, 2);
     for (uint32_t i = 0; i < N; i++) {
@@ -200,7 +200,7 @@ static void materials_are_looked_up(void)
     }
 }
 
-/* Whatever the coordinate, NaN and infinity too, the texels are texels of the image. */
+/* For all coordinates, including NaN and infinity, the texels are inside the image. */
 static void no_coordinate_leaves_the_image(void)
 {
     static const float special[8] = {NAN, INFINITY, -INFINITY, 3e38f, -3e38f, 1e10f, -1e-30f, 16777216.0f};

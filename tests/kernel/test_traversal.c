@@ -1,6 +1,6 @@
 /* tiers: quick, long */
-/* Every accelerator against brute force, bit by bit: the stages' own kernels on structures of the host's own builders, on rays
- * and triangles chosen to be awkward. Culling must never change an answer (kernels/lib/ray.h). */
+/* Every accelerator against brute force, bit by bit: the stages' own kernels on structures of the host's own builders, with awkward rays
+ * and triangles. Culling must never change an answer (kernels/lib/ray.h). */
 #include "kernel/traversal_run.h"
 
 static uint32_t rays = 3000; /* a set; not a multiple of the lanes: */
@@ -18,8 +18,7 @@ static uint32_t everywhere_node(ec_bvh2_node *nodes, uint32_t *count, uint32_t f
     return at;
 }
 
-/* Brute force is a tree that culls nothing: all of space in every box, and triangles one by one in scene order. Such a
- * tree goes through the same kernels. */
+/* Brute force is a tree that culls nothing: infinite boxes, and triangles one by one in scene order. It uses the same kernels. */
 static ec_accel make_brute(const set *s)
 {
     ec_bvh2_node *nodes = calloc(s->triangles + 2, sizeof *nodes);
@@ -46,12 +45,12 @@ static void check_closest(const set *s, const ec_accel *accels, const ec_accel *
     for (uint32_t i = 0; i < tracer_count; i++)
         if (accels[tracers[i].accel].buffers[0].data && intersect(s, &tracers[i], &accels[tracers[i].accel], rays, COUNT, queue, hits))
             hit = same_hits(s, queue, rays, COUNT, hits, expected, tracers[i].label, "brute force");
-    /* Rays that meet nothing prove little. */
+    /* Rays that hit nothing prove little. */
     if (s->triangles) CHECK_MSG(hit > COUNT / 20, "%s: only %u rays hit", s->name, hit);
     free(hits);
 }
 
-/* Eight rays in a row go as the first of them does, more or less: bundles of one origin, and of origins as far apart as on a lens. */
+/* Eight rays in a row have nearly the first one's direction: bundles from one origin, and from origins as far apart as on a lens. */
 static void make_bundles(const set *s, float *queue)
 {
     static const double spreads[] = {0.0, 1e-7, 1e-4, 1e-2, 0.3};
@@ -66,7 +65,7 @@ static void make_bundles(const set *s, float *queue)
     }
 }
 
-/* What goes together by packets finds what each ray finds alone. */
+/* Packets find what each ray finds alone. */
 static void check_bundles(const set *s, const ec_accel *accels, const ec_accel *brute, const tracer *bvh2, float *queue, float *expected)
 {
     make_bundles(s, queue);
@@ -110,7 +109,7 @@ static void check_shadows(const set *s, const ec_accel *accels, const ec_accel *
     free(radiance);
 }
 
-/* Hits of the brute force's own with the triangles in reverse order and renumbered back: order must not matter. */
+/* Brute-force hits with the triangles in reverse order, renumbered back: order must not matter. */
 static void check_order(const set *s, const tracer *bvh2, const float *queue, const float *expected)
 {
     ec_accel reversed = make_brute(s);
@@ -126,7 +125,7 @@ static void check_order(const set *s, const tracer *bvh2, const float *queue, co
     ec_accel_free(&reversed);
 }
 
-/* A grid of a single block of cells, and one so fine that its bounds on memory come into play. */
+/* A grid of a single block of cells, and one so fine that it reaches its memory limit. */
 static void check_densities(const set *s, const float *queue, const float *expected)
 {
     const tracer *t = tracers;
@@ -148,7 +147,7 @@ static void check_densities(const set *s, const float *queue, const float *expec
     free(hits);
 }
 
-/* Triangles are cut: the references are more than they, and each has a box of its own, on the device too. */
+/* Cut triangles: there are more references than triangles, and each has a box of its own, on the device too. */
 static void check_parts(const set *s, const ec_accel *accels, bool expected)
 {
     for (uint32_t a = 0; a < EC_ACCEL_COUNT; a++) {
@@ -162,8 +161,8 @@ static void check_parts(const set *s, const ec_accel *accels, bool expected)
     }
 }
 
-/* Whole triangles, or some in parts. Brute force tests whole ones: parts find the same hits, but for a t of rounding alone where a ray
- * sees a cut triangle edge-on (kernels/lib/ray.h), which no ray here does. */
+/* Whole triangles, or some in parts. Brute force tests whole ones. Parts give the same hits, except for rounding of t where a ray sees a
+ * cut triangle edge-on (kernels/lib/ray.h), which no ray here does. */
 static void check_set_of(set s, bool in_parts)
 {
     ec_accel accels[EC_ACCEL_COUNT], brute = make_brute(&s);
@@ -180,7 +179,7 @@ static void check_set_of(set s, bool in_parts)
         check_densities(&s, queue, expected);
         const uint32_t *prim = (const uint32_t *)expected, *skip = (const uint32_t *)queue + EC_PATH_PRIM * rays;
         bool all_copies = strcmp(s.name, "duplicated") == 0;
-        for (uint32_t i = 0; all_copies && i < COUNT; i++) /* of four copies the lowest id, or if that is skipped another */
+        for (uint32_t i = 0; all_copies && i < COUNT; i++) /* of four copies the lowest id, or another if that is skipped */
             if (prim[i] != EC_NO_ID && prim[i] >= s.triangles / 4 && prim[i] % (s.triangles / 4) != skip[i]) {
                 CHECK_MSG(false, "ray %u hits copy %u", i, prim[i]);
                 break;

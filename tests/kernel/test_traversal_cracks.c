@@ -1,5 +1,5 @@
 /* tier: quick */
-/* Closed surfaces from inside, through every accelerator: no ray may leave, least of all at vertices and edges. */
+/* Closed surfaces from inside, through every accelerator: no ray may leave, especially at vertices and edges. */
 #include "kernel/traversal_run.h"
 
 typedef struct sphere {
@@ -15,12 +15,12 @@ static uint32_t sphere_point(sphere *s, double x, double y, double z)
     p[0] = (float)(x / length);
     p[1] = (float)(y / length);
     p[2] = (float)(z / length);
-    for (uint32_t i = 0; i < s->point_count; i++) /* few enough for that */
+    for (uint32_t i = 0; i < s->point_count; i++) /* few enough for testing all */
         if (memcmp(s->points + 3 * i, p, 3 * sizeof *p) == 0) return i;
     return s->point_count++;
 }
 
-/* An octahedron, each triangle cut in four `levels` times. */
+/* An octahedron, each triangle divided into four `levels` times. */
 static sphere sphere_make(int levels)
 {
     static const uint32_t faces[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
@@ -49,7 +49,7 @@ static sphere sphere_make(int levels)
 
 #define SPHERE_RAYS 65536u
 
-/* Rays at vertices, at edges and anywhere, from origins inside: none may leave. */
+/* Rays from inside towards vertices, edges and other points: none may leave. */
 static void check_sphere(const sphere *shape, float scale, const float at[3], const float stretch[3], const char *name)
 {
     set s = set_make(name, shape->triangle_count, scale);
@@ -68,7 +68,7 @@ static void check_sphere(const sphere *shape, float scale, const float at[3], co
         for (int k = 0; k < 3; k++) {
             o[k] = at[k] + scale * stretch[k] * (i % 11 == 0 ? 0.0f : random_float(-0.55, 0.55));
             d[k] = v[k] + a * (v[3 + k] - v[k]) + b * (v[6 + k] - v[k]) - o[k];
-            if (i % 13 == 0 && k != (int)(i / 13 % 3)) { /* along an axis, through vertices of the equators */
+            if (i % 13 == 0 && k != (int)(i / 13 % 3)) { /* along an axis, through vertices on the equators */
                 o[k] = i % 2 ? at[k] : v[k] * 0.5f + at[k] * 0.5f;
                 d[k] = i % 4 < 2 ? 0.0f : -0.0f;
             }

@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Two levels against the same triangles written out, bit by bit: one mesh at places that are turned, mirrored, sheared, tiny and huge,
- * among triangles that stand alone. The reference is no structure at all, which culls nothing. */
+/* Two levels against the same triangles written out, bit by bit. One mesh is in several places: rotated, mirrored, sheared, tiny and huge,
+ * among triangles of their own. The reference has no structure, and culls nothing. */
 #include "kernel/traversal_run.h"
 #include "scene/scene.h"
 
@@ -8,7 +8,7 @@
 #define COUNT (RAYS - 3u)
 #define PLACES 12u
 
-/* A matrix with largest stretch about `scale`: three random edges, told apart enough to have an inverse. */
+/* A matrix with largest stretch of about `scale`: three random edges, different enough for an inverse. */
 static void random_matrix(double scale, double shear, float m[3][4])
 {
     double a[3] = {test_random_in(-1, 1), test_random_in(-1, 1), test_random_in(-1, 1)}, axis[3][3];
@@ -31,7 +31,7 @@ typedef struct placing {
     double shear, spread;
 } placing;
 
-/* The mesh, behind triangles that stand alone, at its places. All arrays are the scene's own. */
+/* The mesh in its places, after triangles of their own. All arrays are the scene's own. */
 static ec_scene make_scene(const set *mesh, const set *alone, const placing *how)
 {
     ec_scene s = {.triangle_count = mesh->triangles + alone->triangles, .shape_count = 1, .placed_count = PLACES, .whole = true};
@@ -64,7 +64,7 @@ static void free_scene(ec_scene *s)
     ec_scene_written_free(s);
 }
 
-/* What is written out, as rays are aimed at it. */
+/* The written-out triangles, which rays aim at. */
 static set written_set(const char *name, const ec_scene *w)
 {
     set s = set_make(name, w->triangle_count, 0.0f);
@@ -92,9 +92,9 @@ static bool build(const ec_scene *s, const char *name, ec_accel *accel)
     return result == EC_OK;
 }
 
-static uint32_t lost_inside; /* rays from inside closed meshes that met nothing */
+static uint32_t lost_inside; /* rays from inside closed meshes that hit nothing */
 
-/* Through two points of one instance, from outside: a mesh that is a plane is seen edge-on, where t is rounding alone. */
+/* Rays through two points of one instance, from outside: a flat mesh is seen edge-on, where t is only rounding. */
 static void aim_along(const ec_scene *s, const set *w, float *queue)
 {
     for (uint32_t i = 0; i < RAYS; i++) {
@@ -110,12 +110,12 @@ static void aim_along(const ec_scene *s, const set *w, float *queue)
             queue[(EC_PATH_OX + k) * RAYS + i] = at[0][k] - back * (at[1][k] - at[0][k]);
             queue[(EC_PATH_DX + k) * RAYS + i] = at[1][k] - at[0][k];
         }
-        if (!memcmp(at[0], at[1], sizeof at[0])) queue[EC_PATH_DX * RAYS + i] = 1.0f; /* a direction of 0 is none */
+        if (!memcmp(at[0], at[1], sizeof at[0])) queue[EC_PATH_DX * RAYS + i] = 1.0f; /* (0, 0, 0) is not a direction */
         memcpy(queue + EC_PATH_PRIM * (size_t)RAYS + i, &none, sizeof none);
     }
 }
 
-/* From the middle of every instance of a closed mesh to its corners, and along its edges. */
+/* Rays from the centre of every instance of a closed mesh to its corners, and along its edges. */
 static void aim_from_inside(const ec_scene *s, const set *w, float *queue)
 {
     for (uint32_t i = 0; i < RAYS; i++) {
@@ -167,8 +167,8 @@ static void check(const char *name, set mesh, set alone, placing how, bool close
     ec_scene_written_free(&w);
 }
 
-/* Triangles that an offset of 1 and more rounds into lines, each of three corners on a grid of 2^-14. They have no normal there, and
- * nothing may hit them. */
+/* Triangles that an offset of 1 and more rounds into lines, each with three corners on a grid of 2^-14. They have no normal there, and must
+ * never be hit. */
 static set set_lines(uint32_t n)
 {
     set s = set_make("lines", n, 1.0f);

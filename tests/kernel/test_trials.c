@@ -1,6 +1,6 @@
 /* tier: quick */
-/* Which accelerator is fastest is found out for camera paths and for light paths, each by trials of their own: camera rays go in packets that
- * light paths, which set out at random, are better off without. */
+/* Trials find the fastest accelerator separately for camera paths and for light paths: camera rays are traced in packets, which are slower
+ * for light paths, since these start in random directions. */
 #include "device/light_batch.h"
 #include "device/pipeline.h"
 #include "support/render_case.h"

@@ -1,12 +1,12 @@
 /* tier: quick */
-/* A processor works on a scene's large buffers where they are, and the copies that anybody else gets hold the same. */
+/* A CPU uses a scene's large buffers in place, and copies for other devices have the same contents. */
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "device/pipeline.h"
 #include "support/render_case.h"
 
-enum { ADOPTED = 1 << 20 }; /* bytes: less is copied as soon (cl/buffer.c) */
+enum { ADOPTED = 1 << 20 }; /* bytes: smaller buffers are copied (cl/buffer.c) */
 
 static void make(const ec_scene *scene, const ec_render_options *o, ec_payload *payload, ec_pipeline *p)
 {

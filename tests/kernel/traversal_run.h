@@ -10,7 +10,7 @@
 
 static ec_cl cl;
 
-/* An accelerator's kernels at one lane width. */
+/* An accelerator's kernels with one lane width. */
 typedef struct tracer {
     uint32_t accel, lanes; /* lanes: rays a work-item */
     char label[48];
@@ -20,7 +20,7 @@ typedef struct tracer {
 static tracer tracers[TRACERS_MOST];
 static uint32_t tracer_count;
 
-/* more: of the compiler's options; shown in the label. */
+/* more: compiler options, shown in the label. */
 static inline void add_tracer(uint32_t accel, uint32_t lanes, const char *more)
 {
     char name[64], options[96];
@@ -33,13 +33,13 @@ static inline void add_tracer(uint32_t accel, uint32_t lanes, const char *more)
     snprintf(name, sizeof name, "traverse_%s", ec_accels[accel].name);
     snprintf(options, sizeof options, "-DFEATURES=0 -DPROBE -DLANES=%u%s", width, more);
     CHECK_OK(ec_program_build(&cl, name, ec_kernel_source(name), options, &t->program, &err), err);
-    char *log = ec_build_log(&cl, t->program); /* PoCL counts warnings on a user's stderr */
+    char *log = ec_build_log(&cl, t->program); /* PoCL prints a count of warnings to the user */
     CHECK_MSG(!log || !strstr(log, "warning:"), "%s: %s", t->label, log);
     free(log);
 }
 
-/* Opens the device and builds every accelerator, packets at each width or only at 8, bvh8 with its rays interleaved, with and without AVX2, and bvh2
- * without a stack too. Returns main's exit code, or 0. */
+/* Opens the device and builds every accelerator: packets of each width or only of 8; bvh8 also with interleaved rays, with and without
+ * AVX2; bvh2 also without a stack. Returns main's exit code, or 0. */
 static inline int open_tracers(bool all_widths)
 {
     int open = kernel_open(&cl);
@@ -50,8 +50,8 @@ static inline int open_tracers(bool all_widths)
             if (all_widths || lane_widths[i] == 8) add_tracer(a, (uint32_t)lane_widths[i], "");
     }
     add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8"); /* as in large scenes */
-    add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8 -DPERMUTES_LANES=0"); /* and on processors without AVX2 */
-    add_tracer(ec_accel_find("bvh2"), 1, " -DSTACK_ENTRIES=1"); /* as in trees that are deeper than its stack */
+    add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8 -DPERMUTES_LANES=0"); /* and on CPUs without AVX2 */
+    add_tracer(ec_accel_find("bvh2"), 1, " -DSTACK_ENTRIES=1"); /* as in trees deeper than the stack */
     return test_failures != 0;
 }
 
@@ -69,7 +69,7 @@ static inline ec_accel_input set_input(const set *s, uint32_t **indices)
     return (ec_accel_input){.positions = s->vertices, .indices = *indices, .triangle_count = s->triangles};
 }
 
-/* One of each kind that takes so many triangles; the others stay empty. */
+/* One structure of each kind that accepts so many triangles; the others stay empty. */
 static inline bool build_accels(const set *s, ec_accel accels[EC_ACCEL_COUNT])
 {
     ec_error err = {0};
@@ -107,7 +107,7 @@ static inline bool intersect_in_order(const set *s, const tracer *t, const ec_ac
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
     ec_counters counters = {.rays = {{count}}};
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[t->accel].name);
-    for (size_t f = 0; f < EC_HIT_PROBE_FIELDS; f++) memset(hits + f * wave, 0xa5, count * sizeof *hits); /* none is left from a call before */
+    for (size_t f = 0; f < EC_HIT_PROBE_FIELDS; f++) memset(hits + f * wave, 0xa5, count * sizeof *hits); /* none is left from an earlier call */
     return KERNEL_CALL(&cl, t->program, name, (count + t->lanes - 1) / t->lanes, WAVE, IN(paths, EC_PATH_FIELDS * (size_t)wave),
                        OUT(hits, EC_HIT_PROBE_FIELDS * (size_t)wave), BUFFERS, NO_ATTRIBUTES);
 }
@@ -128,7 +128,7 @@ static inline bool connect_in_order(const set *s, const tracer *t, const ec_acce
     return good;
 }
 
-/* Packets give the same bits whether or not they sort their rays: of each field, the first `count` values. */
+/* Packets give the same bits whether or not they sort their rays: compares the first `count` values of each field. */
 static inline void same_sorted(const tracer *t, const float *plain, const float *sorted, size_t fields, uint32_t wave, uint32_t count)
 {
     for (size_t f = 0; f < fields; f++)
@@ -146,7 +146,7 @@ static inline bool intersect(const set *s, const tracer *t, const ec_accel *a, u
         free(sorted);
         return good;
     }
-    if (strstr(t->label, "INTERLEAVE")) { /* camera rays go together, and give the same bits */
+    if (strstr(t->label, "INTERLEAVE")) { /* camera rays in packets give the same bits */
         float *together = malloc(EC_HIT_PROBE_FIELDS * (size_t)wave * sizeof *together);
         bounce = 0;
         bool good = intersect_in_order(s, t, a, wave, count, paths, 0, together);
@@ -160,7 +160,7 @@ static inline bool intersect(const set *s, const tracer *t, const ec_accel *a, u
     return intersect_in_order(s, t, a, wave, count, paths, 0, hits);
 }
 
-/* What arrives of shadow rays that carry light, in three colours. */
+/* Light that shadow rays carry and that arrives, in three colours. */
 static inline bool connect(const set *s, const tracer *t, const ec_accel *a, uint32_t wave, uint32_t count, const float *shadows, float *radiance)
 {
     if (t->lanes > 1) {
@@ -182,7 +182,7 @@ static inline void print_ray(const set *s, const float *queue, uint32_t rays, ui
     fputc('\n', stderr);
 }
 
-/* Triangle, barycentrics and t, bit by bit; the first that differs is shown. Returns how many hit something. */
+/* Compares triangle, barycentrics and t bit by bit, and prints the first difference. Returns the number of hits. */
 static inline uint32_t same_hits(const set *s, const float *paths, uint32_t rays, uint32_t count, const float *hits,
                                  const float *expected, const char *label, const char *reference)
 {

@@ -47,8 +47,8 @@ static inline set set_million(void)
     return s;
 }
 
-/* A pot 30 cm wide and 20 high, turned, in the middle of an oval of stands 300 m long: 7200 triangles in the pot and 480 in all the
- * rest. Sizes are those of a teapot in a stadium. */
+/* A rotated pot, 30 cm wide and 20 high, in the middle of an oval of stands 300 m long: 7200 triangles in the pot and 480 in the rest, a
+ * teapot in a stadium. */
 static inline void pot(double u, double v, float *p)
 {
     static const double radius[] = {0, 0.08, 0.085, 0.12, 0.15, 0.148, 0.12, 0.08, 0.09, 0.06, 0.02, 0.025, 0};
@@ -75,7 +75,7 @@ static inline set set_stadium(void)
     return s;
 }
 
-/* Coplanar, and everything four times. */
+/* Coplanar triangles, each four times. */
 static inline set set_coplanar_duplicates(uint32_t n)
 {
     set s = set_coplanar(n, 1);

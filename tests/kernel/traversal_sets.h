@@ -1,4 +1,4 @@
-/* Triangles and rays chosen to be awkward, for the tests of the accelerators. */
+/* Awkward triangles and rays, for the tests of the accelerators. */
 #ifndef EC_TESTS_KERNEL_TRAVERSAL_SETS_H
 #define EC_TESTS_KERNEL_TRAVERSAL_SETS_H
 
@@ -10,7 +10,7 @@ typedef struct set {
     uint32_t triangles;
     float *vertices; /* 9 a triangle */
     float scene_max;
-    float size;      /* of the region that rays are aimed into */
+    float size;      /* the region into which rays are aimed */
 } set;
 
 static inline float random_float(double a, double b) { return (float)test_random_in(a, b); }
@@ -53,8 +53,8 @@ static inline set set_coplanar(uint32_t n, int axis)
     return s;
 }
 
-/* A plane that no axis is parallel to: rays in it see every triangle edge-on, and what they compute is rounding alone. Only
- * the clamping of t keeps boxes and triangles in agreement there. */
+/* A plane that is not parallel to any axis: rays in it see every triangle edge-on, and t is only rounding. Only the clamping of t keeps
+ * boxes and triangles consistent there. */
 static inline set set_tilted(uint32_t n)
 {
     set s = set_make("tilted plane", n, 1.0f);
@@ -70,7 +70,7 @@ static inline set set_tilted(uint32_t n)
     return s;
 }
 
-/* Four copies of everything: all four at the same distance. */
+/* Four copies of each triangle, all at the same distance. */
 static inline set set_duplicated(uint32_t n)
 {
     set s = set_random("duplicated", n, 1.0f, 0.3f);
@@ -98,7 +98,7 @@ static inline set set_blocks(uint32_t n)
     return s;
 }
 
-/* Triangles of all sizes about one centre, and far from it. */
+/* Triangles of all sizes about one centre, and far away from it. */
 static inline set set_mixed(uint32_t n)
 {
     set s = set_make("all sizes", n, 1000.0f);
@@ -128,7 +128,7 @@ static inline set set_fan(uint32_t n)
     return s;
 }
 
-/* Twelve triangles from `first` on: a box about `at`, turned, with half its edges along axis[0], axis[1], axis[2]. */
+/* Twelve triangles from `first` on: a rotated box about `at`, with half edges along axis[0], axis[1], axis[2]. */
 static inline void add_box(set *s, uint32_t first, const double at[3], const double axis[3][3])
 {
     static const int corners[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 7, 5}, {4, 6, 7}, {0, 5, 1}, {0, 4, 5},
@@ -143,7 +143,7 @@ static inline void add_box(set *s, uint32_t first, const double at[3], const dou
     }
 }
 
-/* Three edges at right angles, the first along `along`, of these half lengths. */
+/* Three perpendicular edges of these half lengths, the first along `along`. */
 static inline void box_axes(const double along[3], const double half[3], double axis[3][3])
 {
     double length = sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]), up[3] = {0, 0, 0};
@@ -174,7 +174,7 @@ static inline void add_beam(set *s, uint32_t first, const double from[3], const 
     add_box(s, first, at, axis);
 }
 
-/* Long thin boxes in all directions that cross each other: whatever plane divides them goes through many. n: twelve a beam. */
+/* Long thin boxes in all directions that cross each other: every dividing plane cuts many of them. n: twelve for each beam. */
 static inline set set_beams(uint32_t n)
 {
     set s = set_make("beams", n / 12 * 12, 1.0f);
@@ -186,8 +186,8 @@ static inline set set_beams(uint32_t n)
     return s;
 }
 
-/* Rooms on three floors between slabs as large as the building, walls as large as a room, a stair rail across each room; and small
- * things on the floor, in some rooms many, in others none. Cutting slabs and rails pays where there are many small ones. */
+/* Rooms on three floors between slabs as large as the building, walls as large as a room, a stair rail across each room, and small objects
+ * on the floor, many in some rooms and none in others. Cutting slabs and rails pays where there are many small objects. */
 static inline set set_building(uint32_t n)
 {
     enum { SIDE = 4, FLOORS = 3, ROOMS = SIDE * SIDE * FLOORS };
@@ -221,7 +221,7 @@ static inline void set_finish(set *s)
     for (size_t i = 0; i < 9 * (size_t)s->triangles; i++) s->scene_max = fmaxf(s->scene_max, fabsf(s->vertices[i]));
 }
 
-/* A point that something awkward may happen at: a vertex, on an edge, in a face, or anywhere. */
+/* A point where problems are likely: a vertex, on an edge, in a face, or anywhere. */
 static inline void aim(const set *s, float *p)
 {
     uint32_t kind = random_below(8);
@@ -236,7 +236,7 @@ static inline void aim(const set *s, float *p)
     }
 }
 
-/* `rays` rays between awkward points, on surfaces and inside; along axes in the planes of boxes; with components of 0, -0 and nearly 0. */
+/* `rays` rays between such points, on surfaces and inside; parallel to axes in the planes of boxes; with components of 0, -0 and nearly 0. */
 static inline void make_rays(const set *s, float *queue, uint32_t rays, uint32_t fields, uint32_t skip_field, bool normalize)
 {
     uint32_t *words = (uint32_t *)queue;

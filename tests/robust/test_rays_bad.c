@@ -150,7 +150,7 @@ static ec_result box_of(const float normals[9], const float tangents[12], const 
     return add_texture(*scene, texel, err);
 }
 
-/* Where a normal or tangent is meaningless, the geometric one is used, and the closed box gives 1 / (1 - albedo) as usual. A map of (128,
+/* A meaningless normal or tangent is replaced by the geometric one, and the closed box gives 1 / (1 - albedo) as usual. A map of (128,
  * 128, 128) has a nearly zero normal: only that the result is a number is promised. */
 static ec_result zero_normals_case(ec_selftest *t, ec_error *err)
 {

@@ -141,7 +141,7 @@ static void put_crossing_rays(ec_tracer *r, uint64_t *random)
     }
 }
 
-/* Of equally near triangles the smallest id must win, in every accelerator. Then reversing the list cannot move the hit; among equal
+/* The smallest id of equally near triangles must win, in every accelerator. Then reversing the list cannot move the hit; among equal
  * triangles the first wins in one order, and the last in the other. */
 static ec_result ties_case(ec_selftest *t, ec_error *err)
 {

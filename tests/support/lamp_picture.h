@@ -46,7 +46,7 @@ static inline void check_squares(const case_image *image, const float *expected,
     printf("%s: squares of %d pixels, worst z %.2f\n", what, side, worst);
 }
 
-/* The same bits in every lane width. */
+/* Checks that every lane width gives the same bits. */
 static inline void check_lanes(const ec_scene *scene, const ec_render_options *options, const case_image *image)
 {
     ec_render_options o = *options;
