@@ -69,7 +69,7 @@ typedef struct ec_cost_row {
     uint32_t unit;               /* n for variance and efficiency */
     double variance, bias2, bias2_se;
     bool biased;                 /* bias2 > 3 bias2_se, and not unbiased by design */
-    bool unmet;                  /* unbiased by design, yet bias2 > 4 bias2_se: there is light that it has not met yet */
+    bool lacks_light;            /* unbiased by design, yet bias2 > 4 bias2_se: there is light that it has not found yet */
     ec_cost_fit fit;
     double efficiency, relative_efficiency; /* 1/s: by mse; by relmse */
     double seconds_to[EC_COST_TARGETS]; /* NaN: unknown; INFINITY: never */

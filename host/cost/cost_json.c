@@ -48,7 +48,7 @@ static void add_errors(cJSON *to, const ec_cost_row *row)
 {
     EC_JSON(to, EC_WHOLE("unit_samples_per_pixel", row->unit), EC_REAL("variance", row->variance), EC_REAL("bias_squared", row->bias2),
             EC_REAL("bias_squared_se", row->bias2_se), EC_FLAG("unbiased_by_design", row->rung.unbiased), EC_FLAG("biased", row->biased),
-            EC_FLAG("light_not_met", row->unmet), EC_REAL("error_floor", row->biased ? sqrt(row->bias2) : NAN), EC_REAL("slope", row->fit.slope),
+            EC_FLAG("light_not_met", row->lacks_light), EC_REAL("error_floor", row->biased ? sqrt(row->bias2) : NAN), EC_REAL("slope", row->fit.slope),
             EC_REAL("slope_se", row->fit.se), EC_REAL("efficiency", row->efficiency), EC_REAL("efficiency_relmse", row->relative_efficiency));
     add_targets(to, row);
     add_points(to, row);

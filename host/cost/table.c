@@ -54,7 +54,7 @@ static void format_target(const ec_cost_row *row, int i, char *text, size_t size
 {
     double seconds = row->seconds_to[i];
     char number[16];
-    if (row->unmet || isnan(seconds)) {
+    if (row->lacks_light || isnan(seconds)) {
         snprintf(text, size, "?");
     } else if (isinf(seconds)) {
         snprintf(text, size, "never");
@@ -69,7 +69,7 @@ static void format_bias(const ec_cost_row *row, char *text, size_t size)
     if (row->rung.fades) snprintf(text, size, "fades");
     else if (isnan(row->bias2)) snprintf(text, size, "?");
     else if (row->biased) snprintf(text, size, "floor %s", ec_percent(sqrt(row->bias2)).text);
-    else if (row->unmet) snprintf(text, size, "lacks %s", ec_percent(sqrt(row->bias2)).text);
+    else if (row->lacks_light) snprintf(text, size, "lacks %s", ec_percent(sqrt(row->bias2)).text);
     else snprintf(text, size, "< %s", ec_percent(sqrt(fmax(row->bias2, 0) + 2 * row->bias2_se)).text);
 }
 

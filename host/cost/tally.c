@@ -129,5 +129,5 @@ void ec_cost_tally_bias(const ec_cost_tally *t, ec_cost_row *row)
     row->bias2 = sum / pixels * scale;
     row->bias2_se = sqrt(fmax(spread, least)) / pixels * scale;
     row->biased = !row->rung.unbiased && !row->rung.fades && row->bias2 > 3 * row->bias2_se;
-    row->unmet = row->rung.unbiased && row->bias2 > 4 * row->bias2_se;
+    row->lacks_light = row->rung.unbiased && row->bias2 > 4 * row->bias2_se;
 }

@@ -24,7 +24,7 @@ void ec_cost_label(const ec_cost_rung *rung, char *text, size_t size)
 static bool competes(const ec_cost_row *row)
 {
     const ec_cost_rung *r = &row->rung;
-    return row->state == EC_COST_MEASURED && !r->is_effect && !row->unmet && (r->unbiased || r->fades) && (!r->speed_only || row->same_bits);
+    return row->state == EC_COST_MEASURED && !r->is_effect && !row->lacks_light && (r->unbiased || r->fades) && (!r->speed_only || row->same_bits);
 }
 
 static double square(double x) { return x * x; }
@@ -156,12 +156,12 @@ void ec_cost_words(const ec_cost_study *study, char *text, size_t size)
         return;
     }
     const int goal = find_goal(base);
-    if (base->unmet) say(text, size, "What accuracy costs is not known: the default has not met all light of the scene yet.");
+    if (base->lacks_light) say(text, size, "What accuracy costs is not known: the default has not met all light of the scene yet.");
     else if (goal < 0) say(text, size, "What accuracy costs is not known: the budget was too small to tell an error of %g %%.", 100 * ec_cost_targets[0]);
     else
         say(text, size, "An error of %g %% at %ux%u pixels takes %s%s with the default of eclat render.", 100 * ec_cost_targets[goal], study->options.width,
             study->options.height, base->extrapolated[goal] ? "about " : "", ec_seconds(base->seconds_to[goal]).text);
-    if (goal >= 0 && !base->unmet) say_winner(study, (ec_cost_column)(EC_COST_TO_FIRST + goal), text, size);
+    if (goal >= 0 && !base->lacks_light) say_winner(study, (ec_cost_column)(EC_COST_TO_FIRST + goal), text, size);
     say_effects(study, text, size);
     say_floors(study, text, size);
     for (uint32_t i = 0; i < study->row_count; i++) left += study->rows[i].state != EC_COST_MEASURED;

@@ -175,7 +175,7 @@ ec_stated_error ec_judged_state(const ec_judged_sum *sum, double pixels, const e
     const double of_mean = 2 * noisy->error / sqrt(pixels) * square, times = noisy->error > 0 ? noisy->bound_if_met / noisy->error : 1;
     const double reach = z * hypot(sqrt(fmax(sum->variance, PLAIN_LEAST * sum->plain)) * unit, of_mean);
     const double shift = reach > 0 ? reach * fmin(reach / (4 * square), SKEW_MOST) : 0;
-    const double up = hypot(shift + reach, sum->noisy * unit * (times * times - 1)), missing = EC_RARE_DOUBT * noisy->unmet;
+    const double up = hypot(shift + reach, sum->noisy * unit * (times * times - 1)), missing = EC_RARE_DOUBT * noisy->missing_light;
     ec_stated_error e = {sqrt(fmax(square, 0)), sqrt(fmax(square + shift - reach, 0)), sqrt(fmax(square + up, 0))};
     e.high95 = noisy->is_open || missing > e.error ? INFINITY : hypot(e.high95, missing);
     return e;

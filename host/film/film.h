@@ -157,8 +157,8 @@ typedef struct ec_film_error {
     double error_bound;      /* 95 % upper bound; infinity when error is, and where light may be missing. Wants 4 replicates or more, see film/image_error.c */
     bool is_open;            /* light that hardly any sample has met may decide: there is no bound, and `error` is the least that it is */
     double bound_if_met;     /* what the bound would be if no light were missing */
-    double unmet;            /* relative RMS error if light that may not have been met was not met (film/rare.h) */
-    double unmet_samples;    /* samples a pixel until EC_RARE_MET of those paths are expected; 0: nothing is missing */
+    double missing_light;    /* relative RMS error if the light that samples may have missed is missing (film/rare.h) */
+    double missing_light_samples; /* samples a pixel until EC_RARE_MET of those paths are expected; 0: nothing is missing */
     double tail_share;       /* part of the noise that the EC_TAIL_FEW largest samples hold */
     char through[EC_RARE_NAME], light[EC_RARE_NAME]; /* of the rare paths; through is empty where the camera sees the light itself */
     double noisy_pixels;     /* how many pixels of equal noise would tell as much of it: nu of film/image_error.c */

@@ -21,7 +21,7 @@ double ec_film_forecast_bound(const ec_film_forecast *o, double samples)
 {
     const double times = samples / o->samples, bright = o->bright_samples * times, larger = o->larger * pow(times, -o->larger_falls);
     const double met = ec_film_error_bound(o->square / ec_film_forecast_fall(o, samples), o->noisy_pixels, bright, larger, o->pixels, o->replicates);
-    return samples < o->unmet_samples ? hypot(met, o->unmet) : met;
+    return samples < o->missing_light_samples ? hypot(met, o->missing_light) : met;
 }
 
 /* Returns the samples that are needed if no light is missing. */
@@ -40,8 +40,8 @@ static double samples_if_met(const ec_film_forecast *o, double target)
 
 double ec_film_forecast_samples(const ec_film_forecast *o, double target)
 {
-    const double before = target > o->unmet ? samples_if_met(o, sqrt(target * target - o->unmet * o->unmet)) : INFINITY;
-    return before < o->unmet_samples ? before : fmin(before, fmax(samples_if_met(o, target), o->unmet_samples));
+    const double before = target > o->missing_light ? samples_if_met(o, sqrt(target * target - o->missing_light * o->missing_light)) : INFINITY;
+    return before < o->missing_light_samples ? before : fmin(before, fmax(samples_if_met(o, target), o->missing_light_samples));
 }
 
 /* Fits ln error^2 over ln samples by least squares, over at most two octaves. A round's error^2 deviates by `spread`, mostly in common with those

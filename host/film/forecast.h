@@ -12,7 +12,8 @@ typedef struct ec_film_forecast {
     double square, samples;  /* error^2 with so many samples a pixel */
     double slope;
     double noisy_pixels, bright_samples, larger, larger_falls, pixels, replicates;
-    double unmet, unmet_samples; /* by how much light that may be missing widens the bound; samples a pixel after which it is as good as met */
+    /* The amount by which light that may be missing widens the bound, and the samples a pixel after which it is as good as found. */
+    double missing_light, missing_light_samples;
 } ec_film_forecast;
 
 /* Returns how many times smaller error^2 is after so many samples a pixel. */

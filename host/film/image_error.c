@@ -201,19 +201,19 @@ double ec_film_error_bound(double square, double noisy_pixels, double bright_sam
 static void judge(const ec_error_sums *sums, double pixels, const ec_rare *rare, double limit, ec_film_error *e)
 {
     const ec_rare_kind *kind;
-    const double mean = e->mean_luminance, unmet = ec_rare_unmet(rare, sums->samples, mean, limit, &kind);
+    const double mean = e->mean_luminance, missing_light = ec_rare_missing(rare, sums->samples, mean, limit, &kind);
     double few = 0, rest = mean;
     for (uint32_t i = 0; i < sums->tail.count; i++) {
         few += sums->tail.largest[i] * sums->tail.largest[i];
         rest -= sums->tail.largest[i] / pixels;
     }
-    e->unmet = sqrt(unmet) / mean;
-    e->unmet_samples = kind ? EC_RARE_MET / kind->chance / pixels : 0;
+    e->missing_light = sqrt(missing_light) / mean;
+    e->missing_light_samples = kind ? EC_RARE_MET / kind->chance / pixels : 0;
     e->bound_if_met = e->error_bound;
     e->tail_share = sums->s2 > 0 ? fmin(few / sums->s2, 1) : 0;
-    e->is_open = EC_RARE_DOUBT * e->unmet > e->error || (sqrt(unmet) > EC_RARE_LEAST * rest && e->tail_share > EC_RARE_TAIL);
+    e->is_open = EC_RARE_DOUBT * e->missing_light > e->error || (sqrt(missing_light) > EC_RARE_LEAST * rest && e->tail_share > EC_RARE_TAIL);
     if (kind) memcpy(e->through, kind->through, sizeof e->through), memcpy(e->light, kind->light, sizeof e->light);
-    e->error_bound = e->is_open ? INFINITY : hypot(e->error_bound, EC_RARE_DOUBT * e->unmet);
+    e->error_bound = e->is_open ? INFINITY : hypot(e->error_bound, EC_RARE_DOUBT * e->missing_light);
 }
 
 ec_film_error ec_film_error_of(const ec_error_sums *sums, double pixels, uint32_t replicates, const ec_rare *rare, double limit)

@@ -18,7 +18,7 @@ void ec_rare_way(const char *through, const char *light, char *text, size_t size
     else snprintf(text, size, "straight to %s", light);
 }
 
-static int is_unmet(const ec_rare_kind *kind, double samples) { return samples * kind->chance < EC_RARE_MET; }
+static int is_missing(const ec_rare_kind *kind, double samples) { return samples * kind->chance < EC_RARE_MET; }
 
 /* Returns the luminance that a kind brings to a picture of that mean and limit. */
 static double luminance_of(const ec_rare_kind *kind, double mean, double limit)
@@ -27,13 +27,13 @@ static double luminance_of(const ec_rare_kind *kind, double mean, double limit)
     return limit > 0 ? all - clamped + fmin(clamped, kind->chance * limit) : all;
 }
 
-double ec_rare_unmet(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most)
+double ec_rare_missing(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most)
 {
     double sum = 0, largest = 0;
     *most = NULL;
     for (uint32_t i = 0; rare && i < rare->count; i++) {
         const ec_rare_kind *kind = &rare->kinds[i];
-        if (!is_unmet(kind, samples)) continue;
+        if (!is_missing(kind, samples)) continue;
         const double rms = luminance_of(kind, mean, limit) * kind->gathered;
         sum += rms * rms;
         if (!*most || rms > largest) *most = kind, largest = rms;
@@ -59,12 +59,12 @@ uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y)
     return (uint32_t)((uint64_t)y * EC_RARE_TILES / rare->height) * EC_RARE_TILES + (uint32_t)((uint64_t)x * EC_RARE_TILES / rare->width);
 }
 
-double ec_rare_unmet_at(const ec_rare *rare, double samples_a_pixel, double mean, double limit, uint32_t x, uint32_t y)
+double ec_rare_missing_at(const ec_rare *rare, double samples_a_pixel, double mean, double limit, uint32_t x, uint32_t y)
 {
     const double samples = samples_a_pixel * rare->width * rare->height;
     const uint32_t tile = ec_rare_tile(rare, x, rare->row + y);
     double sum = 0;
     for (uint32_t i = 0; i < rare->count; i++)
-        if (is_unmet(&rare->kinds[i], samples)) sum += luminance_of(&rare->kinds[i], mean, limit) * rare->kinds[i].peak * rare->kinds[i].share[tile] / 255;
+        if (is_missing(&rare->kinds[i], samples)) sum += luminance_of(&rare->kinds[i], mean, limit) * rare->kinds[i].peak * rare->kinds[i].share[tile] / 255;
     return sum;
 }

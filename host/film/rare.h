@@ -51,7 +51,7 @@ void ec_rare_way(const char *through, const char *light, char *text, size_t size
 /* Returns the mean over pixels of the square of the luminance that is missing if kinds are not met of which so many samples (of the whole picture)
  * expect fewer than EC_RARE_MET; *most: the kind that matters most, or NULL. rare may be NULL. mean: the picture's luminance. limit: of a sample's
  * indirect light, where the picture is clamped; else 0. */
-double ec_rare_unmet(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most);
+double ec_rare_missing(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most);
 
 /* Returns the variance of a sample by what light paths could bring, over the square of the picture's mean luminance; *most: the kind with most of it,
  * or NULL. */
@@ -61,6 +61,6 @@ double ec_rare_caustics(const ec_rare *rare, double mean, const ec_rare_kind **m
 uint32_t ec_rare_tile(const ec_rare *rare, uint32_t x, uint32_t y);
 
 /* Returns the mean luminance of such kinds around a pixel, in a picture whose pixels all have as many samples; y: row of the film. */
-double ec_rare_unmet_at(const ec_rare *rare, double samples_a_pixel, double mean, double limit, uint32_t x, uint32_t y);
+double ec_rare_missing_at(const ec_rare *rare, double samples_a_pixel, double mean, double limit, uint32_t x, uint32_t y);
 
 #endif

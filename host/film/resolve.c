@@ -36,13 +36,13 @@ static ec_intervals_of intervals_from(const ec_intervals_of *all, uint64_t i)
 }
 
 /* Marks pixels as heavy, too, whose missing light may be more than their noise tells. Returns how many were not heavy before. */
-static uint64_t mark_unmet(const ec_film *film, uint32_t first, uint32_t rows, const ec_pixel *pixels, float *heavy)
+static uint64_t mark_missing(const ec_film *film, uint32_t first, uint32_t rows, const ec_pixel *pixels, float *heavy)
 {
     uint64_t count = 0, i = 0;
     for (uint32_t y = first; film->rare && y < first + rows; y++)
         for (uint32_t x = 0; x < film->width; x++, i++) {
-            const double unmet = ec_rare_unmet_at(film->rare, pixels[i].samples, ec_luminance(pixels[i].mean), film->limit, x, y);
-            if (heavy[i] != 0.0f || unmet <= sqrt(ec_pixel_se2(&pixels[i], 3))) continue;
+            const double missing_light = ec_rare_missing_at(film->rare, pixels[i].samples, ec_luminance(pixels[i].mean), film->limit, x, y);
+            if (heavy[i] != 0.0f || missing_light <= sqrt(ec_pixel_se2(&pixels[i], 3))) continue;
             heavy[i] = 1.0f;
             count++;
         }
@@ -64,7 +64,7 @@ uint64_t ec_film_resolve_rows(const ec_film *film, uint32_t first, uint32_t rows
             write(film, (uint64_t)row * width + i, room + here + i, before + i, planes);
         const ec_intervals_of into = intervals_from(all, before);
         if (wants) heavy += ec_intervals(room, width, to - from, row - from, count, &into);
-        if (all->heavy) heavy += mark_unmet(film, row, count, room + here, into.heavy);
+        if (all->heavy) heavy += mark_missing(film, row, count, room + here, into.heavy);
     }
     return heavy;
 }

@@ -90,7 +90,7 @@ static ec_forecast predict(const ec_goal *g, ec_mark at, double gain)
     const ec_film_error *now = &g->now;
     const bool is_open = now->is_open, known = isfinite(now->error) && now->error > 0 && !is_open;
     const ec_film_forecast o = {now->error * now->error * gain, at.samples, g->slope.value, now->noisy_pixels, now->bright_samples, now->larger,
-                               now->larger_falls, g->pixels, g->replicates, EC_RARE_DOUBT * now->unmet, now->unmet_samples};
+                               now->larger_falls, g->pixels, g->replicates, EC_RARE_DOUBT * now->missing_light, now->missing_light_samples};
     range samples = {INFINITY, INFINITY, INFINITY};
     if (g->error > 0 && known) samples = samples_to(g, &o);
     if (g->error > 0) samples = samples_of_either(g, samples);

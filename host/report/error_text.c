@@ -26,7 +26,7 @@ void ec_error_why(const ec_film_error *e, char *text, size_t size)
     if (!e->is_open) return;
     ec_rare_way(e->through, e->light, way, sizeof way);
     snprintf(text, size, "rare bright paths decide (%d samples hold %s of the noise; paths %s are hardly met yet: while their light is missing the error is some %s)",
-             EC_TAIL_FEW, ec_percent(e->tail_share).text, way, ec_percent(e->unmet).text);
+             EC_TAIL_FEW, ec_percent(e->tail_share).text, way, ec_percent(e->missing_light).text);
 }
 
 void ec_error_help(const ec_film_error *e, char *text, size_t size)
@@ -34,7 +34,7 @@ void ec_error_help(const ec_film_error *e, char *text, size_t size)
     char samples[64] = "more samples";
     *text = 0;
     if (!e->is_open) return;
-    if (e->unmet_samples > 0) snprintf(samples, sizeof samples, "some %s samples a pixel", ec_count(ceil(e->unmet_samples)).text);
+    if (e->missing_light_samples > 0) snprintf(samples, sizeof samples, "some %s samples a pixel", ec_count(ceil(e->missing_light_samples)).text);
     if (*e->through)
         snprintf(text, size, "%s; or a rougher \"%s\", a larger light, --without specular; or --clamp 10, which reports what it removes", samples,
                  e->through);
@@ -55,7 +55,7 @@ void ec_error_json(cJSON *root, const ec_film_error *e, const ec_clamp_error *cl
 {
     char why[EC_ERROR_TEXT];
     ec_error_why(e, why, sizeof why);
-    EC_JSON(root, EC_STRING("error_bound_why", *why ? why : NULL), EC_STRING("quality", ec_error_grade(e, clamp)), EC_REAL("error_unmet", e->unmet),
+    EC_JSON(root, EC_STRING("error_bound_why", *why ? why : NULL), EC_STRING("quality", ec_error_grade(e, clamp)), EC_REAL("error_unmet", e->missing_light),
             EC_REAL("tail_share", e->tail_share));
 }
 

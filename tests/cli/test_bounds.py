@@ -58,7 +58,7 @@ class Bounds(Case):
         bound = json.loads(run.stdout).get("error_bound")
         return bound if isinstance(bound, (int, float)) and math.isfinite(bound) else None, luminance(out)
 
-    def unmet(self, scene):
+    def missing_light(self, scene):
         """Returns how much light 16 samples a pixel may miss, relative to the picture's."""
         return json.loads(self.assert_ok(eclat("render", "-q", *NARROW, "--size", f"{SIZE}x{SIZE}", "--spp", "16", "--max-depth", "5", "--json",
                                                "-o", self.path("out.exr"), scene)).stdout)["error_unmet"]
@@ -105,20 +105,20 @@ class Bounds(Case):
     @full
     def test_lamp_behind_a_small_hole_is_found(self):
         # 0.025 % of the floor is lit, and brings 15 % of the light
-        self.assertGreater(self.unmet(lamp_room(self.path("hole.gltf"), "hole")), 0.05)
-        self.assertEqual(self.unmet(lamp_room(self.path("sealed.gltf"), "sealed")), 0)
+        self.assertGreater(self.missing_light(lamp_room(self.path("hole.gltf"), "hole")), 0.05)
+        self.assertEqual(self.missing_light(lamp_room(self.path("sealed.gltf"), "sealed")), 0)
 
     @full
     def test_hole_is_found_in_a_scene_of_many_triangles(self):
         # the search tries 8 192 of 60 000 edges: uniform choices missed the hole's edges
-        self.assertGreater(self.unmet(sun_room(self.path("hole.gltf"), "hole", rug=100)), 0.1)
+        self.assertGreater(self.missing_light(sun_room(self.path("hole.gltf"), "hole", rug=100)), 0.1)
 
     @full
     def test_hole_is_found_in_a_room_on_a_plain(self):
         # the hole is narrower than a ten-thousandth of the scene's radius, the distance at which rays pass edges; and everything outside
         # the room is lit
-        self.assertGreater(self.unmet(sun_room(self.path("hole.gltf"), "hole", ground=400)), 0.1)
-        self.assertEqual(self.unmet(sun_room(self.path("sealed.gltf"), "sealed", ground=400)), 0)
+        self.assertGreater(self.missing_light(sun_room(self.path("hole.gltf"), "hole", ground=400)), 0.1)
+        self.assertEqual(self.missing_light(sun_room(self.path("sealed.gltf"), "sealed", ground=400)), 0)
 
     @full
     def test_lamp_that_light_paths_find_has_a_bound(self):

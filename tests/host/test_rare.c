@@ -27,21 +27,21 @@ static void test_kinds(void)
 {
     const ec_rare rare = two_kinds();
     const ec_rare_kind *most;
-    CHECK_NEAR(ec_rare_unmet(&rare, 1, 3, 0, &most), 64 + 1, 1e-12);
+    CHECK_NEAR(ec_rare_missing(&rare, 1, 3, 0, &most), 64 + 1, 1e-12);
     CHECK(most == &rare.kinds[0]);
-    CHECK_NEAR(ec_rare_unmet(&rare, 1e4, 3, 0, &most), 64, 1e-12); /* the second is met */
-    CHECK(ec_rare_unmet(&rare, EC_RARE_MET * 0x1p20, 3, 0, &most) == 0 && !most);
-    CHECK(ec_rare_unmet(NULL, 1, 3, 0, &most) == 0 && !most);
-    CHECK_NEAR(ec_rare_unmet_at(&rare, 64, 3, 0, 0, 0), EC_RARE_SHARES, 1e-9); /* all of it in one of so many tiles */
-    CHECK(ec_rare_unmet_at(&rare, 64, 3, 0, 2, 0) == 0);
+    CHECK_NEAR(ec_rare_missing(&rare, 1e4, 3, 0, &most), 64, 1e-12); /* the second is met */
+    CHECK(ec_rare_missing(&rare, EC_RARE_MET * 0x1p20, 3, 0, &most) == 0 && !most);
+    CHECK(ec_rare_missing(NULL, 1, 3, 0, &most) == 0 && !most);
+    CHECK_NEAR(ec_rare_missing_at(&rare, 64, 3, 0, 0, 0), EC_RARE_SHARES, 1e-9); /* all of it in one of so many tiles */
+    CHECK(ec_rare_missing_at(&rare, 64, 3, 0, 2, 0) == 0);
     ec_rare clamped = rare;
     clamped.kinds[0].clamped = 0.5; /* half of its light, limited to 4 a sample */
-    CHECK_NEAR(ec_rare_unmet(&clamped, 1e4, 3, 4, &most), 64 * pow(0.5 + 4 * 0x1p-20, 2), 1e-12);
+    CHECK_NEAR(ec_rare_missing(&clamped, 1e4, 3, 4, &most), 64 * pow(0.5 + 4 * 0x1p-20, 2), 1e-12);
     clamped.kinds[0].is_relative = true;
-    CHECK_NEAR(ec_rare_unmet(&clamped, 1e4, 3, 0, &most), 64 * 9, 1e-12); /* three times the picture's mean */
+    CHECK_NEAR(ec_rare_missing(&clamped, 1e4, 3, 0, &most), 64 * 9, 1e-12); /* three times the picture's mean */
     ec_rare strip = rare;
     strip.row = 2;
-    CHECK(ec_rare_unmet_at(&strip, 64, 3, 0, 0, 0) == 0); /* another row of tiles */
+    CHECK(ec_rare_missing_at(&strip, 64, 3, 0, 0, 0) == 0); /* another row of tiles */
 }
 
 /* Grey pixels with a little noise. */
@@ -82,14 +82,14 @@ static void test_film(void)
     uint64_t added = 0;
     ec_rare rare = two_kinds();
     const ec_film_error plain = ec_film_estimate_error(&film);
-    CHECK(!plain.is_open && isfinite(plain.error_bound) && plain.unmet == 0);
+    CHECK(!plain.is_open && isfinite(plain.error_bound) && plain.missing_light == 0);
     const uint64_t count = count_heavy(&film, before); /* since samples are few */
 
     CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
     const ec_film_error open = ec_film_estimate_error(&film);
     CHECK(open.is_open && isinf(open.error_bound) && open.error == plain.error && open.bound_if_met == plain.error_bound);
-    CHECK_NEAR(open.unmet, 8 / plain.mean_luminance, 1e-9);
-    CHECK_NEAR(open.unmet_samples, EC_RARE_MET * 0x1p20 / (WIDTH * HEIGHT), 1e-6);
+    CHECK_NEAR(open.missing_light, 8 / plain.mean_luminance, 1e-9);
+    CHECK_NEAR(open.missing_light_samples, EC_RARE_MET * 0x1p20 / (WIDTH * HEIGHT), 1e-6);
     CHECK(!strcmp(open.through, "glass") && !strcmp(open.light, "\"lamp\""));
     const uint64_t with = count_heavy(&film, heavy); /* and now the whole first tile, 2 x 2 pixels */
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -103,7 +103,7 @@ static void test_film(void)
     CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
     const ec_film_error weak = ec_film_estimate_error(&film);
     CHECK(!weak.is_open && count_heavy(&film, heavy) == count);
-    CHECK_NEAR(weak.error_bound, hypot(plain.error_bound, EC_RARE_DOUBT * weak.unmet), 1e-12); /* but wider because of it */
+    CHECK_NEAR(weak.error_bound, hypot(plain.error_bound, EC_RARE_DOUBT * weak.missing_light), 1e-12); /* but wider because of it */
     ec_film_destroy(&film);
 }
 
@@ -118,7 +118,7 @@ static void test_lucky_sample(void)
     rare.kinds[0] = (ec_rare_kind){.through = "glass", .light = "\"lamp\"", .chance = 0x1p-20, .luminance = 0.2, .gathered = 1};
     CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
     const ec_film_error lucky = ec_film_estimate_error(&film);
-    CHECK(lucky.unmet < EC_RARE_LEAST && lucky.unmet < lucky.bound_if_met - lucky.error && lucky.tail_share > 0.75);
+    CHECK(lucky.missing_light < EC_RARE_LEAST && lucky.missing_light < lucky.bound_if_met - lucky.error && lucky.tail_share > 0.75);
     CHECK(lucky.is_open);
     rare.kinds[0].luminance = 0.01; /* almost nothing of the picture without that sample */
     CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);

@@ -65,10 +65,10 @@ int main(void)
     CHECK(says(&study, "With bvh2 it takes 0.80 ± 0.02 times as long"));
     rows[2].same_bits = false;
     CHECK(ec_cost_best(&study, to_5) == 1);
-    rows[1].unmet = true; /* implausibly good figures */
+    rows[1].lacks_light = true; /* implausibly good figures */
     CHECK(ec_cost_best(&study, to_5) == 0 && ec_cost_best(&study, EC_COST_TIME) == 0);
     rows[1].relative_time_se = NAN; /* too few repetitions */
-    rows[1].unmet = false;
+    rows[1].lacks_light = false;
     CHECK(ec_cost_best(&study, to_5) == 0);
     /* The errors of the default itself are unknown. */
     for (int i = 0; i < EC_COST_TARGETS; i++) rows[0].seconds_to[i] = NAN;
