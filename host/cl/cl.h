@@ -86,7 +86,7 @@ typedef struct ec_cl {
     bool keeps_programs;      /* set after ec_cl_open: programs stay built until ec_cl_close, and are found again */
     bool keeps_buffers;       /* likewise scene data stays on the device, as long as the next scene needs it too */
     struct ec_ahead *ahead;   /* cl/ahead.h; NULL: none */
-    struct ec_recall *recall; /* device/ahead.h; NULL: none. Not owned */
+    struct ec_last_build *last_build; /* device/ahead.h; NULL: none. Not owned */
     struct ec_kept_program *kept;
     uint32_t kept_count;
     uint32_t programs_found;  /* found among those kept */

@@ -36,19 +36,19 @@ static bool is_sound(const ec_build_plan *plan)
     return plan->integrator < EC_INTEGRATOR_COUNT && plan->width && plan->height && plan->batch && plan->triangles && plan->lanes <= EC_LANES_MOST;
 }
 
-void ec_recall_begin(ec_recall *r, ec_cl *cl, const char *scene, uint32_t integrator)
+void ec_last_build_begin(ec_last_build *r, ec_cl *cl, const char *scene, uint32_t integrator)
 {
     char *path = realpath(scene, NULL);
     snprintf(r->name, sizeof r->name, "plan 1, integrator %u, %s", integrator, path ? path : scene);
     free(path);
-    cl->recall = r;
+    cl->last_build = r;
     r->is_begun = ec_notes_read(cl, r->name, &r->plan, sizeof r->plan) && is_sound(&r->plan) && begin(cl, &r->plan);
 }
 
 void ec_build_ahead(ec_cl *cl, const ec_payload *payload, const ec_render_effects *effects, uint32_t width, uint32_t height, uint32_t batch)
 {
     const ec_payload_head *head = &payload->head;
-    const ec_recall *recall = cl->recall;
+    const ec_last_build *last_build = cl->last_build;
     ec_build_plan plan;
     memset(&plan, 0, sizeof plan);
     plan.built = effects->built, plan.called = effects->called.bits, plan.without = effects->without, plan.never = effects->never;
@@ -57,7 +57,7 @@ void ec_build_ahead(ec_cl *cl, const ec_payload *payload, const ec_render_effect
     plan.lanes = head->lanes, plan.wave = head->wave;
     plan.width = width, plan.height = height, plan.batch = batch;
     plan.triangles = head->triangle_count, plan.accels = head->accels[ec_device_kind_of(&cl->info)];
-    cl->recall = NULL; /* for the first picture only */
-    if (recall && recall->is_begun && !memcmp(&recall->plan, &plan, sizeof plan)) return;
-    if (begin(cl, &plan) && recall) ec_notes_write(cl, recall->name, &plan, sizeof plan);
+    cl->last_build = NULL; /* for the first picture only */
+    if (last_build && last_build->is_begun && !memcmp(&last_build->plan, &plan, sizeof plan)) return;
+    if (begin(cl, &plan) && last_build) ec_notes_write(cl, last_build->name, &plan, sizeof plan);
 }

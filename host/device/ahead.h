@@ -10,16 +10,16 @@ typedef struct ec_build_plan {
     uint32_t launched, integrator, fast_math, lanes, wave, width, height, batch, triangles, accels;
 } ec_build_plan;
 
-/* The plan by which a scene's last render was built, and whether the programs of this one were begun by it. */
-typedef struct ec_recall {
-    char name[4200]; /* name under which it is noted */
+/* The plan of a scene's last render, and whether building by it has begun. */
+typedef struct ec_last_build {
+    char name[4200]; /* of the note that keeps the plan */
     ec_build_plan plan;
     bool is_begun;
-} ec_recall;
+} ec_last_build;
 
 /* Begins to build, while a scene is loaded, the programs of its last render on this device: most renders need the same. The first ec_build_ahead
- * notes its own plan for the next render if it differs; recall has to stay where it is until then. scene: its path. */
-void ec_recall_begin(ec_recall *recall, ec_cl *cl, const char *scene, uint32_t integrator);
+ * notes its own plan for the next render if it differs; last_build must stay at its address until then. scene: its path. */
+void ec_last_build_begin(ec_last_build *last_build, ec_cl *cl, const char *scene, uint32_t integrator);
 
 /* Begins to build kernels before the payload is whole, when its accelerators and the effects that it calls for are known. Takes only programs that the
  * driver has in its cache, in a thread of their own (cl/ahead.h); batch: samples of a pixel, as for ec_payload_make. */

@@ -206,7 +206,7 @@ static ec_result find_and_open(ec_render_job *job, ec_error *err)
     EC_TRY(ec_render_job_find_devices(job, err));
     if (!job->renders || job->ranks || job->device_count != 1 || !ec_compiles_late(&job->devices[0])) return EC_OK;
     EC_TRY(ec_cl_open(&job->devices[0], &job->early, err));
-    ec_recall_begin(&job->recall, &job->early, job->request->scene, job->request->options.integrator);
+    ec_last_build_begin(&job->last_build, &job->early, job->request->scene, job->request->options.integrator);
     return EC_OK;
 }
 

@@ -36,7 +36,7 @@ typedef struct ec_render_job {
     uint32_t device_indices[EC_DEVICES_MOST], device_count;
     const char *device_why;
     ec_cl early;                 /* the device opened while the scene is loaded; without a context if it was not. Owned */
-    ec_recall recall;            /* what is built on it meanwhile */
+    ec_last_build last_build;    /* kernels built on it meanwhile */
     ec_denoised denoised;        /* of the film, with options.denoise */
     ec_behind behind;            /* with a blurred background. Owned */
     ec_film film;                /* empty if the picture was rendered in strips, which `rows` writes to the files */

@@ -1,5 +1,6 @@
 /* tier: quick */
-/* What a scene's last render built is begun while the scene is loaded. Wrong or damaged notes cost time, and no bit of the picture. */
+/* Builds the kernels of a scene's last render while the scene is loaded. Wrong or damaged notes cost time, but change no bit of the
+ * picture. */
 #include "cl/ahead.h"
 #include "cl/notes.h"
 #include "cl/workarounds.h"
@@ -16,22 +17,22 @@ static ec_render_options options(void)
     return o;
 }
 
-/* The plan that is noted afterwards. */
+/* Renders, and returns the plan that is noted afterwards. */
 static ec_build_plan render(const char *path, const case_image *expected, bool begins)
 {
     ec_scene *scene = case_load(path, NULL);
     ec_render_options o = options();
-    ec_recall recall, after;
-    ec_recall_begin(&recall, case_cl(), NAME, o.integrator);
-    CHECK(recall.is_begun == begins);
+    ec_last_build last_build, after;
+    ec_last_build_begin(&last_build, case_cl(), NAME, o.integrator);
+    CHECK(last_build.is_begun == begins);
     CHECK(!begins || case_cl()->ahead);
     case_image image = case_render(scene, &o);
     CHECK(case_same_bits(&image.film, &expected->film));
-    CHECK(!case_cl()->recall);
-    ec_recall_begin(&after, case_cl(), NAME, o.integrator);
+    CHECK(!case_cl()->last_build);
+    ec_last_build_begin(&after, case_cl(), NAME, o.integrator);
     CHECK(after.is_begun == ec_compiles_late(&case_cl()->info));
     ec_ahead_end(case_cl());
-    case_cl()->recall = NULL;
+    case_cl()->last_build = NULL;
     case_free(&image);
     ec_scene_free(scene);
     return after.plan;
@@ -42,23 +43,23 @@ static void programs_stay(ec_build_plan plan)
 {
     ec_cl *cl = case_cl();
     ec_compile_job none = {0};
-    ec_recall small, large;
+    ec_last_build small, large;
     ec_notes_write(cl, "plan 1, integrator 0, small", &plan, sizeof plan);
     plan.height *= 2;
     ec_notes_write(cl, "plan 1, integrator 0, large", &plan, sizeof plan);
-    ec_recall_begin(&small, cl, "small", EC_INTEGRATOR_PATH);
-    CHECK(small.is_begun && !ec_ahead_is_done(cl, &none)); /* which waits */
+    ec_last_build_begin(&small, cl, "small", EC_INTEGRATOR_PATH);
+    CHECK(small.is_begun && !ec_ahead_is_done(cl, &none)); /* this waits for the build */
     const cl_program built = cl->ahead->programs[0];
-    CHECK(built && clRetainProgram(built) == CL_SUCCESS); /* nothing else has its address */
-    ec_recall_begin(&large, cl, "large", EC_INTEGRATOR_PATH);
+    CHECK(built && clRetainProgram(built) == CL_SUCCESS); /* a new program cannot get its address */
+    ec_last_build_begin(&large, cl, "large", EC_INTEGRATOR_PATH);
     CHECK(large.is_begun && !ec_ahead_is_done(cl, &none) && cl->ahead->programs[0] == built);
     plan.lanes = 4;
     ec_notes_write(cl, "plan 1, integrator 0, large", &plan, sizeof plan);
-    ec_recall_begin(&large, cl, "large", EC_INTEGRATOR_PATH);
+    ec_last_build_begin(&large, cl, "large", EC_INTEGRATOR_PATH);
     CHECK(large.is_begun && !ec_ahead_is_done(cl, &none) && cl->ahead->programs[0] != built);
     ec_ahead_end(cl);
     clReleaseProgram(built);
-    cl->recall = NULL;
+    cl->last_build = NULL;
 }
 
 int main(void)
@@ -67,18 +68,18 @@ int main(void)
     ec_render_options o = options();
     case_image expected = case_render_file(first, NULL, &o), other = case_render_file(second, NULL, &o);
     const bool is_late = ec_compiles_late(&case_cl()->info);
-    ec_recall r;
-    ec_recall_begin(&r, case_cl(), NAME, EC_INTEGRATOR_WHITTED);
-    CHECK(!r.is_begun); /* another integrator's */
+    ec_last_build r;
+    ec_last_build_begin(&r, case_cl(), NAME, EC_INTEGRATOR_WHITTED);
+    CHECK(!r.is_begun); /* the note is of another integrator */
 
     ec_build_plan none;
     memset(&none, 0, sizeof none);
     snprintf(r.name, sizeof r.name, "plan 1, integrator %u, %s", o.integrator, NAME);
     ec_notes_write(case_cl(), r.name, &none, sizeof none);
-    const ec_build_plan plan = render(first, &expected, false); /* of no picture: not believed */
+    const ec_build_plan plan = render(first, &expected, false); /* a plan without a picture is rejected */
     const ec_build_plan again = render(first, &expected, is_late);
     CHECK(!memcmp(&plan, &again, sizeof plan));
-    const ec_build_plan changed = render(second, &other, is_late); /* the file is another by now */
+    const ec_build_plan changed = render(second, &other, is_late); /* the file has changed */
     CHECK(!is_late || memcmp(&plan, &changed, sizeof plan));
     if (is_late) programs_stay(plan);
     ec_notes_write(case_cl(), r.name, "no plan", 8);
