@@ -110,10 +110,10 @@ ec_result ec_keep_choose(const ec_gltf *g, const ec_placement_list *placements, 
     *k = (ec_keeping){.g = g, .placements = placements};
     if (g->instancing == EC_INSTANCING_OFF) return EC_OK;
     EC_TRY(find_candidates(k, scene, err));
-    bool wished = g->instancing == EC_INSTANCING_ON, any = false;
-    if (!wished && !is_worth_it(k)) return EC_OK;
+    bool is_forced = g->instancing == EC_INSTANCING_ON, any = false;
+    if (!is_forced && !is_worth_it(k)) return EC_OK;
     for (uint32_t m = 0; m < k->mesh_count; m++)
-        any |= k->meshes[m].is_kept = k->meshes[m].places > 1 && (wished || k->meshes[m].triangles >= SMALL_MESH);
+        any |= k->meshes[m].is_kept = k->meshes[m].places > 1 && (is_forced || k->meshes[m].triangles >= SMALL_MESH);
     if (!any) return EC_OK;
     k->is_kept = calloc((size_t)placements->count + 1, sizeof *k->is_kept);
     if (!k->is_kept) return ec_fail(err, "%s: out of memory for %u nodes", g->path, placements->count);
