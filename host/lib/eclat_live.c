@@ -65,24 +65,24 @@ void eclat_live_close(eclat_live *live)
 }
 
 /* No lock is needed, as only the caller changes it. */
-eclat_wish eclat_live_wished(const eclat_live *live) { return live->session.asked.wish; }
+eclat_view_request eclat_live_view(const eclat_live *live) { return live->session.asked.view; }
 
-/* Replaces the wish. is_saved: its picture is to be saved. Returns the number of saves asked for so far. */
-static uint32_t wish_for(ec_live *session, eclat_wish *wish, bool is_saved)
+/* Replaces the requested view. is_saved: its picture is to be saved. Returns the number of saves asked for so far. */
+static uint32_t replace_view(ec_live *session, eclat_view_request *view, bool is_saved)
 {
     ec_live_asked *asked = &session->asked;
-    ec_live_limit_wish(wish);
+    ec_live_limit_view(view);
     pthread_mutex_lock(&session->lock);
-    bool is_other = memcmp(&asked->wish, wish, sizeof *wish) != 0;
-    if (is_other) asked->wish = *wish, asked->serial++;
-    if (is_saved) asked->saved = *wish, asked->saves++;
-    if (is_other || is_saved) ec_live_post(session);
+    bool is_other = memcmp(&asked->view, view, sizeof *view) != 0;
+    if (is_other) asked->view = *view, asked->serial++;
+    if (is_saved) asked->saved = *view, asked->saves++;
+    if (is_other || is_saved) ec_live_wake(session);
     pthread_mutex_unlock(&session->lock);
     return asked->saves;
 }
 
-void eclat_live_wish(eclat_live *live, eclat_wish *wish) { wish_for(&live->session, wish, false); }
-uint32_t eclat_live_save(eclat_live *live, eclat_wish *wish) { return wish_for(&live->session, wish, true); }
+void eclat_live_set_view(eclat_live *live, eclat_view_request *view) { replace_view(&live->session, view, false); }
+uint32_t eclat_live_save(eclat_live *live, eclat_view_request *view) { return replace_view(&live->session, view, true); }
 
 uint32_t eclat_live_pick(eclat_live *live, uint32_t x, uint32_t y)
 {
@@ -91,7 +91,7 @@ uint32_t eclat_live_pick(eclat_live *live, uint32_t x, uint32_t y)
     session->asked.pick_x = x;
     session->asked.pick_y = y;
     session->asked.picks++;
-    ec_live_post(session);
+    ec_live_wake(session);
     pthread_mutex_unlock(&session->lock);
     return session->asked.picks;
 }

@@ -19,7 +19,7 @@ static void start(ec_live *live)
 {
     ec_render_request *request = &live->request;
     const ec_render_options *o = &request->options;
-    live->asked.wish = (eclat_wish){.camera = -1, .env_degrees = request->env_degrees, .exposure = request->exposure.stops, .without = o->without,
+    live->asked.view = (eclat_view_request){.camera = -1, .env_degrees = request->env_degrees, .exposure = request->exposure.stops, .without = o->without,
                                     .is_denoised = o->denoise != EC_DENOISER_NONE, .tonemap = (eclat_tonemap)request->tonemap, .integrator = (eclat_integrator)o->integrator,
                                     .second_integrator = ECLAT_RASTER, .x = UINT32_MAX, .y = UINT32_MAX};
     live->asked.serial = 1;
@@ -68,7 +68,7 @@ void ec_live_close(ec_live *live)
 {
     pthread_mutex_lock(&live->lock);
     live->quit = true;
-    ec_live_post(live);
+    ec_live_wake(live);
     pthread_mutex_unlock(&live->lock);
     if (live->leave >= 0) eventfd_write(live->leave, 1);
     while (live->threads) pthread_join(live->thread[--live->threads], NULL);

@@ -1,4 +1,4 @@
-/* The loader's thread: loads the scene, and again when a file changes, and sets up sessions for what is wished. Meanwhile the picture goes on with
+/* The loader's thread: loads the scene, and again when a file changes, and sets up sessions for the requested view. Meanwhile the picture goes on with
  * the previous ones. */
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 #define SETTLES 0.3  /* seconds for which files must be unchanged before they are read */
 #define DEAF_LOOKS 1 /* seconds between checks of files whose changes are not reported */
 
-/* The wish for which a session was made, the picture's or the second one's. */
+/* The view that a session was made for, the picture's or the second one's. */
 typedef struct made_for {
     uint32_t serial;   /* of the scene; 0: never */
     eclat_integrator integrator;
@@ -121,12 +121,12 @@ static void hand_over(ec_live *live, eclat_shown which, ec_live_setup *setup)
     pthread_mutex_lock(&live->lock);
     ec_live_setup *unclaimed = live->incoming[which];
     live->incoming[which] = setup;
-    ec_live_post(live);
+    ec_live_wake(live);
     pthread_mutex_unlock(&live->lock);
     ec_live_setup_free(live, unclaimed);
 }
 
-/* Returns false if it failed; it is not tried again until something else is wished or, for the first scene, at all. */
+/* Returns false if it failed; it is not tried again until something else is requested or, for the first scene, at all. */
 static bool set_up(loader *l, eclat_shown which, eclat_integrator integrator, uint64_t without)
 {
     ec_live *live = l->live;
@@ -155,20 +155,20 @@ static bool is_made(const loader *l, eclat_shown which, eclat_integrator integra
 static void wait_for_light(ec_live *live)
 {
     pthread_mutex_lock(&live->lock);
-    while (!live->quit && live->status.pictures == 0 && !*live->status.trouble[ECLAT_TROUBLE_CAMERA] && !live->asked.wish.is_paused)
+    while (!live->quit && live->status.pictures == 0 && !*live->status.trouble[ECLAT_TROUBLE_CAMERA] && !live->asked.view.is_paused)
         pthread_cond_wait(&live->changed, &live->lock);
     pthread_mutex_unlock(&live->lock);
 }
 
-static bool is_picture_made(const loader *l, const eclat_wish *w) { return is_made(l, ECLAT_PICTURE, w->integrator, w->without); }
+static bool is_picture_made(const loader *l, const eclat_view_request *w) { return is_made(l, ECLAT_PICTURE, w->integrator, w->without); }
 
-static bool is_second_made(const loader *l, const eclat_wish *w)
+static bool is_second_made(const loader *l, const eclat_view_request *w)
 {
     return w->second != ECLAT_SECOND_INTEGRATOR || is_made(l, ECLAT_SECOND_PICTURE, w->second_integrator, w->without);
 }
 
-/* Sets up what is wished. The first picture comes from the rasteriser, which is the fastest to build and compile. */
-static void serve(loader *l, const eclat_wish *w)
+/* Sets up the requested view. The first picture comes from the rasteriser, which is the fastest to build and compile. */
+static void serve(loader *l, const eclat_view_request *w)
 {
     if (!is_picture_made(l, w)) {
         bool is_first = l->made[ECLAT_PICTURE].serial == 0;
@@ -185,18 +185,18 @@ static void serve(loader *l, const eclat_wish *w)
     say_loading(l->live, "");
 }
 
-static bool is_served(const loader *l, const eclat_wish *w) { return is_picture_made(l, w) && is_second_made(l, w); }
+static bool is_served(const loader *l, const eclat_view_request *w) { return is_picture_made(l, w) && is_second_made(l, w); }
 
 /* Waits until there is something to do. Returns true when it is time to check the files. */
-static bool wait_for_work(loader *l, bool pending, eclat_wish *wish, bool *quit)
+static bool wait_for_work(loader *l, bool pending, eclat_view_request *view, bool *quit)
 {
     ec_live *live = l->live;
     bool timed = pending || l->watch.is_deaf, late = false;
     struct timespec until = ec_deadline(pending ? SETTLES : DEAF_LOOKS);
     pthread_mutex_lock(&live->lock);
-    while (!live->quit && !late && is_served(l, &live->asked.wish) && l->reloads == live->asked.wish.reloads && l->file_events == live->file_events)
+    while (!live->quit && !late && is_served(l, &live->asked.view) && l->reloads == live->asked.view.reloads && l->file_events == live->file_events)
         late = (timed ? pthread_cond_timedwait(&live->changed, &live->lock, &until) : pthread_cond_wait(&live->changed, &live->lock)) != 0;
-    *wish = live->asked.wish;
+    *view = live->asked.view;
     *quit = live->quit;
     bool told = l->file_events != live->file_events;
     l->file_events = live->file_events;
@@ -229,12 +229,12 @@ void *ec_live_loader(void *argument)
     bool loaded = load(&l, &err) == EC_OK;
     if (!loaded) ec_live_say_trouble(live, ECLAT_TROUBLE_FILES, err.text, true);
     for (bool quit = !loaded; !quit;) {
-        eclat_wish wish;
-        bool look = wait_for_work(&l, pending, &wish, &quit);
+        eclat_view_request view;
+        bool look = wait_for_work(&l, pending, &view, &quit);
         if (quit) break;
-        if (l.reloads != wish.reloads) l.reloads = wish.reloads, pending = look = true;
+        if (l.reloads != view.reloads) l.reloads = view.reloads, pending = look = true;
         if (look) reload_if_changed(&l, &pending);
-        if (!is_served(&l, &wish)) serve(&l, &wish);
+        if (!is_served(&l, &view)) serve(&l, &view);
     }
     ec_watch_stop(&l.watch);
     return NULL;

@@ -24,10 +24,10 @@ static void copy_name(char to[100], const char *name) { snprintf(to, 100, "%.*s"
 static eclat_probe look_at(const ec_renderer *r, uint32_t x, uint32_t y)
 {
     const ec_scene *scene = r->setup[ECLAT_PICTURE]->scene->job.scene;
-    eclat_probe probe = {.x = x, .y = y, .is_inside = x < r->wish.width && y < r->wish.height, .material = -1, .node = -1};
+    eclat_probe probe = {.x = x, .y = y, .is_inside = x < r->view.width && y < r->view.height, .material = -1, .node = -1};
     if (!probe.is_inside) return probe;
     ec_render_options options = r->setup[ECLAT_PICTURE]->options;
-    options.width = r->wish.width, options.height = r->wish.height;
+    options.width = r->view.width, options.height = r->view.height;
     ec_live_hit hit = ec_live_pick(scene, &r->camera, &options, x, y);
     probe.has_surface = isfinite(hit.distance);
     probe.depth = hit.distance;
@@ -45,12 +45,12 @@ static eclat_probe look_at(const ec_renderer *r, uint32_t x, uint32_t y)
 void ec_renderer_probe(ec_renderer *r, const ec_live_asked *asked)
 {
     eclat_status *s = &r->live->status;
-    const eclat_wish *wish = &asked->wish;
-    bool is_elsewhere = wish->x != s->under.x || wish->y != s->under.y;
-    bool points = is_elsewhere || (r->looked_away && !wish->is_moving), picks = asked->picks != s->picks;
+    const eclat_view_request *view = &asked->view;
+    bool is_elsewhere = view->x != s->under.x || view->y != s->under.y;
+    bool points = is_elsewhere || (r->looked_away && !view->is_moving), picks = asked->picks != s->picks;
     eclat_probe under, picked;
     if (!points && !picks) return;
-    if (points) under = look_at(r, wish->x, wish->y), r->looked_away = false;
+    if (points) under = look_at(r, view->x, view->y), r->looked_away = false;
     if (picks) picked = look_at(r, asked->pick_x, asked->pick_y);
     pthread_mutex_lock(&r->live->lock);
     if (points) s->under = under;

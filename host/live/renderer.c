@@ -1,11 +1,11 @@
 /* The renderer's thread: while the camera moves, takes pictures of few pixels in little time; when it rests, finer ones, then the film. Waves are
- * short, since new wishes are read only between two of them. */
+ * short, since new views are read only between two of them. */
 #include <signal.h>
 #include <stdlib.h>
 
 #include "live/renderer.h"
 
-static bool same_tones(const eclat_wish *a, const eclat_wish *b)
+static bool same_tones(const eclat_view_request *a, const eclat_view_request *b)
 {
     return a->exposure == b->exposure && a->tonemap == b->tonemap && a->second == b->second;
 }
@@ -18,14 +18,14 @@ static void fail(ec_renderer *r, const ec_error *err)
 
 static bool is_final(const ec_renderer *r)
 {
-    return (int)r->setup[ECLAT_PICTURE]->options.integrator == (int)r->wish.integrator;
+    return (int)r->setup[ECLAT_PICTURE]->options.integrator == (int)r->view.integrator;
 }
 
 typedef enum duty { QUIT, WAIT, REST, PREVIEW, SECOND, BATCH, SHOW } duty;
 
 static duty choose(const ec_renderer *r)
 {
-    const eclat_wish *w = &r->wish;
+    const eclat_view_request *w = &r->view;
     bool has_film = r->picture.film.batch_count > 0, needs_other = w->second == ECLAT_SECOND_INTEGRATOR && !r->second.other;
     if (!r->setup[ECLAT_PICTURE] || !w->width || w->is_paused) return WAIT;
     if (r->level) return r->broken ? WAIT : PREVIEW;
@@ -55,28 +55,28 @@ static bool take_setups(ec_renderer *r)
     return swapped;
 }
 
-/* Copies the wish, and decides what to do: a new camera, session or tone curve means other work. */
-static duty take_wish(ec_renderer *r, ec_error *err)
+/* Copies the requested view, and decides what to do: a new camera, session or tone curve means other work. */
+static duty take_view(ec_renderer *r, ec_error *err)
 {
     pthread_mutex_lock(&r->live->lock);
     const ec_live_asked asked = r->live->asked;
     bool quit = r->live->quit;
     pthread_mutex_unlock(&r->live->lock);
     if (quit) return QUIT;
-    const eclat_wish *wish = &asked.wish;
+    const eclat_view_request *view = &asked.view;
     ec_renderer_serve_save(r, &asked);
-    bool afresh = take_setups(r) || !ec_live_same_camera(wish, &r->wish), rested = r->wish.is_moving && !wish->is_moving;
-    bool repaint = !same_tones(wish, &r->wish), more = wish->more != r->wish.more;
-    r->wish = *wish;
+    bool afresh = take_setups(r) || !ec_live_same_camera(view, &r->view), rested = r->view.is_moving && !view->is_moving;
+    bool repaint = !same_tones(view, &r->view), more = view->more != r->view.more;
+    r->view = *view;
     r->serial = asked.serial;
     if (afresh) r->broken = false; /* another camera or device may work */
-    if (!r->setup[ECLAT_PICTURE] || !wish->width) return WAIT;
+    if (!r->setup[ECLAT_PICTURE] || !view->width) return WAIT;
     if (afresh && ec_renderer_start_afresh(r, err) != EC_OK) {
         fail(r, err);
         return WAIT;
     }
     if (rested && r->level > 1) r->level /= 2;
-    if (more && r->picture.film.batch_count) ec_live_film_limit(&r->picture, &r->setup[ECLAT_PICTURE]->options, wish->more);
+    if (more && r->picture.film.batch_count) ec_live_film_limit(&r->picture, &r->setup[ECLAT_PICTURE]->options, view->more);
     if (repaint && r->picture.film.batch_count) r->dirty = true;
     else if (repaint && !r->level) r->level = 1;
     ec_renderer_probe(r, &asked);
@@ -125,7 +125,7 @@ void *ec_live_renderer(void *argument)
     ec_error err = {0};
     uint64_t seen = 0;
     ignore_file_size();
-    for (duty d; (d = take_wish(&r, &err)) != QUIT;) {
+    for (duty d; (d = take_view(&r, &err)) != QUIT;) {
         if (d == REST) settle(&r);
         if (d == WAIT || d == REST) wait_for_events(r.live, &seen);
         else if (do_duty(&r, d, &err) != EC_OK) fail(&r, &err);

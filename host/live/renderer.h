@@ -26,7 +26,7 @@ void ec_live_film_stop(ec_live_film *film); /* zero-initialised is fine */
 /* Denoises the film if that is due: whenever its samples have doubled, and at the end; now: in any case. */
 void ec_live_film_clean(ec_live_film *film, const ec_device_info *device, bool now);
 
-/* Sets the limits after `more` wishes for more; the film goes on if they are not met. */
+/* Sets the limits, raised `more` times; the film goes on if they are not met. */
 void ec_live_film_limit(ec_live_film *film, const ec_render_options *options, uint32_t more);
 
 /* Takes another batch, unless go_on stops it: *complete. */
@@ -46,15 +46,15 @@ void ec_live_second_forget(ec_live_second *second); /* called when the camera ha
 ec_result ec_live_second_render(ec_live_second *second, ec_session *session, uint32_t width, uint32_t height, bool (*go_on)(void *user), void *user,
                                 ec_error *err);
 
-/* Shows the second picture that is wished, if it is available: *is_there. mean: the film's. */
-ec_result ec_live_second_show(ec_live_second *second, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, bool *is_there,
+/* Shows the second picture of the view, if it is available: *is_there. mean: the film's. */
+ec_result ec_live_second_show(ec_live_second *second, ec_live *live, const eclat_view_request *view, const ec_film *film, const float *mean, bool *is_there,
                               ec_error *err);
 
 typedef struct ec_renderer {
     ec_live *live;
     ec_live_setup *setup[ECLAT_SHOWN_COUNT];
-    eclat_wish wish;            /* the wish being worked on */
-    uint32_t serial;            /* of that wish */
+    eclat_view_request view;    /* being worked on */
+    uint32_t serial;            /* of that view */
     ec_camera camera;
     uint32_t level;             /* side in pixels of the square for a sample; 0: it is the film's turn */
     uint32_t previews;
@@ -70,7 +70,7 @@ typedef struct ec_renderer {
     int saved;                  /* number of pictures written */
 } ec_renderer;
 
-/* pixel_probe.c: updates surface and node under the wish's pixel, and answers the last pick, if these are not known yet */
+/* pixel_probe.c: updates surface and node under the view's pixel, and answers the last pick, if these are not known yet */
 void ec_renderer_probe(ec_renderer *r, const ec_live_asked *asked);
 void ec_renderer_read_pixel(const ec_film *film, eclat_probe *probe); /* reads the value again, as the film goes on */
 
@@ -81,7 +81,7 @@ ec_result ec_renderer_take_batch(ec_renderer *r, ec_error *err);
 ec_result ec_renderer_take_second(ec_renderer *r, ec_error *err); /* the other integrator */
 ec_result ec_renderer_show(ec_renderer *r, ec_error *err);
 
-/* save.c: saves what was last asked for as soon as its film has samples, whatever is wished since; gives up if it never will. */
+/* save.c: saves what was last asked for as soon as its film has samples, whatever is requested since; gives up if it never will. */
 void ec_renderer_serve_save(ec_renderer *r, const ec_live_asked *asked);
 
 #endif

@@ -14,11 +14,11 @@ static void add_triple(ec_words *w, const char *option, const double xyz[3])
 }
 
 /* Adds the camera that was moved, or the chosen one of the scene; nothing if it is the one that the options ask for. */
-static void add_camera(ec_words *w, bool is_asked, const eclat_wish *wish, const ec_render_options *o)
+static void add_camera(ec_words *w, bool is_asked, const eclat_view_request *view, const ec_render_options *o)
 {
-    const eclat_viewpoint *v = &wish->viewpoint;
+    const eclat_viewpoint *v = &view->viewpoint;
     if (is_asked) return;
-    if (!wish->is_moved) {
+    if (!view->is_moved) {
         ec_words_add(w, "--camera=%u", o->camera);
         return;
     }
@@ -29,7 +29,7 @@ static void add_camera(ec_words *w, bool is_asked, const eclat_wish *wish, const
     else ec_words_add(w, "--parallel=%.9g", v->tall);
 }
 
-/* Tells whether an option of `render` is kept as given: it must be the last of its name, matter for the picture, and not be replaced by the wish. */
+/* Tells whether an option of `render` is kept as given: it must be the last of its name, matter for the picture, and not be replaced by the view. */
 static bool is_kept(const ec_given_options *given, int i, bool is_asked, ec_integrator integrator)
 {
     const char *option = given->list[i].option, *value = given->list[i].value ? given->list[i].value : "";
@@ -50,12 +50,12 @@ static void add_kept(ec_words *w, const ec_given_options *given, bool is_asked, 
     }
 }
 
-char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const eclat_wish *wish, const ec_render_options *o,
+char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const eclat_view_request *view, const ec_render_options *o,
                       const ec_outputs *outputs)
 {
     ec_words w = {0};
     const ec_render_request *request = &live->request;
-    const bool is_asked = !wish->is_moved && o->camera == scene->request.options.camera;
+    const bool is_asked = !view->is_moved && o->camera == scene->request.options.camera;
     const bool is_still = request->choice.shutter && !ec_traces_paths(o->integrator); /* these show the middle of the exposure */
     const uint64_t without = is_still ? o->without & ~EC_FEATURE_MOTION : o->without;
     ec_words_add(&w, "eclat");
@@ -63,19 +63,19 @@ char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const ecl
     ec_words_add_file(&w, request->scene);
     add_kept(&w, &live->given, is_asked, o->integrator);
     ec_words_add(&w, "--size=%ux%u", o->width, o->height);
-    add_camera(&w, is_asked, wish, o);
+    add_camera(&w, is_asked, view, o);
     if (o->integrator != EC_INTEGRATOR_PATH) ec_words_add(&w, "--integrator=%s", ec_integrator_names[o->integrator]);
     if (o->integrator == EC_INTEGRATOR_PATH && ec_scene_casts(scene->job.scene)) ec_words_add(&w, "--light-paths=%.9g", o->light_paths);
     if (is_still) ec_words_add(&w, "--at=%.17g", 0.5 * (request->choice.opens + request->choice.closes));
-    if (wish->env_degrees != 0) ec_words_add(&w, "--env-rotate=%.9g", wish->env_degrees);
+    if (view->env_degrees != 0) ec_words_add(&w, "--env-rotate=%.9g", view->env_degrees);
     for (uint32_t i = 0; i < ec_feature_count; i++)
         if (without & ec_features[i].bit) ec_words_add(&w, "--without=%s", ec_features[i].name);
     if (o->denoise == EC_DENOISER_AUTO) ec_words_add(&w, "--denoise");
     else if (o->denoise) ec_words_add(&w, "--denoise=%s", ec_denoiser_names[o->denoise]);
     ec_words_add(&w, "--spp=%u", o->spp);
     if (o->replicates) ec_words_add(&w, "--replicates=%u", o->replicates);
-    if (wish->exposure != 0) ec_words_add(&w, "--exposure=%.9g", wish->exposure);
-    if (wish->tonemap != ECLAT_TONEMAP_NEUTRAL) ec_words_add(&w, "--tonemap=%s", ec_tonemap_names[wish->tonemap]);
+    if (view->exposure != 0) ec_words_add(&w, "--exposure=%.9g", view->exposure);
+    if (view->tonemap != ECLAT_TONEMAP_NEUTRAL) ec_words_add(&w, "--tonemap=%s", ec_tonemap_names[view->tonemap]);
     for (int i = 0; i < outputs->count; i++) {
         ec_words_add(&w, "-o");
         ec_words_add_file(&w, outputs->file[i].path);

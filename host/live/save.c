@@ -17,17 +17,17 @@ static void number_outputs(ec_outputs *outputs, int number)
 }
 
 /* Returns the options of the command that renders the picture again. */
-static ec_render_options options_of(const ec_renderer *r, const eclat_wish *wish)
+static ec_render_options options_of(const ec_renderer *r, const eclat_view_request *view)
 {
     const ec_live_setup *s = r->setup[ECLAT_PICTURE];
     ec_render_options options = s->options;
-    options.width = wish->width;
-    options.height = wish->height;
+    options.width = view->width;
+    options.height = view->height;
     options.spp = (uint32_t)ec_film_samples_of_all(&r->picture.film);
     options.more_effects = r->live->request.options.more_effects;
     options.error_target = options.time_limit = 0;
     options.denoise = r->picture.limits.denoise;
-    if (!wish->is_moved) options.camera = ec_live_camera(s->scene, wish);
+    if (!view->is_moved) options.camera = ec_live_camera(s->scene, view);
     return options;
 }
 
@@ -48,7 +48,7 @@ static ec_render_stats stats_of(const ec_renderer *r, const ec_render_options *o
 }
 
 /* Writes files as if the loaded job had rendered the film. */
-static ec_result write_files(const ec_renderer *r, const eclat_wish *wish, ec_render_request *request, const char *command, ec_error *err)
+static ec_result write_files(const ec_renderer *r, const eclat_view_request *view, ec_render_request *request, const char *command, ec_error *err)
 {
     const ec_live_scene *scene = r->setup[ECLAT_PICTURE]->scene;
     ec_render_job job = scene->job;
@@ -60,14 +60,14 @@ static ec_result write_files(const ec_renderer *r, const eclat_wish *wish, ec_re
     job.film = r->picture.film;
     job.denoised = r->picture.denoised;
     job.stats = stats_of(r, &request->options);
-    if (wish->is_moved) job.viewpoint = ec_live_viewpoint(wish);
+    if (view->is_moved) job.viewpoint = ec_live_viewpoint(view);
     else if (index != scene->request.options.camera)
         ec_camera_viewpoint(camera, job.scene->center, ec_camera_reach(job.scene, camera), &job.viewpoint);
-    if (wish->is_moved) snprintf(job.camera_text, sizeof job.camera_text, "of the preview window");
+    if (view->is_moved) snprintf(job.camera_text, sizeof job.camera_text, "of the preview window");
     else ec_camera_describe(job.scene, index, job.camera_text, sizeof job.camera_text);
     const size_t used = strlen(job.environment_text);
-    if (wish->env_degrees != 0)
-        snprintf(job.environment_text + used, sizeof job.environment_text - used, ", turned by %g degrees", wish->env_degrees);
+    if (view->env_degrees != 0)
+        snprintf(job.environment_text + used, sizeof job.environment_text - used, ", turned by %g degrees", view->env_degrees);
     ec_render_report report = ec_render_job_report(&job, names);
     return ec_render_job_write(&job, &request->outputs, &report, err);
 }
@@ -80,20 +80,20 @@ static void tell_files(const ec_outputs *outputs, const char *command, char *tol
     if (used > 0 && (size_t)used < size) snprintf(told + used, size - (size_t)used, "; again by: %s", command);
 }
 
-static ec_result save(ec_renderer *r, const eclat_wish *wish, char *told, size_t size, ec_error *err)
+static ec_result save(ec_renderer *r, const eclat_view_request *view, char *told, size_t size, ec_error *err)
 {
     const ec_live *live = r->live;
     ec_render_request request = live->request;
-    request.options = options_of(r, wish);
-    request.exposure = (ec_exposure){.stops = wish->exposure};
-    request.tonemap = (ec_tonemap)wish->tonemap;
+    request.options = options_of(r, view);
+    request.exposure = (ec_exposure){.stops = view->exposure};
+    request.tonemap = (ec_tonemap)view->tonemap;
     if (request.outputs.count == 0) EC_TRY(ec_outputs_add_default(&request.outputs, request.scene, err));
     number_outputs(&request.outputs, r->saved + 1);
     EC_TRY(ec_render_check_files(&request, err));
-    char *command = ec_live_command(live, r->setup[ECLAT_PICTURE]->scene, wish, &request.options, &request.outputs);
+    char *command = ec_live_command(live, r->setup[ECLAT_PICTURE]->scene, view, &request.options, &request.outputs);
     if (!command) return ec_fail(err, "out of memory for a command line");
     if (request.options.denoise) ec_live_film_clean(&r->picture, &r->live->device, true);
-    ec_result result = write_files(r, wish, &request, command, err);
+    ec_result result = write_files(r, view, &request, command, err);
     if (result == EC_OK) {
         r->saved++;
         tell_files(&request.outputs, command, told, size);
@@ -119,10 +119,10 @@ void ec_renderer_serve_save(ec_renderer *r, const ec_live_asked *asked)
     if (asked->saves == r->saves) return;
     char told[2048] = "";
     ec_error err = {0};
-    if (r->picture.film.batch_count && ec_live_same_camera(&asked->saved, &r->wish)) {
+    if (r->picture.film.batch_count && ec_live_same_camera(&asked->saved, &r->view)) {
         bool is_unsaved = save(r, &asked->saved, told, sizeof told, &err) != EC_OK;
         finish(r, asked, is_unsaved, is_unsaved ? err.text : told);
-    } else if (!ec_live_same_camera(&asked->saved, &asked->wish)) {
+    } else if (!ec_live_same_camera(&asked->saved, &asked->view)) {
         finish(r, asked, true, "not saved: the camera moved before the first samples were complete; keep it still and save again");
     }
 }

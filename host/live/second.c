@@ -48,14 +48,14 @@ static void resample(const ec_live *live, float *out, uint32_t width, uint32_t h
 }
 
 /* Shows the file at the picture's size, to compare pixel by pixel. */
-static ec_result show_file(ec_live_second *s, ec_live *live, const eclat_wish *wish, uint32_t width, uint32_t height, ec_error *err)
+static ec_result show_file(ec_live_second *s, ec_live *live, const eclat_view_request *view, uint32_t width, uint32_t height, ec_error *err)
 {
     if (s->fitted_width != width || s->fitted_height != height) free(s->fitted), s->fitted = NULL;
     if (!s->fitted && (s->fitted = malloc((size_t)width * height * 3 * sizeof *s->fitted))) resample(live, s->fitted, width, height);
     if (!s->fitted) return ec_fail(err, "out of memory for a second picture");
     s->fitted_width = width;
     s->fitted_height = height;
-    return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->fitted, width, height, err);
+    return ec_live_show(live, view, ECLAT_SECOND_PICTURE, s->fitted, width, height, err);
 }
 
 /* Draws the standard error as `eclat compare --diff` draws a difference. */
@@ -92,16 +92,16 @@ static bool has(const ec_live_second *s, const ec_live *live, eclat_second kind,
     }
 }
 
-ec_result ec_live_second_show(ec_live_second *s, ec_live *live, const eclat_wish *wish, const ec_film *film, const float *mean, bool *is_there,
+ec_result ec_live_second_show(ec_live_second *s, ec_live *live, const eclat_view_request *view, const ec_film *film, const float *mean, bool *is_there,
                               ec_error *err)
 {
     uint8_t *bytes;
-    *is_there = has(s, live, wish->second, film);
+    *is_there = has(s, live, view->second, film);
     if (!*is_there) return EC_OK;
-    if (wish->second == ECLAT_SECOND_FILE) return show_file(s, live, wish, film->width, film->height, err);
-    if (wish->second == ECLAT_SECOND_INTEGRATOR) return ec_live_show(live, wish, ECLAT_SECOND_PICTURE, s->other, film->width, film->height, err);
+    if (view->second == ECLAT_SECOND_FILE) return show_file(s, live, view, film->width, film->height, err);
+    if (view->second == ECLAT_SECOND_INTEGRATOR) return ec_live_show(live, view, ECLAT_SECOND_PICTURE, s->other, film->width, film->height, err);
     EC_TRY(ec_live_canvas(live, ECLAT_SECOND_PICTURE, film->width, film->height, &bytes, err));
-    if (wish->second == ECLAT_SECOND_ERROR) draw_error(film, mean, bytes);
+    if (view->second == ECLAT_SECOND_ERROR) draw_error(film, mean, bytes);
     else draw_samples(film, bytes);
     ec_live_hand_out(live, ECLAT_SECOND_PICTURE);
     return EC_OK;

@@ -57,8 +57,8 @@ ec_result ec_live_setup_make(ec_live *live, ec_live_scene *scene, ec_integrator 
     pthread_mutex_lock(&live->lock);
     s->scene = scene;
     scene->users++;
-    const eclat_wish *wish = &live->asked.wish;
-    if (wish->width) s->options.width = wish->width, s->options.height = wish->height;
+    const eclat_view_request *view = &live->asked.view;
+    if (view->width) s->options.width = view->width, s->options.height = view->height;
     pthread_mutex_unlock(&live->lock);
     ec_result result = ec_cl_open(&live->device, &s->cl, err);
     if (result == EC_OK && !s->options.wave && (s->cl.info.type & CL_DEVICE_TYPE_CPU)) s->options.wave = WAVE_ON_CPU;

@@ -1,6 +1,6 @@
 /* A live session as described in eclat.h. It has three threads: the renderer's (renderer.c), which takes batches and previews from a session of
  * render/; the loader's (loader.c), which reads files and sets these sessions up; and the watcher's (watcher.c), which hears of changed files. They
- * share ec_live with the caller, under one lock, and sleep when there is nothing to do. Wishes go in; facts, status and pictures come out. */
+ * share ec_live with the caller, under one lock, and sleep when there is nothing to do. View requests go in; facts, status and pictures come out. */
 #ifndef EC_LIVE_SHARED_H
 #define EC_LIVE_SHARED_H
 
@@ -12,12 +12,12 @@
 #include "jobs/render_job.h"
 #include "render/session.h"
 
-#define EC_LIVE_SLICE 0.02 /* seconds of a wave: the longest delay of a new wish */
+#define EC_LIVE_SLICE 0.02 /* seconds of a wave: the longest delay of a new view */
 
 /* The requests of the caller. */
 typedef struct ec_live_asked {
-    eclat_wish wish, saved;       /* saved: that of the last save */
-    uint32_t serial;              /* counts wishes */
+    eclat_view_request view, saved; /* saved: that of the last save */
+    uint32_t serial;              /* counts requested views */
     uint32_t saves, picks, pick_x, pick_y;
 } ec_live_asked;
 
@@ -36,7 +36,7 @@ typedef struct ec_live_setup {
     ec_cl cl;
     ec_live_scene *scene;
     ec_session *session;
-    uint64_t without;             /* as wished; options leave out what the scene does not call for, and perhaps more */
+    uint64_t without;             /* as requested; options leave out what the scene does not call for, and perhaps more */
     ec_render_options options;
     ec_render_stats stats;
 } ec_live_setup;
@@ -54,7 +54,7 @@ typedef struct ec_live_shown {
 
 enum { EC_LIVE_THREADS = 3 };
 typedef struct ec_live {
-    ec_render_request request;    /* settled, but with an unturned environment, which wishes turn */
+    ec_render_request request;    /* settled, but with an unturned environment, which views turn */
     ec_given_options given;       /* as given by the caller; for commands */
     ec_listener listener;
     eclat_live_listener hears;
@@ -73,7 +73,7 @@ typedef struct ec_live {
     bool quit;
     uint32_t file_events;         /* counts events near the scene's files */
     ec_live_asked asked;
-    uint32_t settled;             /* serial of the last wish that was completely fulfilled */
+    uint32_t settled;             /* serial of the last view that was completely rendered */
     eclat_status status;          /* all but is_settled */
     eclat_facts facts;
     ec_live_scene *scene;         /* the scene of the facts, of which the session is a user */
@@ -85,8 +85,8 @@ typedef struct ec_live {
 ec_result ec_live_open(ec_live *live, const char *against, ec_error *err);
 void ec_live_close(ec_live *live);
 
-/* tell.c: post wakes the session's threads, tell the caller; both with the lock held. */
-void ec_live_post(ec_live *live);
+/* tell.c: wake wakes the session's threads, tell the caller; both with the lock held. */
+void ec_live_wake(ec_live *live);
 void ec_live_tell(ec_live *live);
 /* To be called without the lock. text "": the trouble is over; is_final: there will never be a picture. */
 void ec_live_say_trouble(ec_live *live, eclat_trouble whose, const char *text, bool is_final);
@@ -105,7 +105,7 @@ void *ec_live_watcher(void *live);
  * the tone mapper. */
 ec_result ec_live_canvas(ec_live *live, eclat_shown which, uint32_t width, uint32_t height, uint8_t **rgb, ec_error *err);
 void ec_live_hand_out(ec_live *live, eclat_shown which);
-ec_result ec_live_show(ec_live *live, const eclat_wish *wish, eclat_shown which, const float *rgb, uint32_t width, uint32_t height, ec_error *err);
+ec_result ec_live_show(ec_live *live, const eclat_view_request *view, eclat_shown which, const float *rgb, uint32_t width, uint32_t height, ec_error *err);
 
 /* pick.c: finds the surface that a pixel's centre sees, by testing all triangles. */
 typedef struct ec_live_hit {
@@ -115,25 +115,25 @@ typedef struct ec_live_hit {
 ec_live_hit ec_live_pick(const ec_scene *scene, const ec_camera *camera, const ec_render_options *options, uint32_t x, uint32_t y);
 void ec_live_node_sphere(const ec_scene *scene, uint32_t node, double center[3], double *radius);
 
-/* wish.c: changes a wish to what is possible; tells whether two wishes are for the same picture, except for its colours. */
-void ec_live_limit_wish(eclat_wish *wish);
-bool ec_live_same_camera(const eclat_wish *a, const eclat_wish *b);
+/* view_request.c: changes a view to what is possible; tells whether two views have the same picture, except for its colours. */
+void ec_live_limit_view(eclat_view_request *view);
+bool ec_live_same_camera(const eclat_view_request *a, const eclat_view_request *b);
 
 /* repeat_command.c: malloc'ed, NULL when out of memory. options: include the picture's size, camera and samples. */
-char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const eclat_wish *wish, const ec_render_options *options,
+char *ec_live_command(const ec_live *live, const ec_live_scene *scene, const eclat_view_request *view, const ec_render_options *options,
                       const ec_outputs *outputs);
 
-static inline ec_viewpoint ec_live_viewpoint(const eclat_wish *wish)
+static inline ec_viewpoint ec_live_viewpoint(const eclat_view_request *view)
 {
     ec_viewpoint viewpoint;
-    memcpy(&viewpoint, &wish->viewpoint, sizeof viewpoint);
+    memcpy(&viewpoint, &view->viewpoint, sizeof viewpoint);
     return viewpoint;
 }
 
-/* Returns the camera of the scene that is wished, if it was not moved. */
-static inline uint32_t ec_live_camera(const ec_live_scene *scene, const eclat_wish *wish)
+/* Returns the index of the scene's camera from which the view starts. */
+static inline uint32_t ec_live_camera(const ec_live_scene *scene, const eclat_view_request *view)
 {
-    return wish->camera >= 0 && (uint32_t)wish->camera < scene->job.scene->camera_count ? (uint32_t)wish->camera : scene->request.options.camera;
+    return view->camera >= 0 && (uint32_t)view->camera < scene->job.scene->camera_count ? (uint32_t)view->camera : scene->request.options.camera;
 }
 
 #endif

@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "live/shared.h"
 
-void ec_live_post(ec_live *live)
+void ec_live_wake(ec_live *live)
 {
     live->events++;
     pthread_cond_broadcast(&live->changed);
@@ -14,7 +14,7 @@ void ec_live_post(ec_live *live)
 
 void ec_live_tell(ec_live *live)
 {
-    ec_live_post(live);
+    ec_live_wake(live);
     if (live->hears.wake) live->hears.wake(live->hears.user);
 }
 
@@ -59,11 +59,11 @@ void ec_live_hand_out(ec_live *live, eclat_shown which)
     pthread_mutex_unlock(&live->lock);
 }
 
-ec_result ec_live_show(ec_live *live, const eclat_wish *wish, eclat_shown which, const float *rgb, uint32_t width, uint32_t height, ec_error *err)
+ec_result ec_live_show(ec_live *live, const eclat_view_request *view, eclat_shown which, const float *rgb, uint32_t width, uint32_t height, ec_error *err)
 {
     uint8_t *bytes;
     EC_TRY(ec_live_canvas(live, which, width, height, &bytes, err));
-    ec_tonemap_rgb(rgb, bytes, (uint64_t)width * height, (float)wish->exposure, (ec_tonemap)wish->tonemap);
+    ec_tonemap_rgb(rgb, bytes, (uint64_t)width * height, (float)view->exposure, (ec_tonemap)view->tonemap);
     ec_live_hand_out(live, which);
     return EC_OK;
 }

@@ -23,7 +23,7 @@ void *ec_live_watcher(void *argument)
         drain(live->files);
         pthread_mutex_lock(&live->lock);
         live->file_events++;
-        ec_live_post(live);
+        ec_live_wake(live);
         pthread_mutex_unlock(&live->lock);
         poll(on, 1, BETWEEN_TELLS);
     }

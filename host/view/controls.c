@@ -16,13 +16,13 @@ static ec_window *of(GLFWwindow *glfw) { return glfwGetWindowUserPointer(glfw); 
 /* Finds the pixel of the picture under the cursor; UINT32_MAX: none. */
 static void find_pixel(const ec_window *w, uint32_t *px, uint32_t *py)
 {
-    const eclat_wish *wish = &w->input.wish;
+    const eclat_view_request *view = &w->input.view;
     int width, height;
     glfwGetFramebufferSize(w->glfw, &width, &height);
-    double x = w->cursor_x * wish->width / fmax(width, 1), y = w->cursor_y * wish->height / fmax(height, 1),
-           half = 0.5 * wish->width;
-    if (w->input.layout == EC_LAYOUT_BESIDE) x = 2 * (x < half ? x : x - half), y = 2 * y - 0.5 * wish->height; /* as drawn in window.c */
-    bool inside = w->points && x >= 0 && y >= 0 && x < wish->width && y < wish->height;
+    double x = w->cursor_x * view->width / fmax(width, 1), y = w->cursor_y * view->height / fmax(height, 1),
+           half = 0.5 * view->width;
+    if (w->input.layout == EC_LAYOUT_BESIDE) x = 2 * (x < half ? x : x - half), y = 2 * y - 0.5 * view->height; /* as drawn in window.c */
+    bool inside = w->points && x >= 0 && y >= 0 && x < view->width && y < view->height;
     *px = inside ? (uint32_t)x : UINT32_MAX;
     *py = inside ? (uint32_t)y : UINT32_MAX;
 }
@@ -36,7 +36,7 @@ static void on_cursor(GLFWwindow *glfw, double x, double y)
 {
     ec_window *w = of(glfw);
     double scale = ec_window_density(glfw), dx = x * scale - w->cursor_x, dy = y * scale - w->cursor_y;
-    double height = fmax(w->input.wish.height, 1);
+    double height = fmax(w->input.view.height, 1);
     w->cursor_x = x * scale;
     w->cursor_y = y * scale;
     w->points = w->dirty = true;
@@ -55,7 +55,7 @@ void ec_window_point(ec_window *w)
     glfwGetCursorPos(w->glfw, &at_x, &at_y);
     bool at_corner = at_x == 0 && at_y == 0 && glfwGetWindowAttrib(w->glfw, GLFW_HOVERED); /* which GLFW does not report under X11 */
     if (at_corner && (w->cursor_x != 0 || w->cursor_y != 0 || !w->points)) on_cursor(w->glfw, 0, 0);
-    find_pixel(w, &w->input.wish.x, &w->input.wish.y);
+    find_pixel(w, &w->input.view.x, &w->input.view.y);
 }
 
 static void on_button(GLFWwindow *glfw, int button, int action, int mods)

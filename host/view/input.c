@@ -11,13 +11,13 @@ static const double half_turn = 3.14159265358979323846;
 static const eclat_viewpoint *scene_camera(const ec_view_input *in)
 {
     const eclat_facts *f = &in->facts;
-    return &f->cameras[in->wish.camera < 0 ? f->camera : (uint32_t)in->wish.camera];
+    return &f->cameras[in->view.camera < 0 ? f->camera : (uint32_t)in->view.camera];
 }
 
 /* Keeps the camera where it was, even if it was not moved, whatever the file says now. */
 void ec_view_input_learn(ec_view_input *in, const eclat_facts *facts)
 {
-    eclat_wish *w = &in->wish;
+    eclat_view_request *w = &in->view;
     bool is_first = in->facts.serial == 0, is_there = w->camera < (int32_t)facts->camera_count;
     in->facts = *facts;
     if (!is_there) w->camera = 0;
@@ -29,12 +29,12 @@ void ec_view_input_learn(ec_view_input *in, const eclat_facts *facts)
 /* Returns the viewpoint; from here on the camera is the window's own. */
 static eclat_viewpoint *take_camera(ec_view_input *in)
 {
-    eclat_wish *w = &in->wish;
+    eclat_view_request *w = &in->view;
     if (!w->is_moved) ec_orbit_settle(&w->viewpoint);
     return &w->viewpoint;
 }
 
-static void moved(ec_view_input *in) { in->wish.is_moved = in->wish.is_moving = in->moved = true; }
+static void moved(ec_view_input *in) { in->view.is_moved = in->view.is_moving = in->moved = true; }
 
 /* Multiplies the distance, within limits relative to the scene's radius where floats can tell eye and target apart, and the scene from a point; from
  * beyond them it only moves back. */
@@ -53,20 +53,20 @@ static void frame(ec_view_input *in)
     const eclat_probe *node = in->selected.node >= 0 ? &in->selected : &in->under;
     bool some = node->node >= 0 && node->radius > 0;
     ec_orbit_frame(take_camera(in), some ? node->center : in->facts.center, some ? node->radius : in->facts.radius,
-                   (double)in->wish.width / in->wish.height);
+                   (double)in->view.width / in->view.height);
     moved(in);
 }
 
 static void show_camera(ec_view_input *in, int32_t camera)
 {
-    in->wish.is_moved = false;
-    in->wish.camera = camera;
-    in->wish.viewpoint = *scene_camera(in);
+    in->view.is_moved = false;
+    in->view.camera = camera;
+    in->view.viewpoint = *scene_camera(in);
 }
 
 static void reset(ec_view_input *in)
 {
-    eclat_wish *w = &in->wish;
+    eclat_view_request *w = &in->view;
     show_camera(in, -1);
     w->exposure = in->first.exposure;
     w->tonemap = in->first.tonemap;
@@ -76,8 +76,8 @@ static void reset(ec_view_input *in)
 
 static void next_camera(ec_view_input *in)
 {
-    uint32_t shown = in->wish.camera < 0 ? in->facts.camera : (uint32_t)in->wish.camera;
-    show_camera(in, in->wish.is_moved ? in->wish.camera : (int32_t)((shown + 1) % in->facts.camera_count));
+    uint32_t shown = in->view.camera < 0 ? in->facts.camera : (uint32_t)in->view.camera;
+    show_camera(in, in->view.is_moved ? in->view.camera : (int32_t)((shown + 1) % in->facts.camera_count));
 }
 
 static void next_second(ec_view_input *in)
@@ -89,12 +89,12 @@ static void next_second(ec_view_input *in)
 
 static void turn_environment(ec_view_input *in, double degrees)
 {
-    if (in->facts.has_map) in->wish.env_degrees = fmod(in->wish.env_degrees + degrees, 360);
+    if (in->facts.has_map) in->view.env_degrees = fmod(in->view.env_degrees + degrees, 360);
 }
 
 void ec_view_input_do(ec_view_input *in, ec_view_action action)
 {
-    eclat_wish *w = &in->wish;
+    eclat_view_request *w = &in->view;
     bool of_scene = action == EC_DO_CAMERA || action == EC_DO_FRAME || action == EC_DO_RESET;
     if (of_scene && !in->facts.serial) return; /* the scene is being loaded; other actions apply to it once it is shown */
     switch (action) {
@@ -161,5 +161,5 @@ void ec_view_input_key(ec_view_input *in, const char *name)
     const eclat_effect *effect = in->effects && is_digit(name) ? ec_view_effect_of_digit(&in->facts, in->effects_page, name[0] - '0') : NULL;
     if (!in->effects || !is_digit(name)) ec_view_input_do(in, ec_view_action_of(name));
     else if (name[0] == '0') in->effects_page++;
-    else if (effect) in->wish.without ^= effect->bit;
+    else if (effect) in->view.without ^= effect->bit;
 }

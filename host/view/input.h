@@ -1,4 +1,4 @@
-/* Changes the wish by keys, mouse and scripts. Independent of the window. */
+/* Changes the requested view by keys, mouse and scripts. Independent of the window. */
 #ifndef EC_VIEW_INPUT_H
 #define EC_VIEW_INPUT_H
 
@@ -11,8 +11,8 @@ typedef enum ec_view_layout { EC_LAYOUT_ONE, EC_LAYOUT_WIPE, EC_LAYOUT_BESIDE, E
 typedef enum ec_view_lines { EC_LINES_ALL, EC_LINES_ONE, EC_LINES_NONE, EC_LINES_COUNT } ec_view_lines;
 
 typedef struct ec_view_input {
-    eclat_live *live;        /* to which saves are reported at once, as they belong to the wish of that moment */
-    eclat_wish wish, first;  /* first: that of the options. If the camera was not moved, viewpoint is that of the scene's */
+    eclat_live *live;        /* to which saves are reported at once, as they belong to the view of that moment */
+    eclat_view_request view, first;  /* first: that of the options. If the camera was not moved, viewpoint is that of the scene's */
     eclat_facts facts;
     ec_view_layout layout;
     eclat_second second;     /* shown in layouts with two pictures */

@@ -98,15 +98,15 @@ static void format_probe(const ec_window *w, char *text, size_t size)
 
 static void format_settings(const ec_window *w, char *text, size_t size)
 {
-    const eclat_wish *wish = &w->input.wish;
+    const eclat_view_request *view = &w->input.view;
     const eclat_facts *f = &w->input.facts;
     char turned[48] = "", without[300] = "", camera[32] = "moved";
     size_t used = 0;
-    if (wish->env_degrees != 0) snprintf(turned, sizeof turned, "  environment %g deg", wish->env_degrees);
+    if (view->env_degrees != 0) snprintf(turned, sizeof turned, "  environment %g deg", view->env_degrees);
     for (uint32_t i = 0; i < f->effect_count && used < sizeof without; i++)
-        if (wish->without & f->effects[i].bit) used += (size_t)snprintf(without + used, sizeof without - used, " %s", f->effects[i].name);
-    if (!wish->is_moved) snprintf(camera, sizeof camera, "%u", wish->camera < 0 ? f->camera : (uint32_t)wish->camera);
-    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", f->device, camera, wish->exposure, tonemap_name(wish->tonemap), turned,
+        if (view->without & f->effects[i].bit) used += (size_t)snprintf(without + used, sizeof without - used, " %s", f->effects[i].name);
+    if (!view->is_moved) snprintf(camera, sizeof camera, "%u", view->camera < 0 ? f->camera : (uint32_t)view->camera);
+    snprintf(text, size, "H: help  %s  camera %s  exposure %+.2f  %s%s%s%s", f->device, camera, view->exposure, tonemap_name(view->tonemap), turned,
              used ? "  without" : "", without);
 }
 
@@ -150,13 +150,13 @@ static double draw_foot(const ec_window *w, const ec_view_text *text, double wid
 /* Draws the name of the second picture in its upper right corner. */
 static void draw_label(const ec_window *w, const ec_view_text *text, double width, double height)
 {
-    const eclat_wish *wish = &w->input.wish;
+    const eclat_view_request *view = &w->input.view;
     char line[300];
     ec_view_block b;
-    switch (wish->second) {
+    switch (view->second) {
     case ECLAT_SECOND_ERROR: snprintf(line, sizeof line, "standard error: black 0.1 %%, yellow 100 %%"); break;
     case ECLAT_SECOND_SAMPLES: snprintf(line, sizeof line, "samples: black 0, yellow %" PRIu64, w->status.samples); break;
-    case ECLAT_SECOND_INTEGRATOR: snprintf(line, sizeof line, "%s", integrators[wish->second_integrator]); break;
+    case ECLAT_SECOND_INTEGRATOR: snprintf(line, sizeof line, "%s", integrators[view->second_integrator]); break;
     default: snprintf(line, sizeof line, "%.250s", w->request->against ? w->request->against : ""); break;
     }
     ec_block_start(&b, text, 0.5 * width, height);
@@ -176,6 +176,6 @@ void ec_view_overlay_draw(const ec_window *w, double width, double height)
     double foot = in->lines != EC_LINES_NONE ? draw_foot(w, text, width, height) : 0;
     if (in->layout != EC_LAYOUT_ONE && in->lines != EC_LINES_NONE)
         draw_label(w, text, width, in->layout == EC_LAYOUT_BESIDE ? 0.75 * height : height);
-    if (in->effects) ec_view_effects_draw(&in->facts, in->effects_page, in->wish.without, text, width, height);
+    if (in->effects) ec_view_effects_draw(&in->facts, in->effects_page, in->view.without, text, width, height);
     else draw_messages(w, text, width, height, foot);
 }

@@ -130,8 +130,8 @@ static void take_size(ec_window *w, bool hidden)
 
 void ec_window_fit(ec_window *w, int width, int height)
 {
-    w->input.wish.width = (uint32_t)fmin(fmax(width, 1), w->textures.largest); /* a larger window shows it stretched */
-    w->input.wish.height = (uint32_t)fmin(fmax(height, 1), w->textures.largest);
+    w->input.view.width = (uint32_t)fmin(fmax(width, 1), w->textures.largest); /* a larger window shows it stretched */
+    w->input.view.height = (uint32_t)fmin(fmax(height, 1), w->textures.largest);
 }
 
 void ec_window_stand(ec_window *w, uint32_t width, uint32_t height)

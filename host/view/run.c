@@ -1,4 +1,4 @@
-/* The window's loop: takes events, sends wishes, draws frames. Sleeps in glfwWaitEvents unless something moves. */
+/* The window's loop: takes events, requests views, draws frames. Sleeps in glfwWaitEvents unless something moves. */
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <math.h>
@@ -53,18 +53,18 @@ static bool key_at(size_t i, const char **shown, const char **help)
     return true;
 }
 
-/* Sends the current wish to the session, and takes what is new. */
+/* Requests the current view from the session, and takes what is new. */
 static void exchange(ec_window *w)
 {
     ec_view_input *in = &w->input;
     const uint32_t saves = w->status.saves;
     const double now = glfwGetTime();
     if (in->moved) w->moved_at = now, in->moved = false;
-    if (now - w->moved_at > (w->drag < 0 ? RESTS_AFTER : 4 * RESTS_AFTER)) in->wish.is_moving = false; /* during a drag the mouse may pause */
-    in->wish.is_paused = w->iconified;
+    if (now - w->moved_at > (w->drag < 0 ? RESTS_AFTER : 4 * RESTS_AFTER)) in->view.is_moving = false; /* during a drag the mouse may pause */
+    in->view.is_paused = w->iconified;
     const eclat_facts *facts = eclat_live_facts(w->live);
     if (facts->serial != in->facts.serial) ec_view_input_learn(in, facts);
-    eclat_live_wish(w->live, &in->wish);
+    eclat_live_set_view(w->live, &in->view);
     eclat_status status;
     eclat_live_status(w->live, &status);
     w->dirty |= memcmp(&w->status, &status, sizeof status) != 0;
@@ -84,7 +84,7 @@ static double time_to_wait(const ec_window *w, double last)
     bool flying = w->s_down > 0 || w->flies;
     static const int keys[] = {GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) flying |= glfwGetKey(w->glfw, keys[i]) == GLFW_PRESS;
-    if (w->request->script || flying || w->input.wish.is_moving || (w->dirty && !w->iconified))
+    if (w->request->script || flying || w->input.view.is_moving || (w->dirty && !w->iconified))
         return fmax(FRAME - (glfwGetTime() - last), 0.0005);
     return w->telling ? fmax(w->told_at + TOLD_FOR - glfwGetTime(), 0) + 0.001 : INFINITY;
 }
@@ -144,7 +144,7 @@ static void loop(ec_window *w)
         w->dirty |= ec_view_textures_take(&w->textures, w->live);
         if (w->dirty && !w->iconified && now - last >= 0.9 * FRAME) {
             ec_window_draw(w);
-            ec_frames_add(&w->frames, glfwGetTime(), w->request->script ? w->script.moves : w->input.wish.is_moving, w->status.pictures);
+            ec_frames_add(&w->frames, glfwGetTime(), w->request->script ? w->script.moves : w->input.view.is_moving, w->status.pictures);
             last = now;
         }
         if (glfwWindowShouldClose(w->glfw)) w->input.quit = true;
@@ -170,9 +170,9 @@ static eclat_result run(const ec_view_request *request, eclat_error *err)
     ec_window w = {.request = request};
     eclat_result result = eclat_live_open(request->job, request->against, &listener, &w.live, err);
     if (result != ECLAT_OK) return result;
-    w.input = (ec_view_input){.live = w.live, .first = eclat_live_wished(w.live), .second = ECLAT_SECOND_ERROR, .has_file = request->against != NULL,
+    w.input = (ec_view_input){.live = w.live, .first = eclat_live_view(w.live), .second = ECLAT_SECOND_ERROR, .has_file = request->against != NULL,
                               .under = {.node = -1}, .selected = {.node = -1}};
-    w.input.wish = w.input.first;
+    w.input.view = w.input.first;
     if (request->script) result = ec_script_read(&w.script, request->script, err);
     if (result == ECLAT_OK) result = ec_window_open(&w, err);
     if (result == ECLAT_OK) {

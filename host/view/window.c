@@ -55,10 +55,10 @@ void ec_window_size(ec_window *w, uint32_t width, uint32_t height)
 
 static bool has_second(const ec_window *w)
 {
-    const eclat_wish *wish = &w->input.wish;
+    const eclat_view_request *view = &w->input.view;
     const eclat_status *s = &w->status;
-    return wish->second && w->textures.width[ECLAT_SECOND_PICTURE] && s->second == wish->second &&
-           (wish->second != ECLAT_SECOND_INTEGRATOR || s->second_integrator == wish->second_integrator);
+    return view->second && w->textures.width[ECLAT_SECOND_PICTURE] && s->second == view->second &&
+           (view->second != ECLAT_SECOND_INTEGRATOR || s->second_integrator == view->second_integrator);
 }
 
 static void draw_pictures(const ec_window *w, double width, double height)

@@ -40,7 +40,7 @@ typedef struct ec_window {
     double told_at;             /* time when a save was reported */
     bool telling;               /* the report is still shown */
     bool iconified, dirty, is_full;
-    bool has_second;            /* the second picture that is wished is there, and up to date */
+    bool has_second;            /* the requested second picture is there, and up to date */
     int drawn_width, drawn_height; /* size of the last frame */
     ec_window_place before;     /* before full screen */
     bool restores;              /* it was full screen when its monitor disappeared */

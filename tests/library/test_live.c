@@ -1,5 +1,5 @@
 /* tiers: quick, full */
-/* Live sessions without a window, by the public functions alone: pictures of wishes, probes, saves that their commands repeat, files that change. */
+/* Live sessions without a window, by the public functions alone: pictures of views, probes, saves that their commands repeat, files that change. */
 #include <eclat/eclat.h>
 
 #include <math.h>
@@ -65,17 +65,17 @@ static bool is_settled(const eclat_status *s, uint32_t number) { return (void)nu
 static bool is_saved(const eclat_status *s, uint32_t number) { return s->saves == number; }
 static bool is_picked(const eclat_status *s, uint32_t number) { return s->picks == number; }
 
-static eclat_wish small_wish(eclat_live *live)
+static eclat_view_request small_view(eclat_live *live)
 {
-    eclat_wish wish = eclat_live_wished(live);
-    wish.width = 24;
-    wish.height = 16;
-    return wish;
+    eclat_view_request view = eclat_live_view(live);
+    view.width = 24;
+    view.height = 16;
+    return view;
 }
 
-static eclat_status settle(eclat_live *live, told *t, eclat_wish *wish)
+static eclat_status settle(eclat_live *live, told *t, eclat_view_request *view)
 {
-    eclat_live_wish(live, wish);
+    eclat_live_set_view(live, view);
     return wait_for(live, t, is_settled, 0);
 }
 
@@ -124,12 +124,12 @@ static void test_a_picture_and_what_is_known_of_it(void)
 {
     told t;
     eclat_live *live = open_live(make_job(SCENE, OUT "a.exr"), NULL, &t);
-    eclat_wish wish = small_wish(live);
+    eclat_view_request view = small_view(live);
     eclat_image image;
-    CHECK(wish.camera == -1 && !wish.is_moved && wish.integrator == ECLAT_PATH && wish.exposure == 0);
+    CHECK(view.camera == -1 && !view.is_moved && view.integrator == ECLAT_PATH && view.exposure == 0);
     CHECK(!eclat_live_take(live, ECLAT_PICTURE, &image));
-    wish.x = 12, wish.y = 15; /* the floor */
-    eclat_status s = settle(live, &t, &wish);
+    view.x = 12, view.y = 15; /* the floor */
+    eclat_status s = settle(live, &t, &view);
     const eclat_facts *facts = eclat_live_facts(live);
     CHECK(facts->serial == 1 && facts->camera_count == 1 && facts->height == 600 && facts->radius > 0 && !strcmp(facts->scene, SCENE) && *facts->device);
     CHECK(facts->effect_count > 0 && facts->effects[0].bit && *facts->effects[0].name && !facts->has_map);
@@ -140,38 +140,38 @@ static void test_a_picture_and_what_is_known_of_it(void)
     CHECK(brightness(live, ECLAT_PICTURE) > 10 && brightness(live, ECLAT_PICTURE) == -1);
     s = wait_for(live, &t, is_picked, eclat_live_pick(live, 0, 99));
     CHECK(!s.picked.is_inside && s.picked.y == 99);
-    wish.more = 1;
-    CHECK(settle(live, &t, &wish).samples == 16);
+    view.more = 1;
+    CHECK(settle(live, &t, &view).samples == 16);
     eclat_live_close(live);
 }
 
-static void test_wishes_change_it(void)
+static void test_views_change_it(void)
 {
     told t;
     eclat_live *live = open_live(make_job(SCENE, OUT "b.exr"), NULL, &t);
-    eclat_wish wish = small_wish(live);
-    settle(live, &t, &wish);
+    eclat_view_request view = small_view(live);
+    settle(live, &t, &view);
     const double first = brightness(live, ECLAT_PICTURE);
-    wish.exposure = 200; /* more than the picture has */
-    wish.env_degrees = NAN;
-    settle(live, &t, &wish);
-    CHECK(wish.exposure == 100 && wish.env_degrees == 0 && brightness(live, ECLAT_PICTURE) > first + 50);
-    wish.exposure = 0;
-    wish.integrator = ECLAT_RASTER;
-    wish.second = ECLAT_SECOND_SAMPLES;
-    eclat_status s = settle(live, &t, &wish);
+    view.exposure = 200; /* more than the picture has */
+    view.env_degrees = NAN;
+    settle(live, &t, &view);
+    CHECK(view.exposure == 100 && view.env_degrees == 0 && brightness(live, ECLAT_PICTURE) > first + 50);
+    view.exposure = 0;
+    view.integrator = ECLAT_RASTER;
+    view.second = ECLAT_SECOND_SAMPLES;
+    eclat_status s = settle(live, &t, &view);
     CHECK(s.integrator == ECLAT_RASTER && s.second == ECLAT_SECOND_SAMPLES && brightness(live, ECLAT_SECOND_PICTURE) > 10);
-    wish.second = ECLAT_SECOND_INTEGRATOR;
-    wish.second_integrator = ECLAT_WHITTED;
-    s = settle(live, &t, &wish);
+    view.second = ECLAT_SECOND_INTEGRATOR;
+    view.second_integrator = ECLAT_WHITTED;
+    s = settle(live, &t, &view);
     CHECK(s.second == ECLAT_SECOND_INTEGRATOR && s.second_integrator == ECLAT_WHITTED);
-    wish.without = eclat_live_facts(live)->effects[0].bit;
-    CHECK(strstr(settle(live, &t, &wish).effects, eclat_live_facts(live)->effects[0].name) == NULL);
+    view.without = eclat_live_facts(live)->effects[0].bit;
+    CHECK(strstr(settle(live, &t, &view).effects, eclat_live_facts(live)->effects[0].name) == NULL);
     eclat_live_close(live);
 }
 
 /* Without a denoiser the picture stays noisy, and the status says why. cli/test_denoise puts a denoiser into the build folder. */
-static void test_a_wish_denoises(void)
+static void test_a_view_denoises(void)
 {
     told t;
     eclat_error err;
@@ -180,22 +180,22 @@ static void test_a_wish_denoises(void)
     if (access(fetched, R_OK) == 0) setenv("ECLAT_OIDN", fetched, 0);
     CHECK_MSG(eclat_job_set(job, "spp", "48", &err) == ECLAT_OK, "%s", err.text);
     eclat_live *live = open_live(job, NULL, &t);
-    eclat_wish wish = small_wish(live);
-    eclat_status s = settle(live, &t, &wish);
-    CHECK(!wish.is_denoised && !s.is_denoised && !*s.undenoised);
+    eclat_view_request view = small_view(live);
+    eclat_status s = settle(live, &t, &view);
+    CHECK(!view.is_denoised && !s.is_denoised && !*s.undenoised);
     const double noisy = brightness(live, ECLAT_PICTURE);
-    wish.is_denoised = 1;
-    s = settle(live, &t, &wish);
+    view.is_denoised = 1;
+    s = settle(live, &t, &view);
     CHECK(s.samples == 48 && !*s.trouble[ECLAT_TROUBLE_CAMERA]);
     CHECK_MSG(s.is_denoised ? !*s.undenoised : strstr(s.undenoised, "Open Image Denoise") != NULL, "%d, '%s'", s.is_denoised, s.undenoised);
     if (s.is_denoised) {
         CHECK(s.best.low95 <= s.best.error && s.best.error > 0 && s.best.error <= s.best.high95);
-        wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
+        wait_for(live, &t, is_saved, eclat_live_save(live, &view));
         CHECK_MSG(strstr(t.command, "--denoise ") != NULL, "%s", t.command);
         check_repeats(t.command, OUT "d.exr");
     }
-    wish.is_denoised = 0;
-    s = settle(live, &t, &wish);
+    view.is_denoised = 0;
+    s = settle(live, &t, &view);
     CHECK(!s.is_denoised && brightness(live, ECLAT_PICTURE) == noisy);
     eclat_live_close(live);
 }
@@ -204,28 +204,28 @@ static void test_saves_are_repeated_by_their_commands(void)
 {
     told t;
     eclat_live *live = open_live(make_job(SCENE, OUT "c.exr"), NULL, &t);
-    eclat_wish wish = small_wish(live);
-    const uint32_t lost = eclat_live_save(live, &wish); /* the scene is not there yet, */
-    wish.env_degrees = 0.5;
-    eclat_live_wish(live, &wish);                       /* and now another picture is wanted */
+    eclat_view_request view = small_view(live);
+    const uint32_t lost = eclat_live_save(live, &view); /* the scene is not there yet, */
+    view.env_degrees = 0.5;
+    eclat_live_set_view(live, &view);                       /* and now another picture is wanted */
     eclat_status s = wait_for(live, &t, is_saved, lost);
     CHECK(s.is_unsaved && strstr(s.told, "moved") && !atomic_load(&t.saves));
-    wish.env_degrees = 0;
-    settle(live, &t, &wish);
+    view.env_degrees = 0;
+    settle(live, &t, &view);
     unlink(OUT "c.exr");
-    s = wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
+    s = wait_for(live, &t, is_saved, eclat_live_save(live, &view));
     CHECK_MSG(!s.is_unsaved && strstr(s.told, OUT "c.exr"), "%s", s.told);
     CHECK_MSG(!strstr(t.command, "--eye") && strstr(t.command, "--size=24x16") && strstr(t.command, "--spp=4"), "%s", t.command);
     check_repeats(t.command, OUT "c.exr");
 
-    wish.viewpoint = eclat_live_facts(live)->cameras[0];
-    wish.viewpoint.eye[0] += 0.1234567890123;
-    wish.is_moved = 1;
-    settle(live, &t, &wish);
-    wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
-    double given = NAN; /* all digits that the wish has come back with */
+    view.viewpoint = eclat_live_facts(live)->cameras[0];
+    view.viewpoint.eye[0] += 0.1234567890123;
+    view.is_moved = 1;
+    settle(live, &t, &view);
+    wait_for(live, &t, is_saved, eclat_live_save(live, &view));
+    double given = NAN; /* all digits that the session has returned */
     const char *at = strstr(t.command, "--eye=");
-    CHECK_MSG(at && sscanf(at, "--eye=%lf", &given) == 1 && given == wish.viewpoint.eye[0], "%.17g: %s", wish.viewpoint.eye[0], t.command);
+    CHECK_MSG(at && sscanf(at, "--eye=%lf", &given) == 1 && given == view.viewpoint.eye[0], "%.17g: %s", view.viewpoint.eye[0], t.command);
     check_repeats(t.command, OUT "c-2.exr");
     eclat_live_close(live);
 }
@@ -240,12 +240,12 @@ static void test_light_paths(void)
         eclat_job *job = make_job(ECLAT_SOURCE_DIR "/scenes/ring/ring.gltf", OUT "l.exr");
         if (given[i]) CHECK_MSG(eclat_job_set(job, "light-paths", given[i], &err) == ECLAT_OK, "%s", err.text);
         eclat_live *live = open_live(job, NULL, &t);
-        eclat_wish wish = small_wish(live);
+        eclat_view_request view = small_view(live);
         for (int k = 0; k < 2; k++) {
-            wish.integrator = k ? ECLAT_LIGHT : ECLAT_PATH;
-            CHECK(settle(live, &t, &wish).integrator == wish.integrator);
+            view.integrator = k ? ECLAT_LIGHT : ECLAT_PATH;
+            CHECK(settle(live, &t, &view).integrator == view.integrator);
             unlink(k ? OUT "l-2.exr" : OUT "l.exr");
-            wait_for(live, &t, is_saved, eclat_live_save(live, &wish));
+            wait_for(live, &t, is_saved, eclat_live_save(live, &view));
             CHECK_MSG(strstr(t.command, k ? "--integrator=light" : i ? "--light-paths=0.25" : "--light-paths=0 ") != NULL, "%s", t.command);
             check_repeats(t.command, k ? OUT "l-2.exr" : OUT "l.exr");
         }
@@ -272,14 +272,14 @@ static void test_files_change(void)
     copy(SCENE, OUT "box.gltf");
     copy(ECLAT_SOURCE_DIR "/scenes/cornell-box/cornell-box.bin", ECLAT_TEST_OUT "/cornell-box.bin");
     eclat_live *live = open_live(make_job(OUT "box.gltf", OUT "d.exr"), NULL, &t);
-    eclat_wish wish = small_wish(live);
-    settle(live, &t, &wish);
+    eclat_view_request view = small_view(live);
+    settle(live, &t, &view);
     const eclat_viewpoint before = eclat_live_facts(live)->cameras[0];
     copy(SCENE, OUT "box.gltf"); /* by itself */
     wait_for_load(live, &t, 2);
     CHECK(eclat_live_facts(live)->cameras[0].eye[2] == before.eye[2]);
-    wish.reloads++;
-    CHECK(!settle(live, &t, &wish).has_failed);
+    view.reloads++;
+    CHECK(!settle(live, &t, &view).has_failed);
     wait_for_load(live, &t, 3);
     eclat_live_close(live);
 }
@@ -305,12 +305,12 @@ int main(void)
 {
     if (test_tier("quick")) {
         test_a_picture_and_what_is_known_of_it();
-        test_wishes_change_it();
+        test_views_change_it();
         test_files_change();
         test_what_cannot_be_opened();
     }
     if (test_tier("full")) {
-        test_a_wish_denoises();
+        test_a_view_denoises();
         test_saves_are_repeated_by_their_commands();
         test_light_paths();
     }

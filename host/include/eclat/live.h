@@ -1,13 +1,13 @@
 /* Live sessions: a picture that follows a camera, for windows and viewports. A part of eclat.h, which includes it.
  *
  *     eclat_live_open(job, NULL, &listener, &live, &err);
- *     eclat_wish wish = eclat_live_wished(live);
- *     wish.width = 640, wish.height = 480;
- *     eclat_live_wish(live, &wish);                                      whenever the wish changes
+ *     eclat_view_request view = eclat_live_view(live);
+ *     view.width = 640, view.height = 480;
+ *     eclat_live_set_view(live, &view);                                  whenever the view changes
  *     if (eclat_live_take(live, ECLAT_PICTURE, &image)) draw(&image);    whenever listener.wake was called
  *     eclat_live_close(live);
  *
- * A session has threads of its own. They load the scene, and load it again when one of its files changes. They render what is wished: coarsely while
+ * A session has threads of its own. They load the scene, and load it again when one of its files changes. They render the requested view: coarsely while
  * the camera moves, then finer, then like the job until one of its limits is met. They sleep when there is nothing to do. No function but
  * eclat_live_close waits for them. A session may be used by one thread at a time. */
 
@@ -32,7 +32,7 @@ typedef struct eclat_live_listener {
 } eclat_live_listener;
 
 /* Opens a session for a job of "render" with one scene. The job's options say what is loaded, on which device, which limits end the picture, and what
- * the first wish is; "output" names the files of eclat_live_save. Options and both listeners are copied; the job's listener gets messages from the
+ * the first view is; "output" names the files of eclat_live_save. Options and both listeners are copied; the job's listener gets messages from the
  * session's threads. Options of sequences and of pictures in parts, and "adaptive", are refused. against: an .exr to show beside the picture, or
  * NULL. Scene files that cannot be loaded are reported later, in the status. */
 eclat_result eclat_live_open(const eclat_job *job, const char *against, const eclat_live_listener *listener, eclat_live **live, eclat_error *err);
@@ -56,7 +56,7 @@ typedef struct eclat_viewpoint {
     double tall;                     /* for parallel rays: height of the picture in metres */
 } eclat_viewpoint;
 
-typedef struct eclat_wish {
+typedef struct eclat_view_request {
     uint32_t width, height;          /* pixels; 0: no picture yet */
     int32_t camera;                  /* index into the facts' cameras; -1: the job's */
     int32_t is_moved;                /* 1: the camera is `viewpoint` instead */
@@ -74,13 +74,13 @@ typedef struct eclat_wish {
     uint32_t more;                   /* how often the limits are raised: each time to four times the samples and the time, and half the error */
     uint32_t reloads;                /* any change of this number loads the scene again */
     uint32_t x, y;                   /* the pixel that the status' `under` describes; outside of the picture: none */
-} eclat_wish;
+} eclat_view_request;
 
-/* Returns the latest wish; at first, that of the job's options, without a size. */
-eclat_wish eclat_live_wished(const eclat_live *live);
+/* Returns the requested view; at first, that of the job's options, without a size. */
+eclat_view_request eclat_live_view(const eclat_live *live);
 
-/* Replaces the wish, and changes *wish to what is possible: values are limited, and a moved camera is rounded to nine digits, as in commands. */
-void eclat_live_wish(eclat_live *live, eclat_wish *wish);
+/* Requests another view, and changes *view to what is possible: values are limited, and a moved camera is rounded to nine digits, as in commands. */
+void eclat_live_set_view(eclat_live *live, eclat_view_request *view);
 
 typedef struct eclat_effect {
     const char *name;
@@ -130,10 +130,10 @@ typedef struct eclat_status {
     double error, error_bound;       /* as in eclat_picture_error */
     int is_denoised;                 /* 1: the picture is the best blend, made of the samples there were then; `best` is its error */
     eclat_stated_error best;
-    char undenoised[320];            /* why it is not, although wished; empty: it is, or will be */
+    char undenoised[320];            /* why it is not, although requested; empty: it is, or will be */
     double spp_limit, time_limit, error_limit; /* as raised so far; 0: none */
     double seconds_left;             /* until the first limit is met; < 0: unknown yet */
-    int is_settled;                  /* 1: the latest wish is fulfilled */
+    int is_settled;                  /* 1: nothing is left to do for the requested view */
     int is_complete;                 /* 1: a limit is met, which stopped_by names */
     char stopped_by[16];             /* "spp", "time" or "error" */
     uint32_t saves;                  /* done or given up so far */
@@ -143,13 +143,13 @@ typedef struct eclat_status {
     char trouble[ECLAT_TROUBLE_COUNT][2304]; /* by eclat_trouble; empty: none */
     char loading[64];                /* what is being loaded or built; empty: nothing */
     char effects[1024];              /* names of those that are simulated */
-    eclat_probe under;               /* the pixel x, y of the wish */
+    eclat_probe under;               /* the pixel x, y of the view */
     uint32_t picks;                  /* answered so far; `picked` answers the last one */
     eclat_probe picked;
 } eclat_status;
 void eclat_live_status(eclat_live *live, eclat_status *status);
 
-/* A tone-mapped picture, 3 bytes per pixel, row by row from the top; smaller than wished while it is a preview. */
+/* A tone-mapped picture, 3 bytes per pixel, row by row from the top; smaller than requested while it is a preview. */
 typedef struct eclat_image {
     uint32_t width, height;
     const uint8_t *rgb;
@@ -164,10 +164,10 @@ int eclat_live_take(eclat_live *live, eclat_shown which, eclat_image *image);
 /* Asks once what the picture shows at a pixel. Returns the value that the status' `picks` has once `picked` answers this call. */
 uint32_t eclat_live_pick(eclat_live *live, uint32_t x, uint32_t y);
 
-/* Replaces the wish, and saves its picture with the samples that it has, or with the first ones that it gets, whatever is wished meanwhile; gives up
+/* Requests a view, and saves its picture with the samples that it has, or with the first ones that it gets, whatever is requested meanwhile; gives up
  * if the camera moves before that. Writes the files of "output" or, without it, the scene's name with .exr and .png; later pictures are NAME-2 and so
  * on. Returns the value that the status' `saves` has once this one is done or given up. */
-uint32_t eclat_live_save(eclat_live *live, eclat_wish *wish);
+uint32_t eclat_live_save(eclat_live *live, eclat_view_request *view);
 
 #ifdef __cplusplus
 }

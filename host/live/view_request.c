@@ -14,7 +14,7 @@ static double rounded(double number)
     return strtod(text, NULL);
 }
 
-void ec_live_limit_wish(eclat_wish *w)
+void ec_live_limit_view(eclat_view_request *w)
 {
     eclat_viewpoint *v = &w->viewpoint;
     for (int k = 0; k < 3 && w->is_moved; k++) v->eye[k] = rounded(v->eye[k]), v->target[k] = rounded(v->target[k]), v->up[k] = rounded(v->up[k]);
@@ -31,7 +31,7 @@ void ec_live_limit_wish(eclat_wish *w)
     if (w->second >= ECLAT_SECOND_COUNT) w->second = ECLAT_SECOND_NONE;
 }
 
-bool ec_live_same_camera(const eclat_wish *a, const eclat_wish *b)
+bool ec_live_same_camera(const eclat_view_request *a, const eclat_view_request *b)
 {
     return a->is_moved == b->is_moved && a->camera == b->camera && a->width == b->width && a->height == b->height &&
            a->env_degrees == b->env_degrees && a->is_denoised == b->is_denoised && (!a->is_moved || !memcmp(&a->viewpoint, &b->viewpoint, sizeof a->viewpoint));
