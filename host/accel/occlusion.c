@@ -7,9 +7,9 @@
 #define LEAF_CHANCE 0.5f
 #define NODE_COST 0.4f /* in leaves */
 
-typedef struct outlook {
+typedef struct hit_cost {
     float chance, cost; /* chance of a hit below a node that the ray enters, and the cost of what it visits until then */
-} outlook;
+} hit_cost;
 
 static float half_area(const ec_bvh_build_node *n)
 {
@@ -18,7 +18,7 @@ static float half_area(const ec_bvh_build_node *n)
 }
 
 /* A random ray through a box enters a box inside it with the probability of their areas' ratio. */
-static outlook look_into(const ec_bvh *bvh, const outlook *below, const ec_bvh_build_node *node)
+static hit_cost hit_cost_of(const ec_bvh *bvh, const hit_cost *below, const ec_bvh_build_node *node)
 {
     uint32_t first = node->left, second = node->left + 1;
     if (below[second].chance * below[first].cost > below[first].chance * below[second].cost) {
@@ -28,17 +28,17 @@ static outlook look_into(const ec_bvh *bvh, const outlook *below, const ec_bvh_b
     float area = half_area(node);
     float enter_first = half_area(&bvh->nodes[first]) / area, enter_second = half_area(&bvh->nodes[second]) / area;
     float open = 1.0f - enter_first * below[first].chance;
-    return (outlook){1.0f - open * (1.0f - enter_second * below[second].chance),
+    return (hit_cost){1.0f - open * (1.0f - enter_second * below[second].chance),
                      NODE_COST + enter_first * below[first].cost + open * enter_second * below[second].cost};
 }
 
 float *ec_bvh_promises(const ec_bvh *bvh)
 {
-    EC_FREED outlook *below = malloc(bvh->node_count * sizeof *below);
+    EC_FREED hit_cost *below = malloc(bvh->node_count * sizeof *below);
     float *promises = malloc(bvh->node_count * sizeof *promises);
     for (uint32_t i = below && promises ? bvh->node_count : 0; i-- > 0;) { /* children lie behind their parents */
         const ec_bvh_build_node *node = &bvh->nodes[i];
-        below[i] = node->left ? look_into(bvh, below, node) : (outlook){LEAF_CHANCE, 1.0f};
+        below[i] = node->left ? hit_cost_of(bvh, below, node) : (hit_cost){LEAF_CHANCE, 1.0f};
         promises[i] = below[i].chance / below[i].cost;
     }
     if (!below) free(promises);

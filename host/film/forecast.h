@@ -17,13 +17,13 @@ typedef struct ec_film_forecast {
 } ec_film_forecast;
 
 /* Returns how many times smaller error^2 is after so many samples a pixel. */
-double ec_film_forecast_fall(const ec_film_forecast *outlook, double samples);
+double ec_film_forecast_fall(const ec_film_forecast *forecast, double samples);
 
 /* Returns the bound after so many samples a pixel. */
-double ec_film_forecast_bound(const ec_film_forecast *outlook, double samples);
+double ec_film_forecast_bound(const ec_film_forecast *forecast, double samples);
 
 /* Returns the least number of samples a pixel, not whole, with a bound under `target`. */
-double ec_film_forecast_samples(const ec_film_forecast *outlook, double target);
+double ec_film_forecast_samples(const ec_film_forecast *forecast, double target);
 
 enum { EC_SLOPE_ROUNDS = 12 };
 
