@@ -1,4 +1,4 @@
-"""Finds the compilers: those of the system, else those in BUILD/gpu-compilers, into which missing ones are fetched."""
+"""Finds the compilers: those of the system, else those in BUILD/gpu-compilers, into which missing ones are downloaded."""
 import fcntl
 import glob
 import os
