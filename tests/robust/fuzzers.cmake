@@ -1,7 +1,7 @@
-# What reads files that users hand to eclat, each a fuzzer fuzz_KIND.c: with libFuzzer (ECLAT_FUZZ), or over its corpus, which is a test.
+# A fuzzer fuzz_KIND.c for each kind of files that eclat reads: with libFuzzer (ECLAT_FUZZ), or over its corpus as a test.
 set(fuzzers gltf image checkpoint scenarios)
 
-# Sources of the rooms that it takes beside those of a host library.
+# Sources of the rooms that a fuzzer needs besides those of a host library.
 set(fuzz_more_of_checkpoint ${sources_of_store})
 foreach(name format names settings)
   list(APPEND fuzz_reports ${CMAKE_SOURCE_DIR}/host/report/${name}.c)
