@@ -259,7 +259,7 @@ class Program(Case):
         os.chmod(path, 0o755)
         return path
 
-    def test_where_it_is_looked_for(self):
+    def test_where_the_program_is_looked_for(self):
         path = self.script("")
         self.assertEqual(program.find(path, {}), path)
         self.assertEqual(program.find("", {"ECLAT": path}), path)

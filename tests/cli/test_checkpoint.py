@@ -203,7 +203,7 @@ class Checkpoint(Case):
         process.send_signal(number)
         return process.communicate(timeout=GUARD)
 
-    def test_asked_to_stop(self):
+    def test_a_stopped_render_writes_a_checkpoint(self):
         """A last checkpoint is written, with everything that the picture shows."""
         for number in [signal.SIGINT, signal.SIGTERM]:
             process = self.start(CORNELL, "--size", "40x40", "--spp", "100000", "--checkpoint", self.kept, "--every", "0.05s",
@@ -241,7 +241,7 @@ class Checkpoint(Case):
         plan = eclat("render", "--resume", "kept.exr", "--plan", "3", cwd=self.folder)
         self.assertIn("--plan and --resume: ", self.assert_one_error(plan, 2))
 
-    def test_begun_anew_where_it_was_to_be_gone_on_with(self):
+    def test_an_old_checkpoint_gives_a_warning(self):
         job = ["render", CORNELL, *SIZE, "--spp", "16", "--checkpoint", self.kept, "-q", "-o", self.path("a.exr")]
         self.assertEqual(self.assert_ok(eclat(*job)).stderr, "")
         self.assertEqual(self.assert_ok(eclat(*job)).stderr, f"eclat: warning: '{self.kept}' holds 16 samples per pixel of this render and "

@@ -79,7 +79,7 @@ class Compile(Case):
         if "Portable Computing Language" not in report["device"]["platform"]:
             self.skipTest("this driver does not compile at the first launch")
 
-    def test_begins_at_once_and_then_finds_the_fast_ones(self):
+    def test_begins_with_narrow_and_later_finds_fast_kernels(self):
         first, said = self.render()
         self.skip_unless_late(first)
         self.assertIn(FIRST_LINE, said)
@@ -106,7 +106,7 @@ class Compile(Case):
                 if name not in ("ec_features", "ec_splat"):  # these two are short
                     self.assertLess(sizes[f"_pocl_kernel_{name}_workgroup"], sizes[f"{name}_item"])
 
-    def test_the_fast_ones_take_over(self):
+    def test_fast_kernels_take_over(self):
         report, _ = self.render(spp=12000)
         self.skip_unless_late(report)
         self.assertEqual(report["first_kernels"], "narrow")
@@ -167,12 +167,12 @@ class Compile(Case):
         self.assertEqual(self.render("--compile", "first", **job)[0]["image_sha256"], report["image_sha256"])
         self.assertEqual([self.compiled(kernel) for kernel in TRAVERSAL], [2, 2, 1, 1])
 
-    def test_a_short_render_does_not(self):
+    def test_a_short_render_keeps_narrow_kernels(self):
         report, _ = self.render(eclat_is=self.idle_compiler(), spp=1)
         self.skip_unless_late(report)
         self.assertEqual((report["first_kernels"], report["fast_kernels_after_seconds"]), ("narrow", None))
 
-    def test_narrow_ones_to_the_end(self):
+    def test_narrow_kernels_to_the_end(self):
         """The render compiles only narrow kernels, and uses fast ones where these are already compiled."""
         report, said = self.render("--compile", "narrow", spp=64)
         self.skip_unless_late(report)
@@ -181,7 +181,7 @@ class Compile(Case):
         self.assertEqual(self.render("--compile", "first", spp=64)[0]["image_sha256"], report["image_sha256"])
         self.assertEqual(self.render("--compile", "narrow")[0]["first_kernels"], "fast")
 
-    def test_narrow_ones_where_the_driver_compiles_at_once(self):
+    def test_narrow_kernels_where_the_driver_compiles_at_once(self):
         self.skip_unless_late(self.render("--compile", "narrow")[0])
         report, _ = self.render("--compile", "narrow", ECLAT_WORKAROUND="none")
         self.assertEqual(report["first_kernels"], "narrow")

@@ -72,7 +72,7 @@ class Coplanar(Case):
                 self.check(faces, 0, *way)
         self.check(faces[::-1], 0)
 
-    def test_the_one_that_faces_the_eye(self):
+    def test_the_front_face_is_met(self):
         faces = [(RED, {"positions": face(*LARGE, OTHER)}), (GREEN, {"positions": face(*SHIFTED, FAN, back=True)})]
         self.check(faces, 0)
         self.check(faces[::-1], 1)
@@ -87,7 +87,7 @@ class Coplanar(Case):
         self.check([(RED, scene_mesh), (GREEN, dict(scene_mesh, translation=moved))], 0)
         self.check([(RED, dict(scene_mesh, scale=[0.71, 0.71, 1])), (GREEN, scene_mesh)], 0)
 
-    def test_what_has_a_coverage_lies_on_top(self):
+    def test_partial_coverage_lies_on_top(self):
         decal = dict(GREEN, pbrMetallicRoughness={"baseColorFactor": [0, 0, 0, 0.5], "metallicFactor": 0}, alphaMode="BLEND")
         wall, over = {"positions": face(*LARGE, NEXT)}, {"positions": face(*SHIFTED, FAN)}
         both = [a if any(b) else (0, 0) for a, b in zip(self.picture([(RED, wall), (decal, over)]), self.picture([(NOTHING, wall), (GREEN, over)]))]

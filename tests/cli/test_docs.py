@@ -172,7 +172,7 @@ class Site(Case):
                              capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)
 
-    def test_every_page_is_there_and_leads_to_nobody_else(self):
+    def test_every_page_exists_and_loads_nothing_from_elsewhere(self):
         for path in MANUAL[1:]:
             page = os.path.basename(path).replace("README.md", "index.html").replace(".md", ".html")
             html = read(os.path.join(self.site, page))

@@ -110,7 +110,7 @@ class Farm(Case):
         self.assertIn("farm: no machine could render a slice", run.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["all.exr.farm", "ssh", "whole.exr"])
 
-    def test_a_farm_of_nothing(self):
+    def test_bad_arguments_leave_no_files(self):
         """Bad arguments are refused before any file is made that would disturb the right command."""
         wrong = [("", "47", {}, "no hosts"), (" ", "47", {}, "no hosts")]
         wrong += [("here", spp, {}, f"'{spp}' is not a number of samples") for spp in ["0", "00", "abc", "", "4.5"]]
@@ -128,7 +128,7 @@ class Farm(Case):
         self.assertIn("farm: no machine could render a slice", run.stderr)
         self.assertEqual(len(os.listdir(self.path("all.exr.farm", "todo"))), 2)
 
-    def test_a_farm_that_goes_on(self):
+    def test_a_farm_is_resumed(self):
         """The machine renders two slices and disappears; the same command renders the other three."""
         farm = ["farm", "here", CORNELL, "47", "all.exr", *SIZE, "--seed", "0"]
         stop = dict(FARM_SSH=self.path("ssh"), SLICES="5")

@@ -105,7 +105,7 @@ class SameBits(FramesCase):
         for row in frames[1:]:
             self.assertEqual(row["shared"]["structures"], "kept", row["frame"])
 
-    def test_a_limit_of_its_own(self):
+    def test_each_frame_has_its_own_clamp(self):
         """The clamp depends on each frame's mean luminance."""
         frames = self.assert_as_alone(room().write(self.path("room.gltf")), "--animation", "all", "--env", "0.3,0.3,0.3", "--clamp", "0.5", *QUICK)
         for row in frames:
@@ -127,7 +127,7 @@ class SameBits(FramesCase):
             wanted = wanted or got
             self.assertEqual(got, wanted, accel)
 
-    def test_a_frame_before_anything_is_there(self):
+    def test_a_frame_without_surfaces(self):
         """The object appears after the first frame, which shows only the environment, with every integrator. kernel/test_traversal has
         empty structures."""
         b = Builder()
@@ -180,7 +180,7 @@ class SameBits(FramesCase):
             alone, _ = rows_of(self.render(scene, "--frames", str(row["frame"]), *common, "-o", f"alone{row['frame']}.exr"))
             self.assertEqual(alone[0]["image_sha256"], row["image_sha256"], row["frame"])
 
-    def test_noise_that_stands_and_that_does_not(self):
+    def test_noise_changes_only_with_the_seed(self):
         b = Builder()
         b.add(MATT, scale=[4, 4, 4])
         b.add(LAMP, translation=[0, 0, 1], rotation=turn(0, 180))
@@ -194,7 +194,7 @@ class SameBits(FramesCase):
         self.assertEqual(at["image_sha256"], rows[2]["image_sha256"])
         self.refuse(scene, "--seed frame belongs to --frames", "--seed", "frame")
 
-    def test_what_appears_and_goes(self):
+    def test_objects_that_appear_and_disappear(self):
         """Triangles without area are dropped: the set of triangles changes from frame to frame."""
         b = Builder()
         b.add(MATT, scale=[4, 4, 4], translation=[0, 0, -1])
@@ -250,7 +250,7 @@ class Going(FramesCase):
         _, last = self.frames("--lanes", "4", "--wave", "2048", "--accel", "kdtree", "--effects", "all", "--memory", "2G", scene=scene)
         self.assertEqual(last["skipped"], 4)
 
-    def test_half_a_file_and_a_strange_one(self):
+    def test_damaged_and_foreign_files(self):
         scene = self.sliding()
         self.frames("-o", "f.%d.png", scene=scene)
         for name in ("f.0001.exr", "f.2.png"):

@@ -81,7 +81,7 @@ class Ground(Case):
             self.assertLess(sum(0 < x < 1 for x in seen["A"]), N ** 2 / 4)
 
     @full
-    def test_it_stays_while_things_move(self):
+    def test_the_ground_stays_while_objects_move(self):
         """The ground is the same in all frames, under the lowest point of all times: a square falls from y = 3 to 1 within a second, and
         the camera is 5 above y = 1. A shorter range of frames gives the same bits. The box is 2 x 2 x 2."""
         move_node(self.document, 0, [0, 3, 0], [0, 1, 0])

@@ -39,7 +39,7 @@ class Guiding(OtherWay):
     def test_slices_and_resume(self):
         self.assert_slices_and_resume(JOB)
 
-    def test_nothing_to_learn(self):
+    def test_a_diffuse_scene_is_unchanged(self):
         """A box of diffuse walls: no bit changes."""
         job = [CORNELL, "--size", "20x18", "--spp", "8", *QUICK]
         self.assertEqual(self.render(*job)["image_sha256"], self.render(*job, "--guiding")["image_sha256"])
@@ -67,7 +67,7 @@ class Guiding(OtherWay):
                 self.assert_same_picture([scene(name), "--size", "48x48"], samples, fewer)
 
     @long
-    def test_looks(self):
+    def test_other_render_options(self):
         for options in [["--fstop", "0.5", "--focus", "3"], ["--filter", "blackman-harris"], ["--max-depth", "4"], ["--light-choice", "power"],
                         ["--scattering", "multiple"], ["--sampler", "independent"], ["--terminator", "smooth"], ["--rr", "0.7"]]:
             with self.subTest(options=options):

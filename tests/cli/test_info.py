@@ -325,7 +325,7 @@ class Info(Case):
                                      (set(), {**glass, **body, **flat, **parts}), (set(), {**body, **parts})]:
             self.assertEqual(self.layers(extensions) & {"dispersion"}, expected)
 
-    def test_alpha_of_what_is_opaque_is_nobodys(self):
+    def test_alpha_of_opaque_materials_is_ignored(self):
         varied = [(9, 99, 200, 255), (9, 99, 200, 5)]
         for mode, expected in ("OPAQUE", set()), ("BLEND", {"alpha", "base-color-texture"}):
             scene, _ = quad_scene(material={"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "alphaMode": mode})
@@ -439,7 +439,7 @@ class Info(Case):
         camera = self.info(write_gltf(self.path("orthographic.gltf"), scene))["cameras"][0]
         self.assertEqual([camera["xmag"], camera["ymag"]], [3, 2])
 
-    def test_what_only_looks_like_a_light(self):
+    def test_lamps_without_light(self):
         """A cone without an opening, a lamp hidden by vertex alpha, and one with a black picture emit nothing: the report leaves them out."""
         black = {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}}
         hidden = {"emissiveFactor": [1, 1, 1], "alphaMode": "BLEND"}

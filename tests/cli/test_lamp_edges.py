@@ -98,7 +98,7 @@ class LampEdges(OtherWay):
         self.assert_same_mean()
 
     @full
-    def test_mean_of_looks(self):
+    def test_mean_with_other_options(self):
         for options in (["--fog", "0.3,0.8,0"], ["--clamp", "100"], ["--adaptive"], ["--sampler", "independent"], ["--light-paths", "1"],
                         ["--sample", "bsdf"], ["--integrator", "light"], ["--max-depth", "1"]):
             with self.subTest(options=options):

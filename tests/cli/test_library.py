@@ -15,7 +15,7 @@ BUILD = os.path.dirname(os.path.abspath(ECLAT))
 MANUAL = os.path.join(SOURCE, "docs", "library.md")
 
 PROJECT = """cmake_minimum_required(VERSION 3.16)
-project(stranger C)
+project(example C)
 find_package(eclat 0.1 REQUIRED)
 add_executable(example example.c)
 target_link_libraries(example PRIVATE eclat::eclat m)

@@ -36,7 +36,7 @@ class LightPaths(OtherWay):
     def test_slices_and_resume(self):
         self.assert_slices_and_resume(JOB)
 
-    def test_nothing_to_aim_at(self):
+    def test_a_diffuse_scene_has_no_light_paths(self):
         """A box of diffuse walls: no light paths are traced, and no bit changes."""
         job = [CORNELL, "--size", "20x18", "--spp", "8", *QUICK]
         self.assertEqual(self.render(*job)["image_sha256"], self.render(*job, "--light-paths", "1")["image_sha256"])
@@ -171,7 +171,7 @@ class LightPaths(OtherWay):
                 self.assert_same_picture([scene(name), "--size", "48x48"], samples, fewer)
 
     @long
-    def test_looks(self):
+    def test_other_render_options(self):
         """Light paths take into account the lens, the filter, the light tree or its absence, the depth limit, and rough surfaces with
         multiple scattering."""
         for options in [["--fstop", "0.5", "--focus", "3"], ["--filter", "blackman-harris"], ["--max-depth", "4"], ["--light-choice", "power"],

@@ -73,7 +73,7 @@ class LightTracing(OtherWay):
             self.assert_lit_alike(None, "--env", "1,0.8,0.5")
 
     @long
-    def test_looks(self):
+    def test_other_render_options(self):
         """Lens, filter, depth limit, roulette, and another projection."""
         for options in (["--fstop", "0.5", "--focus", "3"], ["--filter", "blackman-harris"], ["--max-depth", "2"], ["--rr", "0.7"],
                         ["--screen-window", "-0.5,1,-0.3,0.8"], ["--sampler", "independent"]):

@@ -251,7 +251,7 @@ class Motion(Case):
         self.assertEqual(on["image_sha256"], self.sha(scene, "--instancing", "off", *common))
 
     @full
-    def test_what_appears_from_nothing(self):
+    def test_objects_that_appear(self):
         """Quads without area at the start, and for one of them also in the middle of the shutter time."""
         b = Builder()
         b.animate(b.add(GLOW), "scale", [(0, 0, 0), (1, 1, 1)])

@@ -49,7 +49,7 @@ def symbols_of(*files):
 
 
 class Rooms(unittest.TestCase):
-    def test_the_list_leads_one_way(self):
+    def test_rooms_use_only_earlier_rooms(self):
         before = set()
         for room, neighbours in permitted().items():
             self.assertLessEqual(neighbours, before, f"{room} uses a room that comes behind it")
@@ -98,7 +98,7 @@ class Rooms(unittest.TestCase):
             for name in names & owner.keys():
                 self.assertIn(owner[name], rooms[room], f"{room} calls {name} of {owner[name]}")
 
-    def test_none_is_permitted_in_vain(self):
+    def test_every_permitted_room_is_used(self):
         used = collections.defaultdict(set)
         for room, other, _ in included():
             used[room].add(other)

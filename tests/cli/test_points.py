@@ -44,7 +44,7 @@ class Points(Case):
         self.assertGreater(sum(pictures["bvh8"][1]["G"]), 0)
         self.assertNotEqual(self.render(scene, *options, "--accel", "bvh8", "--point-size", "8")[0], pictures["bvh8"][0])
 
-    def test_what_there_is_beside_them(self):
+    def test_triangles_stay(self):
         """Triangles of the same mesh stay. Without points and lines the option changes nothing."""
         def both(scene):
             scene["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "indices": 1, "material": 0})

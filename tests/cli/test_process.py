@@ -37,7 +37,7 @@ class Process(Case):
         run = eclat("render", self.scene, *SMALL, "-q", "-o", self.path("a.png"), preexec_fn=ignore)
         self.assert_ok(run)
 
-    def test_a_small_stack_will_do(self):
+    def test_a_small_stack_suffices(self):
         """A driver's compiler needs more than 128 KiB of stack, and overruns it without a message."""
         cache = self.path("cache")  # an empty cache, so that kernels are compiled
         os.mkdir(cache)

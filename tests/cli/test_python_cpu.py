@@ -56,7 +56,7 @@ class Processor(support.Case):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.splitlines(), ["['Intel(R) OpenCL']", self.python(RENDER)[1]])
 
-    def test_beside_those_of_the_system(self):
+    def test_system_drivers_stay_available(self):
         built = [device["platform"] for device in json.loads(support.eclat("devices", "--json", env={"OCL_ICD_VENDORS": ""}).stdout)["devices"]]
         platforms, _ = self.python(RENDER)
         self.assertEqual(platforms, str([*built, "Intel(R) OpenCL"]))

@@ -74,7 +74,7 @@ class RankBlocks(Case):
         self.render_on(3, *job, "--spp", "523", "--checkpoint", kept)
         self.assertEqual(whole[0]["image_sha256"], self.render_on(2, "--resume", kept, "--error", f"{100 * past}%", "--spp", "4000000")[0]["image_sha256"])
 
-    def test_going_on(self):
+    def test_resume(self):
         """A job is stopped again and again, at any batch, and resumed on other numbers of ranks."""
         job, kept = [*MANY[:-1], "600000"], self.path("kept.exr")
         whole = self.render(*job)

@@ -142,7 +142,7 @@ class Ranks(Case):
         self.assert_same([*JOB, "--integrator", "raster", "--spp", "18"], 2)
 
     @full
-    def test_going_on_with_other_ranks(self):
+    def test_resume_with_other_ranks(self):
         """With adaptive sampling; test_rank_blocks tests without."""
         job = [*JOB, "--adaptive"]
         whole, planes = self.render(*job, "--spp", "90")

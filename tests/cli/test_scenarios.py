@@ -83,7 +83,7 @@ class Scenarios(Case):
         self.assert_ok(eclat(*attributes["eclat.command"].split()[1:], "-q", cwd=self.folder))
         self.assertEqual(read_exr(self.path("out", "turned.exr"))[0]["eclat.imageSha256"], attributes["eclat.imageSha256"])
 
-    def test_it_goes_on_and_only_with_what_has_changed(self):
+    def test_only_changed_scenarios_are_rendered_again(self):
         scenarios = [{"name": name, "model": "quad.gltf", "dimensions": [16, 16], "orbit": {"radius": 3}} for name in "abc"]
         self.write(scenarios)
         self.assertEqual([row["state"] for row in self.run_all("--shard", "2/3")[1][:-1]], ["rendered"])

@@ -137,7 +137,7 @@ class Series(Case):
         self.refuse("is not I/N", "a.gltf", "b.gltf", "--shard", "3")
         self.refuse("--shard: '4' is not a whole number from 1 to 3", "a.gltf", "b.gltf", "--shard", "4/3")
 
-    def test_shards_are_all_of_it(self):
+    def test_shards_together_are_complete(self):
         for i in (1, 2):
             self.assert_ok(self.render("a.gltf", "b.gltf", "c.gltf", "-q", "-o", "out/{name}.png", "--shard", f"{i}/2"))
             self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.png", "c.png"] if i == 1 else ["a.png", "b.png", "c.png"])

@@ -48,7 +48,7 @@ class Slices(Case):
                 self.assert_ok(self.merge(*order))
                 self.assert_same_picture(whole, self.path("all.exr"))
 
-    def test_by_way_of_other_merges(self):
+    def test_merges_of_merges(self):
         job = ["--spp", "75", "--integrator", "whitted"]  # the last batch, 72:76, is cut
         whole = self.render("whole.exr", *job)
         dice = random.Random(3)
@@ -111,7 +111,7 @@ class Slices(Case):
         return usage.ru_maxrss
 
     @full
-    def test_memory_does_not_go_by_the_order(self):
+    def test_memory_does_not_depend_on_the_order(self):
         """Batches would wait for their left neighbours, which come later here: 24 of 4 MB each."""
         cuts = [0, 8, 16, 32, 64, 80, 96]
         slices = [self.render(f"s{a}.exr", "--size", "400x400", "--spp", "96", "--samples", f"{a}:{b}", "--integrator", "raster") for a, b in zip(cuts, cuts[1:])]
@@ -144,7 +144,7 @@ class Slices(Case):
         self.assertIn("both have samples 0:20; ", self.assert_one_error(self.merge(a, self.path("copy.exr")), 1))
         self.assertIn("are the same slice; ", self.assert_one_error(self.merge(a, a), 1))
 
-    def test_nothing_behind_the_end_within_a_batch(self):
+    def test_nothing_after_an_end_within_a_batch(self):
         """A job that ends within a batch cannot go on."""
         a, b, c = self.render("a.exr", "--samples", "0:8"), self.render("b.exr", "--spp", "19", "--samples", "16:19"), self.render("c.exr", "--samples", "20:24")
         self.assert_ok(self.merge(a, c, "--partial"))
@@ -202,7 +202,7 @@ class Slices(Case):
         b = self.render("b.exr", "--spp", "32", "--samples", "16:32", scene=self.path("changed.gltf"))
         self.assertIn("the scenes differ in materials; ", self.assert_one_error(self.merge(a, b), 1))
 
-    def test_what_is_no_slice(self):
+    def test_files_that_are_no_slices(self):
         plain = self.render("plain.exr", "--spp", "4")
         self.assertIn(f"cannot read '{plain}': it is not a checkpoint or slice", self.assert_one_error(self.merge(plain), 1))
         self.assertIn("cannot open", self.assert_one_error(self.merge(self.path("none.exr")), 1))

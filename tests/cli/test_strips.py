@@ -51,7 +51,7 @@ class Strips(Case):
         self.assert_bits_of_the_whole(["--size", "301x355", "--spp", "1"], ["--size", "97x450", "--spp", "19"])
 
     @full
-    def test_the_bits_of_other_wholes(self):
+    def test_the_bits_with_other_options(self):
         """A batch that is cut; sums of other kinds; other integrators."""
         self.assert_bits_of_the_whole(["--size", "90x403", "--spp", "41", "--filter", "blackman-harris"], ["--size", "150x420", "--spp", "9", "--clamp", "0.5"],
                                       ["--size", "120x403", "--spp", "17", "--channels", "default,direct,indirect,uv", "--light-groups", "all"],
@@ -112,7 +112,7 @@ class Strips(Case):
         self.assertEqual(report["strips"], 1)
         self.assertNotIn("eclat.strips", read_exr(self.path("whole.exr"))[0])
 
-    def test_what_strips_cannot_do(self):
+    def test_options_that_strips_exclude(self):
         for options, name in [(["--adaptive"], "--adaptive"), (["--error", "5"], "--error"), (["--time", "10s"], "--time"), (["--spp", "4", "--time", "9s"], "--time"),
                               (["--checkpoint", self.path("c.exr")], "--checkpoint"), (["--spp", "32", "--samples", "0:16"], "--samples")]:
             run = eclat("render", CORNELL, "--size", "4096x4096", "-q", "--memory", "400M", *options, "-o", self.path("a.exr"))

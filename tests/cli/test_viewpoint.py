@@ -36,7 +36,7 @@ class Viewpoint(Case):
         ys = [i // 36 for i, v in enumerate(values) if v > 0.5]
         return min(xs), min(ys), max(xs) + 1, max(ys) + 1
 
-    def test_looks_where_it_is_told(self):
+    def test_eye_look_at_and_up(self):
         # Half a picture is 12 pixels = tan 45 degrees: at 2 m a metre is 6 pixels.
         self.assertEqual(self.lit("--eye", "10,20,32", "--look-at=10,20,30", "--fov", "90"), (12, 6, 24, 18))
         # The eye is a metre to the right and looks straight on: everything moves 6 pixels to the left.

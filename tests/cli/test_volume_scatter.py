@@ -230,7 +230,7 @@ class VolumeScatter(Case):
         self.assertIn("--fog", self.assert_one_error(run, 2))
 
     @full
-    def test_told_where_it_is_left_out(self):
+    def test_a_message_says_where_scattering_is_left_out(self):
         path = self.scene_of(body(ALBEDO, [9, 4, 2], ior=1.4)).add(block(1, 0, -1)).write(self.path("a.gltf"))
         for options, word in (["--integrator", "whitted"], "only --integrator path scatters light inside"), (["--light-paths", "1"], "--light-paths: none are traced"):
             run = self.assert_ok(eclat("render", path, "--size", "8x8", "--spp", "8", "-o", self.path("a.png"), *options))

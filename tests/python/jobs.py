@@ -13,7 +13,7 @@ from contextlib import redirect_stderr
 from unittest import mock
 
 import eclat
-from stranger import CORNELL, SMALL, Case, support
+from package_case import CORNELL, SMALL, Case, support
 
 from polling import poll_until
 

@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 import eclat
-from stranger import CORNELL, SMALL, Case, support
+from package_case import CORNELL, SMALL, Case, support
 
 VARIES = {"eclat.command", "eclat.seconds", "eclat.wave", "eclat.lanes", "capDate", "comments"}
 

@@ -106,7 +106,7 @@ class Files(UserCase):
         self.assertIn("No space left on device", run.stderr.splitlines()[-1])
         self.assertEqual(os.listdir(disk), [])
 
-    def test_nobody_takes_the_result(self):
+    def test_a_full_standard_output(self):
         with open("/dev/full", "w", encoding="utf-8") as full:
             run = self.run_as_user("info", self.scene, stdout=full)
         self.assertEqual([run.returncode, run.stderr], [1, "eclat: error: cannot write the result to standard output: No space left on device\n"])

@@ -97,7 +97,7 @@ class Several(Case):
                 self.assert_same("--spp", "19", *options)
 
     @full
-    def test_going_on(self):
+    def test_resume(self):
         kept = self.path("kept.exr")
         for first, job in [("all", []), ("0", ["--adaptive"])]:
             whole = self.render(CORNELL, *SIZE, "--spp", "96", *job, device="0")
@@ -106,7 +106,7 @@ class Several(Case):
             self.assertEqual({key: whole[key] for key in RESULT}, {key: again[key] for key in RESULT})
 
     @long
-    def test_going_on_within_a_batch_of_one_device(self):
+    def test_resume_within_a_batch_of_one_device(self):
         """Waves end anywhere in a row of tiles; with several devices, pieces end there."""
         kept, job = self.path("kept.exr"), [CORNELL, *SIZE, "--spp", "2048", "--replicates", "1", "--wave", "16384", "--background", "transparent"]  # batches of 32 samples from 256 on, of 64 from 512
         whole = self.render(*job, device="0")
@@ -168,7 +168,7 @@ class Several(Case):
         self.assertEqual(sum(samples), first["samples"])
         self.assertEqual([a for a, n in zip(red, samples) if n], [b for b, n in zip(right, samples) if n])
 
-    def test_what_is_said(self):
+    def test_messages_and_attributes(self):
         run = self.assert_ok(eclat("render", CORNELL, *SIZE, "--spp", "16", "--device", "1,0", "-o", self.path("a.exr"), env=TWO))
         self.assertRegex(run.stderr, r"(?m)^eclat: rendering 72x50 pixels on basic-.* and 1 more device until 16 samples a pixel$")
         shares = re.findall(r"(?m)^device   basic-.*, \d+ lanes: ([0-9.]+) of 16 samples a pixel$", run.stdout)
@@ -273,7 +273,7 @@ class Failing(FaultCase):
         self.assertEqual(json.loads(run.stdout)["image_sha256"], report["image_sha256"])
 
     @full
-    def test_a_slow_one_holds_nobody_up(self):
+    def test_a_slow_device_delays_no_other(self):
         """Each launch of one device takes a thirtieth of the other's whole render. Once two waves have shown its pace, it gets no piece
         that the other would have to wait for. (It would go on with batches that are shorter than its shortest wave, to 26 samples a pixel
         instead of 10.)"""

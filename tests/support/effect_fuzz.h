@@ -87,7 +87,7 @@ static inline uint64_t ef_close(uint64_t set)
 }
 
 /* Effects that glass also needs, depending on its place and thickness, which no draw decides. */
-static inline uint64_t ef_brought(uint64_t allowed, uint64_t called)
+static inline uint64_t ef_implied(uint64_t allowed, uint64_t called)
 {
     if (!(allowed & EC_FEATURE_TRANSMISSION)) return 0;
     return EC_FEATURE_PANES | EC_FEATURE_MATCHED | EC_FEATURE_NESTED | (called & EC_FEATURE_NESTED ? EC_FEATURE_SMOOTH : 0);
@@ -383,7 +383,7 @@ static inline int ef_run(uint64_t first, int count, effect_run run, ec_integrato
         const ec_render_options o = ef_options(integrator, scattering, smooth ? EC_TERMINATOR_SMOOTH : EC_TERMINATOR_GEOMETRIC);
         ec_scene *scene = ef_scene(seed, run, allowed);
         CHECK_OK(ec_scene_calls(scene, &called, &err), err);
-        ec_feature_names(called.bits & ~(allowed | ef_brought(allowed, called.bits)), names, sizeof names);
+        ec_feature_names(called.bits & ~(allowed | ef_implied(allowed, called.bits)), names, sizeof names);
         CHECK_MSG(!*names, "seed %llu: nothing has %s, and yet the scan calls for it", (unsigned long long)seed, names);
         bool same = ef_same(scene, o, run == EF_SHARED ? shared : 0, &mean);
         CHECK_MSG(same, "seed %llu: the specialised build gives other bits", (unsigned long long)seed);

@@ -5,7 +5,7 @@ import os
 import re
 
 import denoiser
-from desk import ViewCase, mean_difference
+from virtual_screen import ViewCase, mean_difference
 from support import ENVIRONMENT, read_exr, write_exr, write_gltf
 
 TALL = [0.3685, 0.165, 0.3515]  # the middle of the Cornell box's tall block

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import unittest
 
-from desk import ViewCase, mean_difference
+from virtual_screen import ViewCase, mean_difference
 from polling import GUARD
 from support import quad_scene, write_exr, write_gltf
 

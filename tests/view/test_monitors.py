@@ -4,7 +4,7 @@ import shutil
 import subprocess
 import unittest
 
-from desk import Monitors, ViewCase
+from virtual_screen import Monitors, ViewCase
 
 SIZES = (640, 480), (800, 600)
 

@@ -5,7 +5,7 @@ import os
 import shutil
 import subprocess
 
-from desk import ViewCase, mean_difference
+from virtual_screen import ViewCase, mean_difference
 from polling import GUARD
 from support import ECLAT, eclat, move_node, quad_scene, read_exr, write_exr, write_gltf
 
@@ -47,7 +47,7 @@ class Odd(ViewCase):
         self.assertNotIn("--eye", window.save())
         self.assertEqual(window.close(), 0)
 
-    def test_as_near_and_as_far_as_one_likes(self):
+    def test_extreme_distances(self):
         window = self.open(self.scene, *SIZE, "--spp", "2")
         window.key("i", "i")
         first = self.lower(window)
@@ -160,7 +160,7 @@ class Odd(ViewCase):
         self.assert_repeats(window, command)
         self.assertEqual(window.close(), 0)
 
-    def test_beside_the_picture_stands_what_its_label_says(self):
+    def test_the_second_picture_matches_its_label(self):
         window = self.open(self.scene, *SIZE, "--spp", "1")
         window.key("i", "i")
         window.rest()
@@ -232,7 +232,7 @@ class Odd(ViewCase):
         self.assert_repeats(window, after)
         self.assertEqual(window.close(), 0)
 
-    def test_a_script_is_a_hand(self):
+    def test_a_script_acts_like_keys(self):
         run = self.script(self.scene, ["# " + "a long word " * 30, "turn 90 0 0", "key x", "key 1", "key x", "settle", "key Save"], *SMALL)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         for word in ["--eye=", "--integrator=raster", "--without=emission"]:

@@ -2,7 +2,7 @@
 """A scene that takes longer to read than a window waits for."""
 import unittest
 
-from desk import ViewCase
+from virtual_screen import ViewCase
 
 WIDTH, HEIGHT = 8192, 4096
 

@@ -5,7 +5,7 @@ import re
 import subprocess
 import unittest
 
-from desk import ViewCase, mean_difference, pixels
+from virtual_screen import ViewCase, mean_difference, pixels
 from polling import GUARD
 from support import CORNELL, ENVIRONMENT, eclat, png_size, write_exr
 from tiers import full
