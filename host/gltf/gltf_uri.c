@@ -1,5 +1,5 @@
 /* Reads the bytes that URIs stand for: data URIs and files beside the glTF file. Neither a URI nor a symbolic link may lead out of the scene's
- * folder: a scene comes from strangers, and must not be able to read (or probe for) anything else on the machine. */
+ * folder: a scene may come from anybody, and must not be able to read (or probe for) anything else on the machine. */
 #include "base/freed.h"
 #include "base/text.h"
 #include "gltf/gltf.h"

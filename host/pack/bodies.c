@@ -74,11 +74,11 @@ typedef struct part {
 } part;
 
 /* Memory for the triangles of one material. */
-typedef struct desk {
+typedef struct scratch {
     uint32_t *triangles, *parent; /* parent: by corner, union-find */
     place *places;
     part *parts;                  /* by their root corner */
-} desk;
+} scratch;
 
 static uint32_t root_of(uint32_t *parent, uint32_t i)
 {
@@ -100,7 +100,7 @@ static void add_triangle(const ec_scene *scene, uint32_t triangle, part *to)
 
 /* Returns the volume of the largest part, infinite if one is open (its area vectors do not add up to zero): whatever lies in water without a bottom
  * displaces it. */
-static double largest_part(const ec_scene *scene, uint32_t material, desk *d)
+static double largest_part(const ec_scene *scene, uint32_t material, scratch *d)
 {
     uint32_t count = 0, corners;
     double most = 0;
@@ -148,7 +148,7 @@ ec_result ec_bodies_rank(const ec_scene *scene, ec_bodies *bodies, ec_error *err
     EC_FREED place *places = malloc(3 * n * sizeof *places);
     EC_FREED part *parts = malloc(3 * n * sizeof *parts);
     if (!triangles || !parent || !places || !parts) return ec_fail(err, "out of memory for bodies of %zu triangles", n);
-    desk d = {triangles, parent, places, parts};
+    scratch d = {triangles, parent, places, parts};
     for (uint32_t i = 0; i < bodies->count; i++) {
         uint32_t material = bodies->material[i], at = i;
         double size = largest_part(scene, material, &d);
