@@ -54,7 +54,7 @@ class Clamp(Case):
         noise = sum(s * s for s in planes["clamped.stderr"]) / pixels
         self.assertEqual(clamp["limit"], 0.5)
         power = math.log2(clamp["luminance"] / 0.5)
-        self.assertAlmostEqual(4 * power, round(4 * power), delta=1e-5)  # the limit is a quarter of a power of two …
+        self.assertAlmostEqual(4 * power, round(4 * power), delta=1e-5)  # 0.5 times 2^(k / 4) …
         self.assertAlmostEqual(power, math.log2(mean + cut), delta=0.375)  # … near the picture's mean
         self.assertAlmostEqual(clamp["missing"], cut / (cut + mean), delta=1e-6)
         bias = math.sqrt(sum(c * c for c in planes["clamped.Y"]) / pixels - noise) / mean

@@ -170,7 +170,7 @@ class Geometry(HardCase):
         expected = self.render(Scene(LAMP).add(QUAD[:9]), size="4x4", spp="1")
         for accel in ["bvh2", "bvh8", "grid", "kdtree"]:
             with self.subTest(accel=accel):
-                # one ray traversal for each lane
+                # each compiles one kernel for traversal
                 picture = self.render(scene, size="4x4", spp="1", kernels=("--lanes", "1", "--accel", accel))
                 self.assert_same(picture, expected)
 
