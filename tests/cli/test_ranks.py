@@ -277,7 +277,7 @@ class Ranks(Case):
 
     @full
     def test_a_rank_that_is_lost_before_the_scene_comes(self):
-        """Rank 1 dies while it looks for devices: the others do not wait for it, and get the scene by another way."""
+        """Rank 1 dies while it looks for devices: the others do not wait for it, and still get the scene."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
         fault = f"LD_PRELOAD={os.environ['ECLAT_FAULT_SHIM']} FAULT_CALL=clGetDeviceInfo FAULT_SIGNAL=9"
