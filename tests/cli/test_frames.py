@@ -367,7 +367,7 @@ class Sharing(FramesCase):
             self.assertGreaterEqual(row["bytes_kept"], texels)
             self.assertLess(row["bytes_uploaded"], first["bytes_uploaded"] - texels + 1)
         self.assertIn("refitted", [row["structures"] for row in others])
-        for row in others:  # as far as the first rebuilt tree, whose number of nodes is another; when a tree is rebuilt depends on time
+        for row in others:  # ends at the first rebuilt tree, since that has another number of nodes
             if row["structures"] == "rebuilt":
                 break
             self.assertEqual(row["bytes_kept"] + row["bytes_uploaded"], first["bytes_uploaded"])

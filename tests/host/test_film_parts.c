@@ -306,7 +306,7 @@ int main(void)
     const uint32_t numbers[] = {EC_REPLICATES, 3, 1, EC_REPLICATES}; /* 3: no sum begins with the first replicate again */
     for (int i = 0; i < 4; i++) {
         replicates = numbers[i];
-        sets = i % 3; /* of features: with two replicates or more there are halves */
+        sets = i % 3; /* sets of features; with two replicates or more there are halves */
         any_order_of_batches();
         any_slices();
         what_is_shown();

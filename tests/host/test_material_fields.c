@@ -62,7 +62,7 @@ static void test_slot(int slot)
 
 int main(void)
 {
-    const size_t absorption = offsetof(ec_material, absorption); /* of a colour and a distance */
+    const size_t absorption = offsetof(ec_material, absorption); /* depends on a colour and a distance */
     for (int i = 0; i < ec_material_field_count; i++)
         if (ec_material_fields[i].at != absorption) test_field(&ec_material_fields[i]);
     for (int slot = 0; slot < EC_SLOT_COUNT; slot++) test_slot(slot);

@@ -11,7 +11,7 @@
 #include "gltf/reader.h"
 
 static atomic_long calls, failing; /* failing: number of the failing call; 0: none */
-static bool tells;                 /* where that is */
+static bool tells;                 /* prints the place of the failure */
 
 void __sanitizer_print_stack_trace(void) __attribute__((weak)); /* ECLAT_SANITIZE=OFF has none */
 

@@ -91,7 +91,7 @@ static void test_film(void)
     CHECK_NEAR(open.missing_light, 8 / plain.mean_luminance, 1e-9);
     CHECK_NEAR(open.missing_light_samples, EC_RARE_MET * 0x1p20 / (WIDTH * HEIGHT), 1e-6);
     CHECK(!strcmp(open.through, "glass") && !strcmp(open.light, "\"lamp\""));
-    const uint64_t with = count_heavy(&film, heavy); /* and now the whole first tile, 2 x 2 pixels */
+    const uint64_t with = count_heavy(&film, heavy); /* now the whole first tile, 2 x 2 pixels */
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const bool is_lacking = i % WIDTH < 2 && i / WIDTH < 2;
         CHECK(heavy[i] == (is_lacking ? 1 : before[i]));
@@ -103,7 +103,7 @@ static void test_film(void)
     CHECK(ec_film_set_rare(&film, &rare, &err) == EC_OK);
     const ec_film_error weak = ec_film_estimate_error(&film);
     CHECK(!weak.is_open && count_heavy(&film, heavy) == count);
-    CHECK_NEAR(weak.error_bound, hypot(plain.error_bound, EC_RARE_DOUBT * weak.missing_light), 1e-12); /* but wider because of it */
+    CHECK_NEAR(weak.error_bound, hypot(plain.error_bound, EC_RARE_DOUBT * weak.missing_light), 1e-12); /* wider because of it */
     ec_film_destroy(&film);
 }
 

@@ -58,7 +58,7 @@ static uint64_t edge_key(const ec_scene *s, uint32_t a, uint32_t b)
         memcpy(bits, s->positions + 3 * v[e], sizeof bits);
         for (int k = 0; k < 3; k++) key[e] = (key[e] ^ (bits[k] == 0x80000000u ? 0 : bits[k])) * 0x9e3779b97f4a7c15u;
     }
-    return key[0] * 31 + key[1]; /* of a directed edge */
+    return key[0] * 31 + key[1]; /* key of a directed edge */
 }
 
 static int by_value(const void *a, const void *b)

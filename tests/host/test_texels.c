@@ -53,7 +53,7 @@ int main(void)
 
     ec_scene_drop_data(scene);
     CHECK(!scene->images[0].rgba8 && !scene->images[0].texels);
-    CHECK(!memcmp(common.texels->words, copied.texels->words, 4 * (common.texel_words + 1))); /* and the zero after them */
+    CHECK(!memcmp(common.texels->words, copied.texels->words, 4 * (common.texel_words + 1))); /* includes the zero after them */
     ec_scene_free(scene);
     ec_pack_free(&common);
     ec_pack_free(&copied);

@@ -8,7 +8,7 @@ static void sines(void)
     static float u[N], s[N], c[N];
     for (uint32_t i = 0; i < N; i++) {
         u[i] = (float)i / (N - 1);                                               /* 0 and 1 included */
-        if (i % 4 == 1) u[i] = (float)(test_random_u64() >> 40) * 0x1p-24f;      /* what the sampler gives */
+        if (i % 4 == 1) u[i] = (float)(test_random_u64() >> 40) * 0x1p-24f;      /* numbers of the sampler */
         if (i % 4 == 2) u[i] = (float)(i / 4 % 9) / 8 + (float)(i / 36) * 0x1p-24f; /* about multiples of 1/8 */
         if (i % 4 == 3) u[i] = (float)pow(2, -(double)(i % 120));
         u[i] = fminf(u[i], 1.0f);
@@ -54,7 +54,7 @@ static void logarithms(void)
     static float x[N], out[N];
     for (uint32_t i = 0; i < N; i++) {
         x[i] = i % 2 ? random_float(0.25, 1) : (float)exp2(test_random_in(-126, 0));
-        if (i % 8 == 0) x[i] = (float)(1 - exp2(test_random_in(-24, 0))); /* where it is nearly 0 */
+        if (i % 8 == 0) x[i] = (float)(1 - exp2(test_random_in(-24, 0))); /* near the function's zero */
     }
     x[0] = 1.0f, x[1] = 0.0f, x[2] = 1e-45f, x[3] = 0x1p-126f;
     if (!RUN_ALL("log_of", 1, IN(x, N), OUT(out, N))) return;

@@ -9,7 +9,7 @@ enum { COUNT = 1 << 16, OPERATIONS = 11 };
 
 static const struct {
     const char *name;
-    double ulps; /* where it may be inexact */
+    double ulps; /* permitted error without correct rounding */
 } operations[OPERATIONS] = {{"x + y", 0},        {"x * y", 0},     {"x / y", 2.5},         {"sqrt(x)", 3},
                             {"fma(x, y, z)", 0}, {"x * y + z", 0}, {"1 / sqrt(x)", 6},      {"floor(x)", 0},
                             {"x + y - y", 0},    {"x * y + x * z", 0}, {"1 / (1 / x)", 5}};

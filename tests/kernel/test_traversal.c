@@ -179,7 +179,7 @@ static void check_set_of(set s, bool in_parts)
         check_densities(&s, queue, expected);
         const uint32_t *prim = (const uint32_t *)expected, *skip = (const uint32_t *)queue + EC_PATH_PRIM * rays;
         bool all_copies = strcmp(s.name, "duplicated") == 0;
-        for (uint32_t i = 0; all_copies && i < COUNT; i++) /* of four copies the lowest id, or another if that is skipped */
+        for (uint32_t i = 0; all_copies && i < COUNT; i++) /* the lowest id of four copies, or another if that is skipped */
             if (prim[i] != EC_NO_ID && prim[i] >= s.triangles / 4 && prim[i] % (s.triangles / 4) != skip[i]) {
                 CHECK_MSG(false, "ray %u hits copy %u", i, prim[i]);
                 break;

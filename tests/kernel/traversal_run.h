@@ -50,7 +50,7 @@ static inline int open_tracers(bool all_widths)
             if (all_widths || lane_widths[i] == 8) add_tracer(a, (uint32_t)lane_widths[i], "");
     }
     add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8"); /* as in large scenes */
-    add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8 -DPERMUTES_LANES=0"); /* and on CPUs without AVX2 */
+    add_tracer(ec_accel_find("bvh8"), 1, " -DINTERLEAVE=8 -DPERMUTES_LANES=0"); /* on CPUs without AVX2 */
     add_tracer(ec_accel_find("bvh2"), 1, " -DSTACK_ENTRIES=1"); /* as in trees deeper than the stack */
     return test_failures != 0;
 }

@@ -207,7 +207,7 @@ static void test_saves_are_repeated_by_their_commands(void)
     eclat_view_request view = small_view(live);
     const uint32_t lost = eclat_live_save(live, &view); /* the scene is not there yet, */
     view.env_degrees = 0.5;
-    eclat_live_set_view(live, &view);                       /* and now another picture is wanted */
+    eclat_live_set_view(live, &view);                       /* now another picture is requested */
     eclat_status s = wait_for(live, &t, is_saved, lost);
     CHECK(s.is_unsaved && strstr(s.told, "moved") && !atomic_load(&t.saves));
     view.env_degrees = 0;
@@ -275,7 +275,7 @@ static void test_files_change(void)
     eclat_view_request view = small_view(live);
     settle(live, &t, &view);
     const eclat_viewpoint before = eclat_live_facts(live)->cameras[0];
-    copy(SCENE, OUT "box.gltf"); /* by itself */
+    copy(SCENE, OUT "box.gltf"); /* the session notices this by itself */
     wait_for_load(live, &t, 2);
     CHECK(eclat_live_facts(live)->cameras[0].eye[2] == before.eye[2]);
     view.reloads++;

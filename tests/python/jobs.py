@@ -77,7 +77,7 @@ class Messages(Case):
         path = support.write_gltf(self.folder / "odd.gltf", support.quad_scene(material={"pbrMetallicRoughness": {"roughnessFactor": 3}})[0])
         with self.assertWarnsRegex(eclat.Warning, "out of glTF's range") as caught:
             scene = eclat.load(path)
-        self.assertEqual(caught.filename, __file__)  # where the caller stands
+        self.assertEqual(caught.filename, __file__)  # the caller's line
         with self.assertLogs("eclat", logging.INFO) as logged, self.assertWarns(eclat.Warning) as caught:
             scene.render(spp=1, size=(8, 8))
         self.assertEqual(caught.filename, __file__)

@@ -58,7 +58,7 @@ static ec_result take(ec_batch_source *source, const ec_batch_order *order, bool
     *complete = true;
     const ec_fold_parts parts = {.batches = 1, .take = take, .want_room = true};
     if (order->batches > 1) return ec_fold_block(source, order, REPLICATES, &parts, &source->invalid[1], complete, err);
-    for (uint32_t i = order->done; i < order->count; i++) into[FIELDS * (i - order->done)] = 777; /* of an older batch */
+    for (uint32_t i = order->done; i < order->count; i++) into[FIELDS * (i - order->done)] = 777; /* an older batch's values */
     if (f->index == 1 && f->taken++ == (f->is_quick ? 200 : 7)) return ec_fail(err, "it is over");
     for (uint32_t i = order->done; i < order->count && *complete; i++) {
         fill(into + FIELDS * (i - order->done), order->index, pixel_at(order, i));
