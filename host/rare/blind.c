@@ -6,34 +6,11 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "rare/leave.h"
 
 #define PI 3.14159265358979323846
 #define CHANCE 1e-7 /* that a sample meets such light, so small that the look's paths would not have */
 enum { RAYS = 128 }; /* rays from each light */
-
-/* Two unit vectors at right angles to a third and to each other. */
-static void make_frame(const float normal[3], double u[3], double v[3])
-{
-    const int k = fabsf(normal[0]) < 0.6f ? 0 : 1;
-    double square = 0;
-    for (int c = 0; c < 3; c++) u[c] = (c == k) - (double)normal[k] * normal[c], square += u[c] * u[c];
-    for (int c = 0; c < 3; c++) u[c] /= sqrt(square);
-    for (int c = 0; c < 3; c++) v[c] = normal[(c + 1) % 3] * u[(c + 2) % 3] - normal[(c + 2) % 3] * u[(c + 1) % 3];
-}
-
-/* Starts a ray anywhere on a lamp, in a direction distributed as its light is. */
-static void start_at_lamp(const ec_rare_lamp *lamp, uint64_t *random, ec_chain *ray)
-{
-    const double root = sqrt(ec_random_unit(random)), b = ec_random_unit(random) * root, sine2 = ec_random_unit(random);
-    const double angle = 2 * PI * ec_random_unit(random), side = lamp->two_sided && ec_random_unit(random) < 0.5 ? -1 : 1;
-    double u[3], v[3];
-    make_frame(lamp->normal, u, v);
-    for (int c = 0; c < 3; c++) {
-        ray->origin[c] = (float)(lamp->corner[c] + (root - b) * lamp->edges[0][c] + b * lamp->edges[1][c]);
-        ray->direction[c] = (float)(sqrt(sine2) * (cos(angle) * u[c] + sin(angle) * v[c]) + side * sqrt(1 - sine2) * lamp->normal[c]);
-    }
-    ray->prim = lamp->prim;
-}
 
 /* Starts a ray from a part of an environment, through a disk as large as the scene. */
 static void start_far_away(const ec_rare_light *light, const ec_params *params, double radius, uint64_t *random, ec_chain *ray)
@@ -42,7 +19,7 @@ static void start_far_away(const ec_rare_light *light, const ec_params *params, 
     float towards[3];
     double u[3], v[3];
     ec_rare_light_direction(light, params, towards);
-    make_frame(towards, u, v);
+    ec_rare_frame(towards, u, v);
     for (int c = 0; c < 3; c++) {
         ray->origin[c] = (float)(2 * radius * towards[c] + r * (cos(angle) * u[c] + sin(angle) * v[c]));
         ray->direction[c] = -towards[c];
@@ -58,7 +35,7 @@ static uint32_t start_rays(const ec_rare_lights *all, const ec_params *params, e
     for (uint32_t i = 0; i < all->count; i++) {
         const ec_rare_light *light = &all->lights[i];
         for (uint32_t k = 0; k < RAYS && !ec_rare_light_is_all_around(light); k++, count++)
-            if (light->lamp_count) start_at_lamp(&light->lamps[k % light->lamp_count], &random, &rays[count]);
+            if (light->lamp_count) ec_rare_leave_lamp(&light->lamps[k % light->lamp_count], &random, &rays[count]);
             else start_far_away(light, params, all->radius, &random, &rays[count]);
     }
     return count;

@@ -1,5 +1,6 @@
 #include "rare/lights.h"
-#include "rare/suns.h"
+#include "rare/edges.h"
+#include "rare/sources.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -249,6 +250,8 @@ static double power_of_others(const ec_pack *pack)
     return power;
 }
 
+static float straight_share(const ec_material *m) { return (float)((1 - m->metallic) * m->transmission * luminance(m->base_color)); }
+
 /* Copies the materials of the scene's triangles, without its lights. */
 static ec_result copy_materials(const ec_scene *scene, ec_rare_lights *all, ec_error *err)
 {
@@ -261,13 +264,16 @@ static ec_result copy_materials(const ec_scene *scene, ec_rare_lights *all, ec_e
     all->placed = copy_of(scene->placed, scene->placed_count * sizeof *scene->placed);
     all->lights = calloc(EC_RARE_LIGHTS, sizeof *all->lights);
     all->sharp = calloc(scene->material_count + (size_t)1, sizeof *all->sharp);
+    all->straight = calloc(scene->material_count + (size_t)1, sizeof *all->straight);
     all->casts = ec_scene_casters(scene);
-    if (!all->triangle_material || !all->materials || !all->shapes || !all->placed || !all->lights || !all->sharp || !all->casts)
+    if (!all->triangle_material || !all->materials || !all->shapes || !all->placed || !all->lights || !all->sharp || !all->straight ||
+        !all->casts)
         return ec_fail(err, "out of memory for the materials of %u triangles", scene->triangle_count);
     for (uint32_t m = 0; m < scene->material_count; m++) {
         const char *name = scene->materials[m].name;
         if (name && *name) snprintf(all->materials[m], EC_RARE_NAME, "%.*s", EC_CUT(name, EC_RARE_NAME - 1));
         else snprintf(all->materials[m], EC_RARE_NAME, "material %u", m);
+        all->straight[m] = ec_pack_is_pane(scene, &scene->materials[m]) ? straight_share(&scene->materials[m]) : 0;
     }
     return EC_OK;
 }
@@ -282,8 +288,9 @@ ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error
     for (uint32_t m = 0; result == EC_OK && m < all->material_count && m < pack->material_count; m++) all->sharp[m] = sharp_share(&pack->materials[m]);
     if (result == EC_OK) result = find_in_environment(pack, all, err);
     if (result == EC_OK) result = find_lamps(pack, all, err);
-    if (result == EC_OK) result = ec_rare_suns_find(pack, all, err);
-    if (result != EC_OK || (!all->count && !all->sun_count)) ec_rare_lights_free(all);
+    if (result == EC_OK) ec_rare_sources_find(&pack->plain.scene, all);
+    if (result == EC_OK && all->source_count) result = ec_rare_edges_find(pack, all, err);
+    if (result != EC_OK || (!all->count && !all->source_count)) ec_rare_lights_free(all);
     return result;
 }
 
@@ -291,6 +298,7 @@ void ec_rare_lights_free(ec_rare_lights *all)
 {
     free(all->lights);
     free(all->sharp);
+    free(all->straight);
     free(all->casts);
     free(all->triangle_material);
     free(all->materials);
@@ -300,21 +308,28 @@ void ec_rare_lights_free(ec_rare_lights *all)
     *all = (ec_rare_lights){0};
 }
 
-uint32_t ec_rare_material_of(const ec_rare_lights *all, uint32_t id)
+uint32_t ec_rare_stored_of(const ec_rare_lights *all, uint32_t id, const ec_placed **placed)
 {
-    if (all->placed_count && id >= all->placed[0].id) {
-        uint32_t low = 0, high = all->placed_count - 1;
-        while (low < high) {
-            const uint32_t middle = (low + high + 1) / 2;
-            if (all->placed[middle].id <= id) low = middle;
-            else high = middle - 1;
-        }
-        id = all->shapes[all->placed[low].shape].first + id - all->placed[low].id;
+    *placed = NULL;
+    if (!all->placed_count || id < all->placed[0].id) return id;
+    uint32_t low = 0, high = all->placed_count - 1;
+    while (low < high) {
+        const uint32_t middle = (low + high + 1) / 2;
+        if (all->placed[middle].id <= id) low = middle;
+        else high = middle - 1;
     }
-    return id < all->stored_count ? all->triangle_material[id] : 0;
+    *placed = &all->placed[low];
+    return all->shapes[all->placed[low].shape].first + id - all->placed[low].id;
 }
 
-static void turn_from_map(const float *d, const ec_params *params, float direction[3])
+uint32_t ec_rare_material_of(const ec_rare_lights *all, uint32_t id)
+{
+    const ec_placed *placed;
+    const uint32_t stored = ec_rare_stored_of(all, id, &placed);
+    return stored < all->stored_count ? all->triangle_material[stored] : 0;
+}
+
+void ec_rare_turn_from_map(const float d[3], const ec_params *params, float direction[3])
 {
     for (int k = 0; k < 3; k++) {
         const float *turn = params->environment_turn + 4 * k;
@@ -324,11 +339,5 @@ static void turn_from_map(const float *d, const ec_params *params, float directi
 
 void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3])
 {
-    turn_from_map(light->direction, params, direction);
-}
-
-void ec_rare_sun_direction(const ec_rare_sun *sun, const ec_params *params, float direction[3])
-{
-    if (sun->is_on_map) turn_from_map(sun->direction, params, direction);
-    else memcpy(direction, sun->direction, sizeof sun->direction);
+    ec_rare_turn_from_map(light->direction, params, direction);
 }

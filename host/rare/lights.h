@@ -7,7 +7,8 @@
 #include "pack/pack.h"
 #include "shared/params.h"
 
-enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_EDGES = 1 << 13, EC_RARE_LAMP_EDGES = 1 << 9 };
+enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_POINTS = 8, EC_RARE_EDGES = 1 << 13,
+       EC_RARE_NEAR_EDGES = 1 << 9 };
 
 /* A lamp's triangle or a part of one, which stands for `weight` of its group. */
 typedef struct ec_rare_lamp {
@@ -28,22 +29,28 @@ typedef struct ec_rare_light {
     uint32_t lamp_count;
 } ec_rare_light;
 
-/* A light from one direction, or nearly so: a directional light, or a small part of an environment; or a lamp, which is taken to shine from its middle. */
-typedef struct ec_rare_sun {
+/* A light that a ray can be aimed at: one far away, that is a directional light or a small part of an environment; a lamp, which is taken to shine from
+ * its middle; a point or spot light. */
+typedef enum ec_rare_source_type { EC_RARE_FAR, EC_RARE_LAMP, EC_RARE_POINT } ec_rare_source_type;
+typedef struct ec_rare_source {
     char name[EC_RARE_NAME];
-    float direction[3]; /* towards it, unit, in the map's frame if it is on one; a lamp's normal */
-    float middle[3];    /* of a lamp */
-    bool is_on_map, is_lamp, two_sided;
+    ec_rare_source_type type;
+    float direction[3]; /* unit; EC_RARE_FAR: towards it, in the map's frame if it is on one; a lamp's normal; the way that a spot light shines */
+    float middle[3];    /* of a lamp, point or spot light */
+    bool is_on_map, two_sided;
     uint32_t material;  /* of a lamp */
-    double irradiance;  /* luminance, of a surface that faces it; a lamp's at a distance of 1, where both face each other */
+    double irradiance;  /* luminance, of a surface that faces it; EC_RARE_LAMP and _POINT: at a distance of 1, where both face each other */
     double radiance;    /* of a lamp */
-} ec_rare_sun;
+    double cos_inner, cos_outer; /* of a spot light; below -1: a point light */
+    double range;       /* of a point or spot light, metres; 0: infinite */
+} ec_rare_source;
 
 typedef struct ec_rare_lights {
     uint32_t count;
     double power;                    /* of all lights of the scene */
     double flux;                     /* W that they send to casters; 0: not asked for */
     float radius;                    /* of a sphere around the scene */
+    float *straight;                 /* by material: share of light that goes straight on through it, if its factors say so */
     float *sharp;                    /* by material: share of light that it sends on in a narrow lobe, head-on, if its factors say so */
     bool *casts;                     /* by material: light paths are aimed at it, where they are traced */
     ec_rare_light *lights;           /* owned, as all here; NULL: nothing in the scene is small */
@@ -53,10 +60,10 @@ typedef struct ec_rare_lights {
     ec_shape *shapes;
     ec_placed *placed;
     uint32_t placed_count;
-    ec_rare_sun suns[EC_RARE_SUNS + EC_RARE_AIMS]; /* the strongest, and then some of the strongest lamps */
-    uint32_t sun_count;
+    ec_rare_source sources[EC_RARE_SUNS + EC_RARE_AIMS + EC_RARE_POINTS]; /* the strongest of each type */
+    uint32_t source_count;
     float (*edges)[3];               /* points just beside edges of triangles, outside of those; in no order */
-    uint32_t edge_count, flat_count; /* flat_count: triangles that stand where they were made, which come first */
+    uint32_t edge_count;
 } ec_rare_lights;
 
 /* Finds such lights; empty where the scene has none. */
@@ -72,7 +79,17 @@ static inline bool ec_rare_light_is_all_around(const ec_rare_light *light)
 /* Sets the direction, in the scene, towards an environment's part that is not all around. */
 void ec_rare_light_direction(const ec_rare_light *light, const ec_params *params, float direction[3]);
 
-void ec_rare_sun_direction(const ec_rare_sun *sun, const ec_params *params, float direction[3]);
+/* Turns a direction from the environment's map to the scene. */
+void ec_rare_turn_from_map(const float map[3], const ec_params *params, float direction[3]);
+
+/* Sets the unit direction in which the source lies from a point. */
+void ec_rare_source_aim(const ec_rare_source *source, const ec_params *params, const float point[3], float towards[3]);
+
+/* Returns the irradiance of a surface that faces the source, at a point that its light comes to along a direction. */
+double ec_rare_source_irradiance(const ec_rare_source *source, const float point[3], const float along[3]);
+
+/* Returns the number under which a triangle is stored, by the id that hits have; *placed: where it stands, NULL if as it is stored. */
+uint32_t ec_rare_stored_of(const ec_rare_lights *lights, uint32_t id, const ec_placed **placed);
 
 /* Returns the material of a triangle by the id that hits have. */
 uint32_t ec_rare_material_of(const ec_rare_lights *lights, uint32_t id);

@@ -9,6 +9,7 @@
 #include "rare/blind.h"
 #include "rare/openings.h"
 #include "rare/sight.h"
+#include "rare/spots.h"
 
 #define PI 3.14159265358979323846
 #define COMPARED (1 << 18)  /* chains times lamps that are compared, about, of each kind */
@@ -293,21 +294,32 @@ ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, e
     return result;
 }
 
+static ec_result predict(const ec_rare_lights *lights, ec_rare_follower *f, ec_rare_patches *patches, ec_chains *chains, ec_rare *rare,
+                         ec_joined_choice *joined, ec_error *err)
+{
+    EC_TRY(ec_rare_spots_find(f, patches, err));
+    EC_TRY(ec_rare_openings_find(f, patches, err));
+    EC_TRY(ec_chains_trace(f->p, lights, patches->count > 0, chains, err));
+    EC_TRY(ec_rare_paths_of(lights, chains, f->p, rare, err));
+    if (joined && chains->may_join) EC_TRY(ec_chains_join(f->p, lights, joined, err));
+    EC_TRY(ec_rare_blind_find(lights, chains, f->p, rare, err));
+    return ec_rare_patches_judge(patches, f, chains, rare, err);
+}
+
 ec_result ec_rare_paths_predict(const ec_rare_lights *lights, ec_pipeline *p, ec_rare *rare, ec_joined_choice *joined, ec_error *err)
 {
     ec_chains chains = {0};
-    ec_rare_openings openings = {0};
+    ec_rare_patches patches = {0};
+    ec_rare_follower follower = {0};
     *rare = (ec_rare){0};
     if (joined) *joined = (ec_joined_choice){0};
-    if (!lights->count && !lights->sun_count) return EC_OK;
+    if (!lights->count && !lights->source_count) return EC_OK;
     if (p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
-    ec_result result = ec_rare_openings_find(lights, p, &openings, err);
-    if (result == EC_OK) result = ec_chains_trace(p, lights, openings.count > 0, &chains, err);
-    if (result == EC_OK) result = ec_rare_paths_of(lights, &chains, p, rare, err);
-    if (result == EC_OK && joined && chains.may_join) result = ec_chains_join(p, lights, joined, err);
-    if (result == EC_OK) result = ec_rare_blind_find(lights, &chains, p, rare, err);
-    if (result == EC_OK) ec_rare_openings_judge(&openings, lights, &chains, rare);
-    ec_rare_openings_free(&openings);
+    patches.list = calloc(EC_RARE_PATCHES, sizeof *patches.list);
+    ec_result result = patches.list ? ec_rare_follower_open(lights, p, &follower, err) : ec_fail(err, "out of memory for %d patches", EC_RARE_PATCHES);
+    if (result == EC_OK) result = predict(lights, &follower, &patches, &chains, rare, joined, err);
+    ec_rare_follower_close(&follower);
+    ec_rare_patches_free(&patches);
     ec_chains_free(&chains);
     return result;
 }

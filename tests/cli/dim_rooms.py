@@ -56,17 +56,33 @@ class Room:
         return len(self.json["accessors"]) - 1
 
     def quad(self, material, at, u, v):
-        """A parallelogram with the edges u and v."""
-        points = [at[k] + a * u[k] + b * v[k] for a, b in SIDES for k in range(3)]
-        streams = {"POSITION": self.floats(3, points), "TEXCOORD_0": self.floats(2, [c for side in SIDES for c in side])}
+        """A parallelogram with the edges u and v, which faces u x v."""
+        self.mesh(material, [(at, u, v)])
+
+    def mesh(self, material, quads):
+        """Returns its number."""
+        points = [at[k] + a * u[k] + b * v[k] for at, u, v in quads for a, b in SIDES for k in range(3)]
+        streams = {"POSITION": self.floats(3, points), "TEXCOORD_0": self.floats(2, [c for side in SIDES * len(quads) for c in side])}
         self.json["meshes"].append({"primitives": [{"attributes": streams, "material": material}]})
         self.node(mesh=len(self.json["meshes"]) - 1)
+        return len(self.json["meshes"]) - 1
 
     def ceiling(self, hole=None):
+        """Returns its mesh."""
         a, b, c, d = hole or (0, 0, 0, 0)
-        for x0, x1, z0, z1 in ((-2, 2, -2, c), (-2, 2, d, 2), (-2, a, c, d), (b, 2, c, d)):
-            if x0 < x1 and z0 < z1:
-                self.quad(self.white, (x0, 3, z0), (x1 - x0, 0, 0), (0, 0, z1 - z0))
+        sides = [s for s in ((-2, 2, -2, c), (-2, 2, d, 2), (-2, a, c, d), (b, 2, c, d)) if s[0] < s[1] and s[2] < s[3]]
+        return self.mesh(self.white, [((x0, 3, z0), (x1 - x0, 0, 0), (0, 0, z1 - z0)) for x0, x1, z0, z1 in sides])
+
+    def dim_lamp(self):
+        """5 W"""
+        self.quad(self.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
+
+    def pane(self, at, u, v):
+        glass = self.material(1, doubleSided=True)
+        self.json["materials"][glass]["pbrMetallicRoughness"]["roughnessFactor"] = 0
+        self.json["materials"][glass]["extensions"] = {"KHR_materials_transmission": {"transmissionFactor": 1}}
+        self.json["extensionsUsed"].append("KHR_materials_transmission")
+        self.quad(glass, at, u, v)
 
     def rug(self, side):
         """side x side small squares on the floor, each at its own height."""
@@ -77,14 +93,17 @@ class Room:
         self.json["meshes"].append({"primitives": [{"attributes": {"POSITION": self.floats(3, points)}, "material": material}]})
         self.node(mesh=len(self.json["meshes"]) - 1)
 
+    def light(self, light, **node):
+        self.node(extensions={"KHR_lights_punctual": {"light": 0}}, **node)
+        self.json["extensions"] = {"KHR_lights_punctual": {"lights": [light]}}
+        self.json["extensionsUsed"].append("KHR_lights_punctual")
+
     def sun(self, irradiance):
         length = math.sqrt(sum(c * c for c in SUN))
         x, y, z = (c / length for c in SUN)
         axis, cosine = (y, -x, 0), -z  # turns -z to SUN, about their cross product
         w = math.sqrt((1 + cosine) / 2)
-        self.node(rotation=[c / (2 * w) for c in axis] + [w], extensions={"KHR_lights_punctual": {"light": 0}})
-        self.json["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": irradiance}]}}
-        self.json["extensionsUsed"].append("KHR_lights_punctual")
+        self.light({"type": "directional", "intensity": irradiance}, rotation=[c / (2 * w) for c in axis] + [w])
 
     def write(self, path):
         self.json["buffers"] = [{"byteLength": len(self.buffer), "uri": data_uri(self.buffer)}]
@@ -104,20 +123,26 @@ def texel_room(path):
     return room.write(path)
 
 
-def sun_room(path, kind, rug=0, ground=0):
+def sun_room(path, kind, rug=0, ground=0, pane=False, twice=False):
     """A room with a dim lamp of 5 W, and a sun of 10^5 W/m^2 outside. kind: "hole": the sun lights a patch of the floor through a hole of 5
     mm; "sealed": no hole; "patch": no sun and no hole, but a patch that emits what it would reflect. rug: squares along each side of a rug
-    on the floor, 0: none. ground: side of the plain that the room stands on, 0: none."""
+    on the floor, 0: none. ground: side of the plain that the room stands on, 0: none. pane: one pane lies over the hole and another one below
+    it. twice: a second node has the ceiling's mesh, far below."""
     room, irradiance = Room(0.7), 1e5
     x, z = 0.5, 0.3
-    room.quad(room.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
-    room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
+    room.dim_lamp()
+    ceiling = room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
     if kind == "patch":
         cosine = -SUN[1] / math.sqrt(sum(c * c for c in SUN))
         lit = room.material(0.7, 0.7 * irradiance * cosine / math.pi)
         room.quad(lit, (x - 3 * SUN[0] / SUN[1], 1e-5, z - 3 * SUN[2] / SUN[1]), (0, 0, HOLE), (HOLE, 0, 0))
     else:
         room.sun(irradiance)
+    if twice:
+        room.node(mesh=ceiling, translation=[0, -6.5, 0])
+    if pane:
+        room.pane((x - 0.1, 3.01, z - 0.1), (0, 0, 0.2), (0.2, 0, 0))
+        room.pane((x, 1, z), (0, 0, 1), (1, 0, 0))
     if rug:
         room.rug(rug)
     if ground:
@@ -129,7 +154,34 @@ def lamp_room(path, kind):
     """A room with a dim lamp of 5 W, and a lamp of 125 kW, 2 mm across, a metre above the ceiling. kind: "hole": it lights a patch of the
     floor through a hole of 5 mm; "sealed": no hole."""
     room, x, z, side = Room(0.7), 0.5, 0.3, 0.002
-    room.quad(room.material(0, 5 / (math.pi * 0.25)), (1, 2.9, 1.3), (0.5, 0, 0), (0, 0, 0.5))
+    room.dim_lamp()
     room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
     room.quad(room.material(0, 1e10), (x - side / 2, 4, z - side / 2), (side, 0, 0), (0, 0, side))
+    return room.write(path)
+
+
+def point_room(path, kind, spot=False):
+    """A dim lamp of 5 W, and a metre above the ceiling a point light of 4 x 10^5 W/sr, or a spot light that shines down. Through a "hole" of 5 mm it
+    lights 4 cm^2 of the floor, with 10 W; or the room is "sealed"."""
+    room, x, z = Room(0.7), 0.5, 0.3
+    room.dim_lamp()
+    room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
+    light = {"type": "spot", "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}} if spot else {"type": "point"}
+    room.light({**light, "intensity": 4e5}, translation=[x + HOLE / 2, 4, z + HOLE / 2], rotation=[-math.sqrt(0.5), 0, 0, math.sqrt(0.5)])
+    return room.write(path)
+
+
+def near_room(path, kind, distance):
+    """A dim lamp of 5 W, and at so many metres from a surface another light of about as much: a "point" light below the ceiling, a "spot" light that
+    shines onto the floor, or a "lamp" of 1 mm that faces the ceiling."""
+    room, x, z, side = Room(0.7), 0.5, 0.3, 0.001
+    room.dim_lamp()
+    room.ceiling()
+    if kind == "lamp":
+        room.quad(room.material(0, 5 / (math.pi * side * side)), (x, 3 - distance, z), (0, 0, side), (side, 0, 0))
+    elif kind == "point":
+        room.light({"type": "point", "intensity": 1}, translation=[x, 3 - distance, z])
+    else:
+        room.light({"type": "spot", "intensity": 20, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.5}}, translation=[x, distance, z],
+                   rotation=[-math.sqrt(0.5), 0, 0, math.sqrt(0.5)])
     return room.write(path)

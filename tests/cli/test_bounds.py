@@ -12,7 +12,7 @@ import os
 import struct
 import unittest
 
-from dim_rooms import lamp_room, sun_room, texel_room
+from dim_rooms import lamp_room, near_room, point_room, sun_room, texel_room
 from support import CORNELL, NARROW, SOURCE, Case, eclat, read_exr, write_exr
 from tiers import full
 
@@ -58,10 +58,10 @@ class Bounds(Case):
         bound = json.loads(run.stdout).get("error_bound")
         return bound if isinstance(bound, (int, float)) and math.isfinite(bound) else None, luminance(out)
 
-    def missing_light(self, scene):
+    def missing_light(self, scene, *options):
         """Returns how much light 16 samples a pixel may miss, relative to the picture's."""
         return json.loads(self.assert_ok(eclat("render", "-q", *NARROW, "--size", f"{SIZE}x{SIZE}", "--spp", "16", "--max-depth", "5", "--json",
-                                               "-o", self.path("out.exr"), scene)).stdout)["error_unmet"]
+                                               "-o", self.path("out.exr"), *options, scene)).stdout)["error_unmet"]
 
     def assert_bounds_hold(self, reference, scene, *options):
         for seed in SEEDS:
@@ -119,6 +119,29 @@ class Bounds(Case):
         # the room is lit
         self.assertGreater(self.missing_light(sun_room(self.path("hole.gltf"), "hole", ground=400)), 0.1)
         self.assertEqual(self.missing_light(sun_room(self.path("sealed.gltf"), "sealed", ground=400)), 0)
+
+    @full
+    def test_point_or_spot_light_behind_a_small_hole_is_found(self):
+        for spot in False, True:
+            with self.subTest(spot=spot):
+                self.assertGreater(self.missing_light(point_room(self.path("hole.gltf"), "hole", spot)), 0.3)
+                self.assertEqual(self.missing_light(point_room(self.path("sealed.gltf"), "sealed", spot)), 0)
+
+    @full
+    def test_hole_in_a_mesh_that_is_kept_once_is_found(self):
+        self.assertGreater(self.missing_light(sun_room(self.path("hole.gltf"), "hole", twice=True), "--instancing", "on"), 0.1)
+        self.assertEqual(self.missing_light(sun_room(self.path("sealed.gltf"), "sealed", twice=True), "--instancing", "on"), 0)
+
+    @full
+    def test_hole_behind_panes_is_found(self):
+        self.assertGreater(self.missing_light(sun_room(self.path("hole.gltf"), "hole", pane=True)), 0.1)
+
+    @full
+    def test_small_spot_lit_from_close_by_is_found(self):
+        for kind, distance in ("point", 0.001), ("spot", 0.005), ("lamp", 0.002):
+            with self.subTest(kind=kind):
+                self.assertGreater(self.missing_light(near_room(self.path("near.gltf"), kind, distance)), 0.05)
+                self.assertLess(self.missing_light(near_room(self.path("far.gltf"), kind, 100 * distance)), 0.005)
 
     @full
     def test_lamp_that_light_paths_find_has_a_bound(self):

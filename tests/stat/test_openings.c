@@ -1,7 +1,7 @@
 /* tier: quick */
-/* Predicted light of small lit patches, from path vertices near them. The nearest twelve on the patch's plane and side count; vertices that
- * the camera sees count separately from others on a path. */
-#include "rare/openings.h"
+/* Predicted light of small lit patches, from path vertices near them. The nearest twelve on the patch's plane and side count, and none on a wall that
+ * meets the plane; vertices that the camera sees count separately from others on a path. */
+#include "rare/patches.h"
 
 #include <math.h>
 
@@ -10,7 +10,8 @@
 #include "support/test.h"
 
 #define PI 3.14159265358979323846
-enum { NEAREST = 12, AROUND = 20, PATHS = 1000, SIDE = 64, VERTICES = 2 * (2 * AROUND + 2) };
+enum { NEAREST = 11, AROUND = 20, PATHS = 1000, SIDE = 64, VERTICES = 2 * (2 * AROUND + 4) }; /* NEAREST: a twelfth one is on the wall */
+enum { FLOOR, WALL };
 
 static ec_chain vertices[VERTICES];
 static uint32_t vertex_count;
@@ -21,11 +22,15 @@ static void add_vertex(const ec_rare_patch *patch, double distance, double heigh
                                           .direction = {0, 0, up}, .beta = beta, .segment = segment};
 }
 
-/* Vertices in no order of distance. Nearer than all of them are one on the other side, and one off the plane. */
+/* Vertices in no order of distance. Nearer than all of them are one on the other side, one off the plane, and two on a wall. */
 static void surround(const ec_rare_patch *patch, double seen, double on_the_way)
 {
     add_vertex(patch, 0.5 * seen, 0, -1, 1, 99);
     add_vertex(patch, 0.2 * seen, 0.2 * seen, 1, 2, 99);
+    for (uint32_t segment = 1; segment <= 2; segment++) {
+        add_vertex(patch, 0.3 * seen, 0, 1, segment, 99);
+        vertices[vertex_count - 1].prim = WALL;
+    }
     for (int i = 0; i < AROUND; i++) {
         const int k = 1 + 7 * i % AROUND;
         add_vertex(patch, k * seen, 0, 1, 1, (float)k);
@@ -52,17 +57,19 @@ static void check_kind(const ec_rare *rare, const ec_rare_patch *patch, double s
 
 int main(void)
 {
-    const ec_rare_sun sun = {.name = "sun"};
-    ec_rare_patch patches[2] = {{.point = {1, 2, 3}, .normal = {0, 0, 1}, .irradiance = 50, .area = 1e-3, .sun = &sun},
-                                {.point = {101, 2, 3}, .normal = {0, 0, 1}, .irradiance = 7, .area = 2e-3, .sun = &sun}};
-    const ec_rare_openings openings = {2, patches};
-    const ec_rare_lights lights = {.radius = 1};
+    ec_rare_patch patches[2] = {{.point = {1, 2, 3}, .normal = {0, 0, 1}, .irradiance = 50, .area = 1e-3, .light = "sun"},
+                                {.point = {101, 2, 3}, .normal = {0, 0, 1}, .irradiance = 7, .area = 2e-3, .light = "sun"}};
+    const ec_rare_patches both = {2, patches};
+    const ec_rare_lights lights = {.radius = 1, .stored_count = 2};
+    ec_prim triangles[] = {[FLOOR] = {.v1 = {1, 0, 0}, .v2 = {0, 1, 0}}, [WALL] = {.v1 = {1, 0, 0}, .v2 = {0, 0, 1}}}, *pages[] = {triangles};
+    ec_rare_follower follower = {.lights = &lights, .pages = pages};
+    ec_error err = {0};
     ec_rare rare = {.width = SIDE, .height = SIDE};
     surround(&patches[0], 0.1, 0.13);
     surround(&patches[1], 0.17, 0.2);
     const ec_chains paths = {.paths = PATHS, .vertices = vertices, .vertex_count = vertex_count};
     CHECK(vertex_count == VERTICES);
-    ec_rare_openings_judge(&openings, &lights, &paths, &rare);
+    CHECK(ec_rare_patches_judge(&both, &follower, &paths, &rare, &err) == EC_OK);
     CHECK(rare.count == 4);
     check_kind(&rare, &patches[0], 0.1, true);
     check_kind(&rare, &patches[0], 0.13, false);
