@@ -29,16 +29,17 @@ static double luminance_of(const ec_rare_kind *kind, double mean, double limit)
 
 double ec_rare_missing(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most)
 {
-    double sum = 0, largest = 0;
+    double sum = 0, squares = 0, largest = 0;
     *most = NULL;
     for (uint32_t i = 0; rare && i < rare->count; i++) {
         const ec_rare_kind *kind = &rare->kinds[i];
         if (!is_missing(kind, samples)) continue;
-        const double rms = luminance_of(kind, mean, limit) * kind->gathered;
-        sum += rms * rms;
+        const double luminance = luminance_of(kind, mean, limit), rms = luminance * kind->gathered;
+        sum += luminance;
+        squares += rms * rms - luminance * luminance;
         if (!*most || rms > largest) *most = kind, largest = rms;
     }
-    return sum;
+    return sum * sum + squares;
 }
 
 double ec_rare_caustics(const ec_rare *rare, double mean, const ec_rare_kind **most)

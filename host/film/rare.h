@@ -49,8 +49,8 @@ ec_rare_kind *ec_rare_make_room(ec_rare *rare, double matters);
 void ec_rare_way(const char *through, const char *light, char *text, size_t size);
 
 /* Returns the mean over pixels of the square of the luminance that is missing if kinds are not met of which so many samples (of the whole picture)
- * expect fewer than EC_RARE_MET; *most: the kind that matters most, or NULL. rare may be NULL. mean: the picture's luminance. limit: of a sample's
- * indirect light, where the picture is clamped; else 0. */
+ * expect fewer than EC_RARE_MET; *most: the kind that matters most, or NULL. rare may be NULL. Means of kinds add up; their peaks are
+ * taken to lie in different places. mean: the picture's luminance. limit: of a sample's indirect light, where the picture is clamped; else 0. */
 double ec_rare_missing(const ec_rare *rare, double samples, double mean, double limit, const ec_rare_kind **most);
 
 /* Returns the variance of a sample by what light paths could bring, over the square of the picture's mean luminance; *most: the kind with most of it,
