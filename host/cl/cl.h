@@ -21,6 +21,7 @@ typedef struct ec_device_info {
     uint64_t memory_bytes, max_allocation_bytes, cache_bytes, local_bytes;
     uint64_t max_work_group_size;
     bool correctly_rounded_divide_sqrt, denormals, fma, inf_nan;
+    bool subgroup_ballot;          /* cl_khr_subgroup_ballot; ec_device_joins tells whether kernels use it */
     bool available, compiler_available;
 } ec_device_info;
 

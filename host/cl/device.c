@@ -37,6 +37,19 @@ static void platform_text(cl_platform_id platform, cl_platform_info what, char t
     trim(text);
 }
 
+/* Returns whether the device lists an extension. */
+static bool has_extension(cl_device_id device, const char *name)
+{
+    size_t size = 0;
+    if (clGetDeviceInfo(device, CL_DEVICE_EXTENSIONS, 0, NULL, &size) != CL_SUCCESS || !size) return false;
+    char *all = calloc(1, size + 1), *rest = NULL;
+    bool found = false;
+    if (all && clGetDeviceInfo(device, CL_DEVICE_EXTENSIONS, size, all, NULL) != CL_SUCCESS) all[0] = 0;
+    for (char *word = all ? strtok_r(all, " ", &rest) : NULL; word && !found; word = strtok_r(NULL, " ", &rest)) found = !strcmp(word, name);
+    free(all);
+    return found;
+}
+
 /* The value must have exactly the size the standard gives it; 0 where the query fails. */
 #define DEVICE_NUMBER(device, what, type, to)                                                      \
     do {                                                                                           \
@@ -86,6 +99,7 @@ static void describe(cl_platform_id platform, cl_device_id device, ec_device_inf
     info->denormals = fp & CL_FP_DENORM;
     info->fma = fp & CL_FP_FMA;
     info->inf_nan = fp & CL_FP_INF_NAN;
+    info->subgroup_ballot = has_extension(device, "cl_khr_subgroup_ballot");
 }
 
 /* Adds the devices of one platform to the list. A platform without any is no failure. */

@@ -24,7 +24,8 @@ static const ec_workaround workarounds[] = {
      .source_only = true, .no_touch = true},
     {"rusticl", "Mesa 22.3.6, 2026-11", "its compiler takes gigabytes and many minutes for kernels of more than one lane", .most_lanes = 1,
      .source_only = true, .rounds = true},
-    {"Intel(R) OpenCL", "2026.22.10, 2026-11", "it rounds correctly but does not say so", .rounds = true},
+    {"Intel(R) OpenCL", "2026.22.10, 2026-11", "it rounds correctly but does not say so; its compiler for cards joins the atomic operations of work-items in step",
+     .rounds = true, .no_subgroups = true},
 };
 
 enum { ROWS = sizeof workarounds / sizeof *workarounds };
@@ -76,6 +77,12 @@ bool ec_device_rounds(const ec_device_info *device)
 {
     const ec_workaround *driver = ec_workaround_for(device);
     return device->correctly_rounded_divide_sqrt || (driver && driver->rounds);
+}
+
+bool ec_device_joins(const ec_device_info *device)
+{
+    const ec_workaround *driver = ec_workaround_for(device);
+    return device->subgroup_ballot && !(device->type & CL_DEVICE_TYPE_CPU) && !(driver && driver->no_subgroups);
 }
 
 void ec_device_drivers(const ec_device_info *devices, uint32_t count, char *text, size_t size)

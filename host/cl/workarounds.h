@@ -14,6 +14,7 @@ typedef struct ec_workaround {
     bool rounds;            /* divides and takes square roots correctly rounded, though it does not say so */
     bool slow_header;       /* its header of built-in functions, which has Clang's guard, is slow: kernels declare what they call
                              * (kernels/shared/builtins.h) */
+    bool no_subgroups;      /* kernels of one lane do not use its sub-groups */
     bool no_touch;          /* buffers are not written to only to see whether there is memory for them */
 } ec_workaround;
 
@@ -27,6 +28,10 @@ bool ec_compiles_late(const ec_device_info *device);
 
 /* Returns build options for kernels of the pipeline: " -D…" or "". */
 const char *ec_builtin_options(const ec_device_info *device);
+
+/* Returns whether kernels of one lane, if they inline all functions, reserve places in queues once for a sub-group (kernels/lib/reserve.h). They do on a
+ * device that is no processor and has cl_khr_subgroup_ballot, unless its row says otherwise. */
+bool ec_device_joins(const ec_device_info *device);
 
 /* Returns whether arithmetic gives the same bits as on other devices for which this is true. */
 bool ec_device_rounds(const ec_device_info *device);

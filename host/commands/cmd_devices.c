@@ -42,6 +42,7 @@ static const eclat_note notes[] = {
     {"Columns", "max alloc", "largest single buffer"},
     {"Columns", "exact div", "division and square root are correctly rounded"},
     {"Columns", "denormals, fma", "single-precision denormals; fused multiply-add in hardware"},
+    {"Columns", "sub-groups", "kernels of one lane reserve places in queues once for a sub-group"},
     {0}};
 
 const ec_command ec_cmd_devices = {

@@ -72,8 +72,9 @@ static ec_result describe_width(const ec_pipeline *p, const ec_kernel_set *set, 
         if (*own && *traversal && own != traversal) return ec_fail(err, "internal error: traversals of one width that take different runs of rays");
         if (*own) traversal = own;
     }
-    snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s%s", lanes, features, traversal,
-             lanes == 1 && set->calls ? " -DCALLS" : "", ec_builtin_options(&p->cl->info), p->fast_math ? " " EC_FAST_MATH : "");
+    const char *form = lanes > 1 ? "" : set->calls ? " -DCALLS" : ec_device_joins(&p->cl->info) ? " -DSUBGROUPS" : "";
+    snprintf(program->options, sizeof program->options, "-DLANES=%u -DFEATURES=0x%" PRIx64 "ul%s%s%s%s", lanes, features, traversal, form,
+             ec_builtin_options(&p->cl->info), p->fast_math ? " " EC_FAST_MATH : "");
     snprintf(program->label, sizeof program->label, "lanes%u%s", lanes, p->fast_math ? "_fast" : "");
     return ec_kernel_sources_join(names, &program->source, err);
 }

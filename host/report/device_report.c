@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cl/workarounds.h"
 #include "report/format.h"
 #include "report/json.h"
 
@@ -29,11 +30,11 @@ static void print_row(const ec_device_report *report, uint32_t i, int name_width
     const ec_device_info *device = &report->devices[i];
     char version[16];
     short_version(device->version, version, sizeof version);
-    fprintf(to, "%c %2u  %-*s  %-5s  %-6s  %5u  %5u  %10s  %10s  %-9s  %-9s  %s%s\n",
+    fprintf(to, "%c %2u  %-*s  %-5s  %-6s  %5u  %5u  %10s  %10s  %-9s  %-9s  %-3s  %s%s\n",
             report->chosen == (int64_t)i ? '*' : ' ', i, name_width, device->name, type_name(device->type),
             version, device->compute_units, device->native_float_width, ec_bytes(device->memory_bytes).text,
             ec_bytes(device->max_allocation_bytes).text,
-            yes(device->correctly_rounded_divide_sqrt), yes(device->denormals), yes(device->fma),
+            yes(device->correctly_rounded_divide_sqrt), yes(device->denormals), yes(device->fma), yes(ec_device_joins(device)),
             !device->available ? "  (not available)" : !device->compiler_available ? "  (no compiler)" : "");
 }
 
@@ -44,7 +45,7 @@ void ec_device_report_text(const ec_device_report *report, FILE *to)
         int size = (int)strlen(report->devices[i].name);
         if (size > width) width = size;
     }
-    fprintf(to, "   #  %-*s  %-5s  OpenCL  units  lanes  %10s  %10s  exact div  denormals  fma\n", width, "name", "type",
+    fprintf(to, "   #  %-*s  %-5s  OpenCL  units  lanes  %10s  %10s  exact div  denormals  fma  sub-groups\n", width, "name", "type",
             "memory", "max alloc");
     for (uint32_t i = 0; i < report->count; i++) print_row(report, i, width, to);
     if (report->chosen >= 0)
@@ -62,7 +63,8 @@ cJSON *ec_device_json(const ec_device_info *device, uint32_t index)
             EC_WHOLE("cache_bytes", device->cache_bytes), EC_WHOLE("local_bytes", device->local_bytes),
             EC_WHOLE("max_work_group_size", device->max_work_group_size),
             EC_FLAG("correctly_rounded_divide_sqrt", device->correctly_rounded_divide_sqrt), EC_FLAG("denormals", device->denormals),
-            EC_FLAG("fma", device->fma), EC_FLAG("inf_nan", device->inf_nan), EC_FLAG("available", device->available),
+            EC_FLAG("fma", device->fma), EC_FLAG("inf_nan", device->inf_nan), EC_FLAG("subgroup_ballot", device->subgroup_ballot),
+            EC_FLAG("uses_subgroups", ec_device_joins(device)), EC_FLAG("available", device->available),
             EC_FLAG("compiler_available", device->compiler_available));
     return object;
 }

@@ -5,6 +5,7 @@
 #include "../shared/params.h"
 #include "../shared/path_state.h"
 #include "math.h"
+#include "reserve.h"
 
 /* Entries per work-item in kernels that take one entry at a time. */
 #ifndef RUN
@@ -27,7 +28,12 @@ EC_INLINED uint slot_entries(uint count, uint i) { return i < count ? count - i 
 /* Reserves room in part `row` for the lanes of `bits`, of which there is at least one; returns the first entry. */
 EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint row, uint bits)
 {
-    return row * part + atomic_add(&counts[row * EC_PART_STRIDE], LANES == 1 ? 1u : popcount(bits));
+    volatile global uint *counter = &counts[row * EC_PART_STRIDE];
+#if LANES == 1
+    return row * part + reserve_place(counter);
+#else
+    return row * part + atomic_add(counter, popcount(bits));
+#endif
 }
 
 EC_FN lane_f queue_load_f(global const float *queue, uint wave, uint field, uint i)

@@ -91,5 +91,13 @@ uint EC_BUILTIN atomic_add(volatile __global uint *, uint);
 uint EC_BUILTIN atomic_inc(volatile __global uint *);
 uint EC_BUILTIN atomic_max(volatile __global uint *, uint);
 
+#if defined(SUBGROUPS) && defined(cl_khr_subgroup_ballot) /* lib/reserve.h */
+#define EC_BUILTIN_TOGETHER __attribute__((overloadable, convergent))
+uint4 EC_BUILTIN_TOGETHER sub_group_ballot(int);
+uint EC_BUILTIN_TOGETHER sub_group_ballot_bit_count(uint4);
+uint EC_BUILTIN_TOGETHER sub_group_ballot_exclusive_scan(uint4);
+uint EC_BUILTIN_TOGETHER sub_group_broadcast_first(uint);
+#endif
+
 #endif
 #endif

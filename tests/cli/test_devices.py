@@ -8,7 +8,7 @@ import unittest
 from support import CORNELL, Case, eclat, read_exr
 
 KEYS = ["index", "name", "type", "version", "driver", "platform", "compute_units", "native_float_width", "memory_bytes",
-        "max_allocation_bytes", "correctly_rounded_divide_sqrt", "denormals", "fma"]
+        "max_allocation_bytes", "correctly_rounded_divide_sqrt", "denormals", "fma", "subgroup_ballot", "uses_subgroups"]
 
 
 class Devices(Case):
@@ -16,7 +16,7 @@ class Devices(Case):
         run = self.assert_ok(eclat("devices", env={"ECLAT_DEVICE": ""}))
         self.assertEqual(run.stderr, "")
         lines = run.stdout.splitlines()
-        for word in ["name", "OpenCL", "units", "lanes", "memory", "max alloc", "exact div", "denormals", "fma"]:
+        for word in ["name", "OpenCL", "units", "lanes", "memory", "max alloc", "exact div", "denormals", "fma", "sub-groups"]:
             self.assertIn(word, lines[0])
         self.assertEqual(sum(line.startswith("* ") and "default:" not in line for line in lines), 1)
         self.assertRegex(lines[-1], r"default: \d+ \(.+\)")
@@ -60,6 +60,30 @@ class Devices(Case):
             self.assert_ok(eclat("render", CORNELL, "--size", "24x24", "--spp", "8", "-q", "-o", self.path("a.exr"), env={"ECLAT_WORKAROUND": row}))
             pictures.append(read_exr(self.path("a.exr"))[1])
             self.assertEqual(pictures[-1], pictures[0], row)
+
+    def test_cards_use_sub_groups_to_the_same_bits(self):
+        """A compiler that has none for OpenCL C 1.2, whatever extensions the device lists, takes the kernels too."""
+        if "ECLAT_FAULT_SHIM" not in os.environ:
+            self.skipTest("no ECLAT_FAULT_SHIM")
+        card = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_EXTENSIONS": "cl_khr_fp64 cl_khr_subgroup_ballot", "ECLAT_DEVICE_TYPE": "gpu",
+                "ECLAT_WORKAROUND": "none", "ECLAT_COMPILE": "first"}
+        pictures = []
+        for changed, has, uses in [({"FAULT_EXTENSIONS": "cl_khr_fp64 cl_khr_subgroup_ballot_2"}, False, False), ({}, True, True),
+                                   ({"ECLAT_DEVICE_TYPE": "cpu"}, True, False), ({"ECLAT_WORKAROUND": "Intel(R) OpenCL"}, True, False)]:
+            env = {**card, **changed}
+            for device in json.loads(self.assert_ok(eclat("devices", "--json", env=env)).stdout)["devices"]:
+                self.assertEqual((device["subgroup_ballot"], device["uses_subgroups"]), (has, uses), changed)
+            line = self.assert_ok(eclat("devices", env=env)).stdout.splitlines()[1]
+            self.assertEqual(line.split()[-1], "yes" if uses else "no")
+            if changed and "ECLAT_WORKAROUND" not in changed:
+                continue
+            kernels = self.path(str(len(pictures)))
+            self.assert_ok(eclat("render", CORNELL, "--size", "24x24", "--spp", "8", "--lanes", "1", "-q", "-o", self.path("a.exr"),
+                                 env={**env, "ECLAT_DUMP_KERNELS": kernels}))
+            with open(os.path.join(kernels, "lanes1.cl"), encoding="utf-8") as file:
+                self.assertEqual("-DSUBGROUPS" in file.readline().split(), uses)
+            pictures.append(read_exr(self.path("a.exr"))[1])
+        self.assertEqual(pictures[0], pictures[1])
 
     def test_what_cannot_be_forced_is_one_clear_line(self):
         line = self.assert_one_error(eclat("devices", env={"ECLAT_DEVICE_TYPE": "card"}), 1)

@@ -66,6 +66,25 @@ static void workarounds_can_be_forced(void)
     CHECK(ec_workaround_check(&err) == EC_OK && ec_workaround_for(&cl.info));
 }
 
+/* Cards that have the functions use them, unless their row says that the compiler does it; processors do not. */
+static void sub_groups_go_by_device_and_row(void)
+{
+    ec_device_info devices[4];
+    fake_devices(devices);
+    ec_device_info *card = &devices[3], *processor = &devices[1];
+    strcpy(card->platform_name, "another");
+    CHECK(!ec_device_joins(card));
+    card->subgroup_ballot = processor->subgroup_ballot = true;
+    CHECK(ec_device_joins(card) && !ec_device_joins(processor));
+    setenv("ECLAT_WORKAROUND", "Intel(R) OpenCL", 1);
+    CHECK(!ec_device_joins(card));
+    setenv("ECLAT_WORKAROUND", "none", 1);
+    CHECK(ec_device_joins(card) && !ec_device_joins(processor));
+    unsetenv("ECLAT_WORKAROUND");
+    strcpy(card->platform_name, "Intel(R) OpenCL Graphics");
+    CHECK(!ec_device_joins(card));
+}
+
 /* NVIDIA's threads run in lockstep by 32, AMD's by 32 or 64, Intel's by up to 32. */
 static void groups_of_cards_fill_their_threads(void)
 {
@@ -173,6 +192,7 @@ int main(void)
     lists_of_devices();
     workarounds_go_by_the_driver();
     workarounds_can_be_forced();
+    sub_groups_go_by_device_and_row();
     groups_of_cards_fill_their_threads();
     TEST_END();
 }

@@ -12,6 +12,7 @@
  *   FAULT_ROUNDS=0              the device does not claim to round division and square root correctly
  *   FAULT_LOG=TEXT              the compiler's log
  *   FAULT_PLATFORM=TEXT         the platform's version; without PoCL's name in it, eclat uses a kernel cache of its own
+ *   FAULT_EXTENSIONS=TEXT       names of the extensions that the device says it has
  *   FAULT_FOLDER=PATH           counts only file calls below this folder
  *   FAULT_NO_TMPFILE=1          files without names cannot be made there
  *   FAULT_COUNTS=FILE           gets a line "call count" for each call that was made
@@ -234,15 +235,6 @@ cl_int clGetKernelWorkGroupInfo(cl_kernel k, cl_device_id d, cl_kernel_work_grou
     return code;
 }
 
-cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, void *value, size_t *length)
-{
-    cl_int code = device_fault(CALL_clGetDeviceInfo);
-    if (!code) code = REAL(clGetDeviceInfo)(device, what, size, value, length);
-    if (!code && value && what == CL_DEVICE_SINGLE_FP_CONFIG && !number("FAULT_ROUNDS", 1))
-        *(cl_device_fp_config *)value &= ~(cl_device_fp_config)CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
-    return code;
-}
-
 /* Returns a text in place of the driver's. */
 static cl_int say(const char *text, size_t size, void *value, size_t *length)
 {
@@ -250,6 +242,16 @@ static cl_int say(const char *text, size_t size, void *value, size_t *length)
     if (value && size <= strlen(text)) return CL_INVALID_VALUE;
     if (value) strcpy(value, text);
     return CL_SUCCESS;
+}
+
+cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, void *value, size_t *length)
+{
+    cl_int code = device_fault(CALL_clGetDeviceInfo);
+    if (!code && what == CL_DEVICE_EXTENSIONS && getenv("FAULT_EXTENSIONS")) return say(getenv("FAULT_EXTENSIONS"), size, value, length);
+    if (!code) code = REAL(clGetDeviceInfo)(device, what, size, value, length);
+    if (!code && value && what == CL_DEVICE_SINGLE_FP_CONFIG && !number("FAULT_ROUNDS", 1))
+        *(cl_device_fp_config *)value &= ~(cl_device_fp_config)CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+    return code;
 }
 
 cl_int clGetProgramBuildInfo(cl_program program, cl_device_id device, cl_program_build_info what, size_t size, void *value, size_t *length)

@@ -6,7 +6,7 @@ import struct
 import sys
 import unittest
 
-from support import CORNELL, ECLAT, SOURCE, Case, eclat, read_exr, write_gltf
+from support import CORNELL, ECLAT, RING, SOURCE, Case, eclat, read_exr, write_gltf
 from test_image_light import COLOURS, lit_scene, png
 from test_motion import room
 
@@ -22,6 +22,11 @@ PICTURES = {
     "glass": [GLASS, "--spp", "4", "--accel", "grid"],
     "whitted": [GLASS, "--spp", "4", "--integrator", "whitted"],
     "raster": [LAMPS, "--spp", "4", "--integrator", "raster"],
+}
+# Kernels that reserve places in queues, with waves of many parts.
+QUEUES = {
+    "many waves": [CORNELL, "--spp", "20", "--wave", "256"],
+    "light paths": [RING, "--spp", "4", "--light-paths", "1"],
 }
 VELVET, FILM, BRUSHED, PRISM = (os.path.join(SOURCE, "scenes", name, name + ".gltf") for name in ("velvet", "soap-film", "brushed-metal", "prism"))
 # Effects that other files or options ask for. Each needs kernels of its own, which is slower.
@@ -64,7 +69,7 @@ class DevicesAgree(Case):
 
     def render(self, name, environment, lanes):
         path = self.path("picture.exr")
-        scene, *options = {**PICTURES, **MORE}[name]
+        scene, *options = {**PICTURES, **MORE, **QUEUES}[name]
         scene = scene if os.path.exists(scene) else self.made(scene)
         self.assert_ok(eclat("render", scene, *options, "--size", "32x24", "--lanes", lanes, "-o", path, "-q", env=environment,
                              timeout=600))
@@ -92,6 +97,18 @@ class DevicesAgree(Case):
         for name in MORE:
             with self.subTest(name):
                 self.check(name, FAST, ["auto"])
+
+    def test_sub_groups(self):
+        """Places in queues reserved once for a sub-group, as on a card."""
+        as_card = {"ECLAT_DEVICE_TYPE": "gpu", "ECLAT_WORKAROUND": "none"}
+        able = [(device, {**environment, **as_card}) for device, environment in FAST if device["subgroup_ballot"]]
+        if not able:
+            self.skipTest("no device has cl_khr_subgroup_ballot")
+        for device, environment in able:
+            self.assertTrue(opencl_devices.devices_of(ECLAT, environment)[0][device["index"]]["uses_subgroups"])
+        for name in ["path", "lamps", "whitted", *QUEUES]:
+            with self.subTest(name):
+                self.check(name, [FAST[0], *able], ["1"])
 
     def test_slow_devices(self):
         slow = [pair for pair in DEVICES if SLOW in pair[0]["name"]]
