@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "rare/follow.h"
+#include "rare/leave.h"
 
 #define PI 3.14159265358979323846
 #define BACK 1e-4     /* of the scene's radius: rays start this far before an edge */
@@ -123,12 +124,9 @@ static double lit_area(const finder *f, const ec_rare_source *source, const ec_c
 static void feel_ring(const finder *f, const ec_rare_source *source, const patch *at, int ring, uint64_t *random,
                       ec_chain *rays)
 {
-    const int axis = fabsf(at->normal[0]) < 0.6f ? 0 : 1;
     const float *n = at->normal;
-    double u[3], v[3], length = 0;
-    for (int k = 0; k < 3; k++) u[k] = (k == axis) - (double)n[axis] * n[k], length += u[k] * u[k];
-    for (int k = 0; k < 3; k++) u[k] /= sqrt(length);
-    for (int k = 0; k < 3; k++) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+    double u[3], v[3];
+    ec_rare_frame(n, u, v);
     const double outer = LARGEST * f->all->radius * ldexp(1, -ring), inner = ring < RINGS - 1 ? outer / 2 : 0, above = ABOVE * f->all->radius;
     for (int i = 0; i < AROUND; i++) {
         const double r = sqrt(ec_random_between(random, inner * inner, outer * outer)), angle = 2 * PI * (i + ec_random_unit(random)) / AROUND;
