@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "base/random.h"
 #include "rare/leave.h"
 
@@ -25,24 +26,37 @@ typedef struct landing {
     uint32_t group;
 } landing;
 
+/* The rays of one light. */
+typedef struct beam {
+    const ec_rare_source *point; /* NULL: lamps */
+    const char *light;           /* its name */
+    ec_chain *rays;
+    double flux[RAYS], solid_angle[RAYS], least_area[RAYS]; /* that a ray stands for; m^2 that its light falls on at least */
+} beam;
+
 typedef struct finder {
     const ec_rare_lights *all;
     ec_rare_follower *follower;
     ec_rare_patches *patches;
-    ec_chain rays[RAYS];
-    double flux[RAYS], solid_angle[RAYS], least_area[RAYS]; /* that a ray stands for; m^2 that its light falls on at least */
+    beam beams[EC_RARE_POINTS + EC_RARE_AIMS];
+    ec_chain rays[(EC_RARE_POINTS + EC_RARE_AIMS) * RAYS]; /* all are traced at once */
+    uint32_t count;                                        /* beams */
 } finder;
 
-static void start_from_point(finder *f, const ec_rare_source *source)
+static beam *add_beam(finder *f, const ec_rare_source *point, const char *light)
 {
-    for (uint32_t k = 0; k < RAYS; k++) {
-        f->solid_angle[k] = ec_rare_leave_point(source, k, RAYS, &f->rays[k]);
-        f->least_area[k] = 0;
-    }
+    beam *b = &f->beams[f->count];
+    *b = (beam){.point = point, .light = light, .rays = f->rays + (size_t)f->count++ * RAYS};
+    return b;
+}
+
+static void start_from_point(const ec_rare_source *source, beam *b)
+{
+    for (uint32_t k = 0; k < RAYS; k++) b->solid_angle[k] = ec_rare_leave_point(source, k, RAYS, &b->rays[k]);
 }
 
 /* Directions are those of a lamp's light: each stands for as much of its flux, and for a solid angle that goes by the cosine. */
-static void start_from_lamps(finder *f, const ec_rare_light *light)
+static void start_from_lamps(const ec_rare_light *light, beam *b)
 {
     const uint32_t lamps = light->lamp_count, each = lamps < RAYS ? RAYS / lamps : 1;
     double area = 0;
@@ -51,31 +65,30 @@ static void start_from_lamps(finder *f, const ec_rare_light *light)
     for (uint32_t k = 0; k < RAYS; k++) {
         const ec_rare_lamp *lamp = &light->lamps[k % lamps];
         double cosine = 0;
-        ec_rare_leave_lamp(lamp, &random, &f->rays[k]);
-        f->rays[k].beta = 1;
-        for (int c = 0; c < 3; c++) cosine += (double)f->rays[k].direction[c] * lamp->normal[c];
-        f->flux[k] = light->power * lamp->area * lamp->weight / area;
-        f->solid_angle[k] = PI / (each * fmax(fabs(cosine), 1e-6)) * (lamp->two_sided ? 2 : 1);
-        f->least_area[k] = (double)lamp->area * lamp->weight / each;
+        ec_rare_leave_lamp(lamp, &random, &b->rays[k]);
+        b->rays[k].beta = 1;
+        for (int c = 0; c < 3; c++) cosine += (double)b->rays[k].direction[c] * lamp->normal[c];
+        b->flux[k] = light->power * lamp->area * lamp->weight / area;
+        b->solid_angle[k] = PI / (each * fmax(fabs(cosine), 1e-6)) * (lamp->two_sided ? 2 : 1);
+        b->least_area[k] = (double)lamp->area * lamp->weight / each;
     }
 }
 
-/* Finds where the rays land; *count: of those that tell. point: where they are from; NULL: lamps. */
-static ec_result land(finder *f, const ec_rare_source *point, landing *landings, uint32_t *count, ec_error *err)
+/* Finds where the rays have landed; *count: of those that tell. */
+static ec_result land(finder *f, const beam *b, landing *landings, uint32_t *count, ec_error *err)
 {
     double most = 0;
     *count = 0;
-    EC_TRY(ec_rare_follow(f->follower, f->rays, RAYS, false, err));
     for (uint32_t k = 0; k < RAYS; k++) {
         landing *l = &landings[*count];
         ec_rare_landing at;
-        if (f->rays[k].hit == EC_NO_ID) continue;
-        EC_TRY(ec_rare_land(f->follower, &f->rays[k], &at, err));
-        const double lit = f->solid_angle[k] * at.distance * at.distance;
-        if (point) f->flux[k] = lit * ec_rare_source_irradiance(point, at.point, f->rays[k].direction);
-        l->flux = f->flux[k] * f->rays[k].beta;
+        if (b->rays[k].hit == EC_NO_ID) continue;
+        EC_TRY(ec_rare_land(f->follower, &b->rays[k], &at, err));
+        const double lit = b->solid_angle[k] * at.distance * at.distance;
+        const double flux = b->point ? lit * ec_rare_source_irradiance(b->point, at.point, b->rays[k].direction) : b->flux[k];
+        l->flux = flux * b->rays[k].beta;
         if (!(at.cosine > GRAZING && l->flux > 0)) continue;
-        l->patch.area = lit / at.cosine + f->least_area[k];
+        l->patch.area = lit / at.cosine + b->least_area[k];
         memcpy(l->patch.point, at.point, sizeof at.point);
         memcpy(l->patch.normal, at.normal, sizeof at.normal);
         l->patch.irradiance = l->flux / l->patch.area;
@@ -130,42 +143,47 @@ static double area_of(const landing *landings, uint32_t count, uint32_t group)
     return area;
 }
 
-static ec_result find_spots(finder *f, const ec_rare_source *point, const char *light, ec_error *err)
+static ec_result find_spots(finder *f, const beam *b, ec_error *err)
 {
     landing landings[RAYS];
     uint32_t count;
     double all = 0, area = 0, most = SMALL * PI * f->all->radius * f->all->radius;
-    EC_TRY(land(f, point, landings, &count, err));
+    EC_TRY(land(f, b, landings, &count, err));
     for (uint32_t i = 0; i < count; i++) all += landings[i].patch.area;
     for (uint32_t i = 0; i < count && all < most; i++) landings[i].group = 0;
     if (all >= most) most = fmin(most, SMALL * all);
     for (uint32_t group = 0; group < OCTAVES; group++) {
         area += area_of(landings, count, group);
         if (area >= most) break;
-        add_group(f, landings, count, group, light);
+        add_group(f, landings, count, group, b->light);
     }
     return EC_OK;
 }
 
-static ec_result find_all(finder *f, ec_error *err)
+static void start_all(finder *f)
 {
     uint32_t lamps = 0;
     for (uint32_t i = 0; i < f->all->source_count; i++) {
-        if (f->all->sources[i].type != EC_RARE_POINT) continue;
-        start_from_point(f, &f->all->sources[i]);
-        EC_TRY(find_spots(f, &f->all->sources[i], f->all->sources[i].name, err));
+        const ec_rare_source *source = &f->all->sources[i];
+        if (source->type == EC_RARE_POINT) start_from_point(source, add_beam(f, source, source->name));
     }
     for (uint32_t i = 0; i < f->all->count && lamps < EC_RARE_AIMS; i++) { /* they are in order of power */
-        if (!f->all->lights[i].lamp_count) continue;
+        const ec_rare_light *light = &f->all->lights[i];
+        if (!light->lamp_count) continue;
         lamps++;
-        start_from_lamps(f, &f->all->lights[i]);
-        EC_TRY(find_spots(f, NULL, f->all->lights[i].name, err));
+        start_from_lamps(light, add_beam(f, NULL, light->name));
     }
-    return EC_OK;
 }
 
 ec_result ec_rare_spots_find(ec_rare_follower *follower, ec_rare_patches *patches, ec_error *err)
 {
-    finder f = {.all = follower->lights, .follower = follower, .patches = patches};
-    return find_all(&f, err);
+    EC_FREED finder *f = calloc(1, sizeof *f);
+    if (!f) return ec_fail(err, "out of memory for rays from lights");
+    f->all = follower->lights;
+    f->follower = follower;
+    f->patches = patches;
+    start_all(f);
+    EC_TRY(ec_rare_follow(follower, f->rays, f->count * RAYS, false, err));
+    for (uint32_t i = 0; i < f->count; i++) EC_TRY(find_spots(f, &f->beams[i], err));
+    return EC_OK;
 }
