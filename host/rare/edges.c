@@ -39,10 +39,10 @@ static double scale_of(const ec_placed *at)
     return cbrt(fabs(determinant));
 }
 
-/* Returns the triangle, from `first` on and before `end`, at whose length a sum of lengths is reached. sums[i]: of those before triangle i. */
-static uint32_t reached(const double *sums, uint32_t first, uint32_t end, double sum)
+/* Returns the triangle of a mesh at whose length a sum of lengths is reached. sums[i]: of those before its triangle i. */
+static uint32_t reached(const double *sums, uint32_t count, double sum)
 {
-    uint32_t last = end - 1;
+    uint32_t first = 0, last = count - 1;
     while (first < last) {
         const uint32_t middle = first + (last - first) / 2;
         if (sums[middle + 1] > sum) last = middle;
@@ -51,26 +51,31 @@ static uint32_t reached(const double *sums, uint32_t first, uint32_t end, double
     return first;
 }
 
-/* Chooses `count` triangles, by id, each as often as it is long: around holes walls are cut in long ones, and what is finely meshed is mostly no wall. */
-static void choose_by_length(const ec_scene *scene, const double *sums, uint32_t count, uint64_t *random, uint32_t *chosen)
+/* Chooses `count` triangles, by id, each as often as it is long: around holes walls are cut in long ones, and what is finely meshed is mostly no wall.
+ * sums: of the lengths of meshes stored once, before each of their triangles; from its first one on. */
+static void choose_by_length(const ec_pack *pack, const double *sums, uint32_t count, uint64_t *random, uint32_t *chosen)
 {
+    const ec_scene *scene = &pack->plain.scene;
     const uint32_t flat = ec_scene_flat_count(scene);
-    double all = sums[flat], sum = sums[flat];
+    double all = 0, sum = 0;
     uint32_t next = 0;
+    for (uint32_t i = 0; i < flat; i++) all += length_of(&pack->prims[i]);
     for (uint32_t i = 0; i < scene->placed_count; i++) {
         const ec_shape *shape = &scene->shapes[scene->placed[i].shape];
-        all += scale_of(&scene->placed[i]) * (sums[shape->first + shape->count] - sums[shape->first]);
+        const double *own = sums + shape->first - flat;
+        all += scale_of(&scene->placed[i]) * (own[shape->count] - own[0]);
     }
     const double first = ec_random_unit(random), step = all / count;
-    for (; flat && next < count && step * (next + first) < sum; next++) chosen[next] = reached(sums, 0, flat, step * (next + first));
+    for (uint32_t i = 0; i < flat; i++) {
+        sum += length_of(&pack->prims[i]);
+        while (next < count && step * (next + first) < sum) chosen[next++] = i;
+    }
     for (uint32_t i = 0; i < scene->placed_count; i++) {
         const ec_shape *shape = &scene->shapes[scene->placed[i].shape];
-        const double scale = scale_of(&scene->placed[i]), before = sum;
-        sum += scale * (sums[shape->first + shape->count] - sums[shape->first]);
-        for (; next < count && step * (next + first) < sum; next++) {
-            const double within = sums[shape->first] + (step * (next + first) - before) / scale;
-            chosen[next] = scene->placed[i].id + reached(sums, shape->first, shape->first + shape->count, within) - shape->first;
-        }
+        const double scale = scale_of(&scene->placed[i]), before = sum, *own = sums + shape->first - flat;
+        sum += scale * (own[shape->count] - own[0]);
+        for (; next < count && step * (next + first) < sum; next++)
+            chosen[next] = scene->placed[i].id + reached(own, shape->count, own[0] + (step * (next + first) - before) / scale);
     }
     for (; next < count; next++) chosen[next] = (uint32_t)(ec_scene_met_count(scene) - 1);
 }
@@ -107,12 +112,13 @@ ec_result ec_rare_edges_find(const ec_pack *pack, ec_rare_lights *all, ec_error 
     all->edge_count = is_some ? EC_RARE_EDGES : (uint32_t)edges;
     if (!all->edge_count) return EC_OK;
     EC_FREED uint32_t *by_length = malloc(all->edge_count * sizeof *by_length);
-    EC_FREED double *sums = malloc(((is_some ? scene->triangle_count : 0) + (size_t)1) * sizeof *sums);
+    const uint32_t flat = ec_scene_flat_count(scene), kept_once = is_some ? scene->triangle_count - flat : 0;
+    EC_FREED double *sums = malloc((kept_once + (size_t)1) * sizeof *sums);
     all->edges = malloc(all->edge_count * sizeof *all->edges);
     if (!all->edges || !by_length || !sums) return ec_fail(err, "out of memory for %u edges", all->edge_count);
     sums[0] = 0;
-    for (uint32_t i = 0; is_some && i < scene->triangle_count; i++) sums[i + 1] = sums[i] + length_of(&pack->prims[i]);
-    if (is_some) choose_by_length(scene, sums, all->edge_count / 2, &random, by_length);
+    for (uint32_t i = 0; i < kept_once; i++) sums[i + 1] = sums[i] + length_of(&pack->prims[flat + i]);
+    if (is_some) choose_by_length(pack, sums, all->edge_count / 2, &random, by_length);
     for (uint32_t i = 0; i < all->edge_count; i++) {
         const uint64_t edge = !is_some ? i : i % 2 ? 3ull * by_length[i / 2] + ec_random_bits(&random) % 3 : ec_random_bits(&random) % edges;
         ec_prim prim;
