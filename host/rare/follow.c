@@ -117,7 +117,7 @@ static ec_result make_room(ec_rare_follower *f, uint32_t count, ec_error *err)
     return f->room ? EC_OK : ec_fail(err, "out of memory for %u rays", count);
 }
 
-ec_result ec_rare_follow(ec_rare_follower *f, ec_chain *rays, uint32_t count, bool has_reach, ec_error *err)
+ec_result ec_rare_follow(ec_rare_follower *f, ec_chain *rays, uint32_t count, ec_error *err)
 {
     uint32_t passed = 0;
     if (!count) return EC_OK;
@@ -129,7 +129,12 @@ ec_result ec_rare_follow(ec_rare_follower *f, ec_chain *rays, uint32_t count, bo
         for (uint32_t i = 0; i < passed; i++) rays[f->which[i]] = f->on[i];
         EC_TRY(pass_panes(f, f->on, f->which, passed, &passed, err));
     }
-    for (uint32_t i = 0; has_reach && i < count; i++) {
+    return EC_OK;
+}
+
+ec_result ec_rare_reach(ec_rare_follower *f, ec_chain *rays, uint32_t count, ec_error *err)
+{
+    for (uint32_t i = 0; i < count; i++) {
         ec_rare_landing at = {.distance = INFINITY};
         if (rays[i].hit != EC_NO_ID) EC_TRY(ec_rare_land(f, &rays[i], &at, err));
         rays[i].reach = (float)at.distance;

@@ -21,8 +21,11 @@ void ec_rare_follower_close(ec_rare_follower *follower); /* zero-initialised or 
 void ec_rare_ray(const float point[3], const float direction[3], double sign, double back, ec_chain *ray);
 
 /* Sets the hit of each ray to what it meets first that is no pane, its beta to the share of light that these let by, its origin to where it left the
- * last one; and if has_reach its reach from there. */
-ec_result ec_rare_follow(ec_rare_follower *follower, ec_chain *rays, uint32_t count, bool has_reach, ec_error *err);
+ * last one. */
+ec_result ec_rare_follow(ec_rare_follower *follower, ec_chain *rays, uint32_t count, ec_error *err);
+
+/* Sets the reach of rays that have been followed, from their origins as these are now. */
+ec_result ec_rare_reach(ec_rare_follower *follower, ec_chain *rays, uint32_t count, ec_error *err);
 
 /* The place where a ray ends. */
 typedef struct ec_rare_landing {

@@ -7,8 +7,9 @@
 #include "pack/pack.h"
 #include "shared/params.h"
 
-enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96, EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_POINTS = 8, EC_RARE_EDGES = 1 << 13,
-       EC_RARE_NEAR_EDGES = 1 << 9 };
+enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96 };
+enum { EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_POINTS = 8, EC_RARE_SOURCES = EC_RARE_SUNS + EC_RARE_AIMS + EC_RARE_POINTS };
+enum { EC_RARE_EDGES = 1 << 13, EC_RARE_NEAR_EDGES = 1 << 9 };
 
 /* A lamp's triangle or a part of one, which stands for `weight` of its group. */
 typedef struct ec_rare_lamp {
@@ -60,7 +61,7 @@ typedef struct ec_rare_lights {
     ec_shape *shapes;
     ec_placed *placed;
     uint32_t placed_count;
-    ec_rare_source sources[EC_RARE_SUNS + EC_RARE_AIMS + EC_RARE_POINTS]; /* the strongest of each type */
+    ec_rare_source sources[EC_RARE_SOURCES]; /* the strongest of each type */
     uint32_t source_count;
     float (*edges)[3];               /* points just beside edges of triangles, outside of those; in no order */
     uint32_t edge_count;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/freed.h"
 #include "base/random.h"
 #include "rare/follow.h"
 #include "rare/leave.h"
@@ -24,13 +25,25 @@ enum { SMALL_RINGS = 3, SMALL_STEP = 3, SMALL_LIT = 3 };
 
 typedef ec_rare_patch patch;
 
+/* The search by the light of one source. Its rays of a step are some of the finder's. */
+typedef struct search {
+    const ec_rare_source *source;
+    ec_chain *rays;
+    uint32_t ray_count;
+    patch found[LANDED];
+    uint32_t count;            /* found */
+    uint64_t random;
+} search;
+
+/* All searches take each step together, since a launch takes longer than the rays of one of them. */
 typedef struct finder {
     const ec_rare_lights *all;
     ec_rare_follower *follower;
-    ec_chain *rays;
+    search searches[EC_RARE_SOURCES];
+    uint32_t count;            /* searches */
+    ec_chain *rays;            /* one search after the other */
+    uint32_t ray_count;
     uint32_t *edges;           /* that rays are aimed past, by ray */
-    patch *patches;            /* those that are small */
-    uint32_t count, most;
 } finder;
 
 static double square_between(const float *a, const float *b)
@@ -45,9 +58,25 @@ static void aim(const finder *f, const ec_rare_source *source, const float point
     ec_rare_source_aim(source, &f->follower->p->params, point, towards);
 }
 
-static ec_result follow(finder *f, const ec_rare_source *source, uint32_t count, ec_error *err)
+static ec_chain *add_ray(finder *f, search *s)
 {
-    return ec_rare_follow(f->follower, f->rays, count, source->type == EC_RARE_POINT, err);
+    s->ray_count++;
+    return &f->rays[f->ray_count++];
+}
+
+/* Begins a search's rays of a step, behind those of the searches before it. */
+static void begin_rays(finder *f, search *s)
+{
+    s->rays = f->rays + f->ray_count;
+    s->ray_count = 0;
+}
+
+static ec_result follow_all(finder *f, ec_error *err)
+{
+    EC_TRY(ec_rare_follow(f->follower, f->rays, f->ray_count, err));
+    for (search *s = f->searches; s < f->searches + f->count; s++)
+        if (s->source->type == EC_RARE_POINT) EC_TRY(ec_rare_reach(f->follower, s->rays, s->ray_count, err));
+    return EC_OK;
 }
 
 /* Returns whether a ray towards the source has met it. */
@@ -70,34 +99,50 @@ static ec_result land(finder *f, const ec_chain *ray, const ec_rare_source *sour
     return EC_OK;
 }
 
-/* Traces rays past edges to where the light of a source that gets by lands, and moves those that land to the front. Near sources are many, and their
- * rays pass only some of the edges. */
-static ec_result pass_edges(finder *f, const ec_rare_source *source, uint32_t *landed, ec_error *err)
+/* Aims rays past edges at a source. Near sources are many, and their rays pass only some of the edges. */
+static void aim_past_edges(finder *f, search *s)
 {
+    const ec_rare_source *source = s->source;
     const uint32_t most = source->type == EC_RARE_FAR ? EC_RARE_EDGES : EC_RARE_NEAR_EDGES;
-    const double back = BACK * f->all->radius;
-    uint32_t count = 0, passed = 0;
-    for (uint32_t i = 0; i < f->all->edge_count && count < most; i++) {
+    begin_rays(f, s);
+    for (uint32_t i = 0; i < f->all->edge_count && s->ray_count < most; i++) {
         float towards[3];
         aim(f, source, f->all->edges[i], towards);
         const float along[3] = {-towards[0], -towards[1], -towards[2]};
         if (source->type == EC_RARE_POINT && !(ec_rare_source_irradiance(source, f->all->edges[i], along) > 0)) continue; /* beside a spot's cone */
-        f->edges[count] = i;
-        ec_rare_ray(f->all->edges[i], towards, 1, back, &f->rays[count++]);
+        f->edges[f->ray_count] = i;
+        ec_rare_ray(f->all->edges[i], towards, 1, BACK * f->all->radius, add_ray(f, s));
     }
-    EC_TRY(follow(f, source, count, err));
-    for (uint32_t i = 0; i < count && passed < PASSED; i++) { /* any of them will do: edges are in no order */
+}
+
+/* Turns round those rays that have met the source, to where its light lands. They take the places of others that are not needed any more. */
+static void turn_back(finder *f, search *s)
+{
+    const ec_chain *met = s->rays;
+    const uint32_t count = s->ray_count, *edges = f->edges + (met - f->rays);
+    begin_rays(f, s);
+    for (uint32_t i = 0; i < count && s->ray_count < PASSED; i++) { /* any of them will do: edges are in no order */
         float towards[3];
-        if (!meets(f, source, &f->rays[i])) continue;
-        const float beta = f->rays[i].beta, *edge = f->all->edges[f->edges[i]];
-        aim(f, source, edge, towards);
-        ec_rare_ray(edge, towards, -1, back, &f->rays[passed]);
-        f->rays[passed++].beta = beta;
+        if (!meets(f, s->source, &met[i])) continue;
+        const float beta = met[i].beta, *edge = f->all->edges[edges[i]];
+        aim(f, s->source, edge, towards);
+        ec_chain *ray = add_ray(f, s);
+        ec_rare_ray(edge, towards, -1, BACK * f->all->radius, ray);
+        ray->beta = beta;
     }
-    EC_TRY(follow(f, source, passed, err));
-    *landed = 0;
-    for (uint32_t i = 0; i < passed; i++)
-        if (f->rays[i].hit != EC_NO_ID) f->rays[(*landed)++] = f->rays[i];
+}
+
+/* Finds where some of the light lands, evenly among the rays. */
+static ec_result find_landings(finder *f, search *s, ec_error *err)
+{
+    uint32_t landed = 0;
+    for (uint32_t i = 0; i < s->ray_count; i++)
+        if (s->rays[i].hit != EC_NO_ID) s->rays[landed++] = s->rays[i];
+    for (uint32_t k = 0; k < landed && k < LANDED; k++) {
+        bool is_there;
+        EC_TRY(land(f, &s->rays[landed > LANDED ? (uint64_t)k * landed / LANDED : k], s->source, &s->found[s->count], &is_there, err));
+        s->count += is_there;
+    }
     return EC_OK;
 }
 
@@ -121,83 +166,106 @@ static double lit_area(const finder *f, const ec_rare_source *source, const ec_c
 }
 
 /* Makes rays towards the source from a ring around a patch, evenly spaced. */
-static void feel_ring(const finder *f, const ec_rare_source *source, const patch *at, int ring, uint64_t *random,
-                      ec_chain *rays)
+static void feel_ring(finder *f, search *s, const patch *at, int ring)
 {
     const float *n = at->normal;
     double u[3], v[3];
     ec_rare_frame(n, u, v);
     const double outer = LARGEST * f->all->radius * ldexp(1, -ring), inner = ring < RINGS - 1 ? outer / 2 : 0, above = ABOVE * f->all->radius;
     for (int i = 0; i < AROUND; i++) {
-        const double r = sqrt(ec_random_between(random, inner * inner, outer * outer)), angle = 2 * PI * (i + ec_random_unit(random)) / AROUND;
+        const double r = sqrt(ec_random_between(&s->random, inner * inner, outer * outer)), angle = 2 * PI * (i + ec_random_unit(&s->random)) / AROUND;
         float point[3], towards[3];
         for (int k = 0; k < 3; k++) point[k] = (float)(at->point[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]) + above * n[k]);
-        aim(f, source, point, towards);
-        ec_rare_ray(point, towards, 1, 0, &rays[i]);
+        aim(f, s->source, point, towards);
+        ec_rare_ray(point, towards, 1, 0, add_ray(f, s));
     }
 }
 
-static bool is_known(const finder *f, const patch *at)
+static void feel_few_rings(finder *f, search *s)
 {
-    for (uint32_t i = 0; i < f->count; i++)
-        if (f->patches[i].light == at->light && square_between(f->patches[i].point, at->point) < 4 * f->patches[i].area) return true;
-    return false;
+    begin_rays(f, s);
+    for (uint32_t k = 0; k < s->count * SMALL_RINGS; k++) feel_ring(f, s, &s->found[k / SMALL_RINGS], SMALL_STEP * (int)(1 + k % SMALL_RINGS));
 }
 
 /* Keeps the patches, up to FELT, that have a ring in which so little is lit that they are small. */
-static ec_result drop_large(finder *f, const ec_rare_source *source, patch *found, uint32_t *count, uint64_t *random, ec_error *err)
+static void drop_large(const finder *f, search *s)
 {
     uint32_t kept = 0;
-    for (uint32_t k = 0; k < *count * SMALL_RINGS; k++)
-        feel_ring(f, source, &found[k / SMALL_RINGS], SMALL_STEP * (int)(1 + k % SMALL_RINGS), random, f->rays + (size_t)k * AROUND);
-    EC_TRY(follow(f, source, *count * SMALL_RINGS * AROUND, err));
-    for (uint32_t k = 0; k < *count; k++) {
+    for (uint32_t k = 0; k < s->count; k++) {
         int least = AROUND;
         for (uint32_t ring = 0; ring < SMALL_RINGS; ring++) {
-            const int lit = count_lit(f, source, f->rays + ((size_t)k * SMALL_RINGS + ring) * AROUND);
+            const int lit = count_lit(f, s->source, s->rays + ((size_t)k * SMALL_RINGS + ring) * AROUND);
             least = lit < least ? lit : least;
         }
-        if (least < SMALL_LIT) found[kept++] = found[k];
+        if (least < SMALL_LIT) s->found[kept++] = s->found[k];
     }
-    *count = kept < FELT ? kept : FELT;
-    for (uint32_t k = 0; k < *count; k++) found[k] = found[(uint64_t)k * kept / *count];
+    s->count = kept < FELT ? kept : FELT;
+    for (uint32_t k = 0; k < s->count; k++) s->found[k] = s->found[(uint64_t)k * kept / s->count];
+}
+
+static void feel_all_rings(finder *f, search *s)
+{
+    begin_rays(f, s);
+    for (uint32_t k = 0; k < s->count * RINGS; k++) feel_ring(f, s, &s->found[k / RINGS], (int)(k % RINGS));
+}
+
+static bool is_known(const ec_rare_patches *patches, const patch *at)
+{
+    for (uint32_t i = 0; i < patches->count; i++)
+        if (patches->list[i].light == at->light && square_between(patches->list[i].point, at->point) < 4 * patches->list[i].area) return true;
+    return false;
+}
+
+static void keep_small(const finder *f, search *s, uint32_t most_patches, ec_rare_patches *patches)
+{
+    const double most = SMALL * PI * f->all->radius * f->all->radius;
+    for (uint32_t k = 0; k < s->count && patches->count < most_patches; k++) {
+        s->found[k].area = lit_area(f, s->source, s->rays + (size_t)k * RINGS * AROUND);
+        if (s->found[k].area > 0 && s->found[k].area < most && !is_known(patches, &s->found[k])) patches->list[patches->count++] = s->found[k];
+    }
+}
+
+/* Takes a step of all searches: makes their rays, and traces them. */
+static ec_result step(finder *f, void (*make)(finder *, search *), ec_error *err)
+{
+    f->ray_count = 0;
+    for (uint32_t i = 0; i < f->count; i++) make(f, &f->searches[i]);
+    return follow_all(f, err);
+}
+
+static ec_result find_all(finder *f, ec_rare_patches *patches, ec_error *err)
+{
+    const uint32_t room = patches->count + PATCHES, most = room < EC_RARE_PATCHES ? room : EC_RARE_PATCHES;
+    EC_TRY(step(f, aim_past_edges, err));
+    EC_TRY(step(f, turn_back, err));
+    for (uint32_t i = 0; i < f->count; i++) EC_TRY(find_landings(f, &f->searches[i], err));
+    EC_TRY(step(f, feel_few_rings, err));
+    for (uint32_t i = 0; i < f->count; i++) drop_large(f, &f->searches[i]);
+    EC_TRY(step(f, feel_all_rings, err));
+    for (uint32_t i = 0; i < f->count; i++) keep_small(f, &f->searches[i], most, patches);
     return EC_OK;
 }
 
-static ec_result find_patches(finder *f, const ec_rare_source *source, ec_error *err)
+/* Returns how many rays a step of all searches takes at most. */
+static size_t most_rays(const ec_rare_lights *all)
 {
-    uint32_t landed = 0, count = 0;
-    uint64_t random = 11;
-    patch found[LANDED];
-    EC_TRY(pass_edges(f, source, &landed, err));
-    for (uint32_t k = 0; k < landed && k < LANDED; k++) { /* some of them, evenly */
-        bool is_there;
-        EC_TRY(land(f, &f->rays[landed > LANDED ? (uint64_t)k * landed / LANDED : k], source, &found[count], &is_there, err));
-        count += is_there;
-    }
-    EC_TRY(drop_large(f, source, found, &count, &random, err));
-    for (uint32_t k = 0; k < count * RINGS; k++) feel_ring(f, source, &found[k / RINGS], (int)(k % RINGS), &random, f->rays + (size_t)k * AROUND);
-    EC_TRY(follow(f, source, count * RINGS * AROUND, err));
-    const double most = SMALL * PI * f->all->radius * f->all->radius;
-    for (uint32_t k = 0; k < count && f->count < f->most; k++) {
-        found[k].area = lit_area(f, source, f->rays + (size_t)k * RINGS * AROUND);
-        if (found[k].area > 0 && found[k].area < most && !is_known(f, &found[k])) f->patches[f->count++] = found[k];
-    }
-    return EC_OK;
+    const size_t felt = AROUND * (FELT * RINGS > LANDED * SMALL_RINGS ? FELT * RINGS : LANDED * SMALL_RINGS);
+    const size_t edges = all->edge_count > felt ? all->edge_count : felt;
+    return all->source_count * edges;
 }
 
 ec_result ec_rare_openings_find(ec_rare_follower *follower, ec_rare_patches *patches, ec_error *err)
 {
     const ec_rare_lights *all = follower->lights;
-    const uint32_t felt = AROUND * (FELT * RINGS > LANDED * SMALL_RINGS ? FELT * RINGS : LANDED * SMALL_RINGS);
-    const uint32_t most = all->edge_count > felt ? all->edge_count : felt, room = patches->count + PATCHES;
     if (!all->source_count || !all->edge_count) return EC_OK;
-    finder f = {.all = all, .follower = follower, .rays = calloc(most, sizeof *f.rays), .edges = malloc(all->edge_count * sizeof *f.edges),
-                .patches = patches->list, .count = patches->count, .most = room < EC_RARE_PATCHES ? room : EC_RARE_PATCHES};
-    ec_result result = f.rays && f.edges ? EC_OK : ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
-    for (uint32_t i = 0; result == EC_OK && i < all->source_count; i++) result = find_patches(&f, &all->sources[i], err);
-    free(f.edges);
-    free(f.rays);
-    patches->count = f.count;
-    return result;
+    EC_FREED finder *f = calloc(1, sizeof *f);
+    EC_FREED ec_chain *rays = malloc(most_rays(all) * sizeof *rays);
+    EC_FREED uint32_t *edges = malloc(most_rays(all) * sizeof *edges);
+    if (!f || !rays || !edges) return ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
+    f->all = all;
+    f->follower = follower;
+    f->rays = rays;
+    f->edges = edges;
+    for (; f->count < all->source_count; f->count++) f->searches[f->count] = (search){.source = &all->sources[f->count], .random = 11};
+    return find_all(f, patches, err);
 }

@@ -183,7 +183,7 @@ ec_result ec_rare_spots_find(ec_rare_follower *follower, ec_rare_patches *patche
     f->follower = follower;
     f->patches = patches;
     start_all(f);
-    EC_TRY(ec_rare_follow(follower, f->rays, f->count * RAYS, false, err));
+    EC_TRY(ec_rare_follow(follower, f->rays, f->count * RAYS, err));
     for (uint32_t i = 0; i < f->count; i++) EC_TRY(find_spots(f, &f->beams[i], err));
     return EC_OK;
 }
