@@ -93,13 +93,13 @@ static void describe(cl_platform_id platform, cl_device_id device, ec_device_inf
     DEVICE_NUMBER(device, CL_DEVICE_MAX_WORK_GROUP_SIZE, size_t, info->max_work_group_size);
     DEVICE_NUMBER(device, CL_DEVICE_AVAILABLE, cl_bool, info->available);
     DEVICE_NUMBER(device, CL_DEVICE_COMPILER_AVAILABLE, cl_bool, info->compiler_available);
+    info->subgroup_ballot = has_extension(device, "cl_khr_subgroup_ballot");
     cl_device_fp_config fp;
     DEVICE_NUMBER(device, CL_DEVICE_SINGLE_FP_CONFIG, cl_device_fp_config, fp);
     info->correctly_rounded_divide_sqrt = fp & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
     info->denormals = fp & CL_FP_DENORM;
     info->fma = fp & CL_FP_FMA;
     info->inf_nan = fp & CL_FP_INF_NAN;
-    info->subgroup_ballot = has_extension(device, "cl_khr_subgroup_ballot");
 }
 
 /* Adds the devices of one platform to the list. A platform without any is no failure. */
