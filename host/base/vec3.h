@@ -16,6 +16,14 @@ static inline void ec_cross(const double a[3], const double b[3], double out[3])
     for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
+/* Returns the square of the distance of two points. */
+static inline double ec_square_between(const float a[3], const float b[3])
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += ((double)a[k] - b[k]) * ((double)a[k] - b[k]);
+    return sum;
+}
+
 /* Computes the normal of the triangle a, b, c, whose length is twice the area. */
 static inline void ec_triangle_normal(const float a[3], const float b[3], const float c[3], double out[3])
 {

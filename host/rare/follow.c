@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3.h"
+
 #define STEP 2e-6 /* of the scene's radius: rays go on so far behind a pane */
 enum { PAGE = 256 };  /* triangles that are read at once */
 enum { PANES = 8 };   /* in the way of a ray, at most */
@@ -47,21 +49,20 @@ static ec_result read_stored(ec_rare_follower *f, uint32_t stored, const ec_prim
     return EC_OK;
 }
 
-/* Sets a corner and the normal of a triangle in the world. */
+/* Sets a corner and the unit normal of a triangle in the world; zero where it has none. */
 static ec_result plane_of(ec_rare_follower *f, uint32_t id, float corner[3], double normal[3], ec_error *err)
 {
     const ec_placed *placed;
     const ec_prim *stored = NULL;
     float v[3][3];
-    double e[3], g[3], square = 0;
     EC_TRY(read_stored(f, ec_rare_stored_of(f->lights, id, &placed), &stored, err));
     const float *corners[3] = {stored->v0, stored->v1, stored->v2};
     for (int k = 0; k < 3; k++)
         if (placed) ec_placed_point(placed, corners[k], v[k]);
         else memcpy(v[k], corners[k], sizeof v[k]);
-    for (int k = 0; k < 3; k++) corner[k] = v[0][k], e[k] = (double)v[1][k] - v[0][k], g[k] = (double)v[2][k] - v[0][k];
-    for (int k = 0; k < 3; k++) normal[k] = e[(k + 1) % 3] * g[(k + 2) % 3] - e[(k + 2) % 3] * g[(k + 1) % 3], square += normal[k] * normal[k];
-    for (int k = 0; k < 3; k++) normal[k] /= fmax(sqrt(square), 1e-300);
+    memcpy(corner, v[0], sizeof v[0]);
+    ec_triangle_normal(v[0], v[1], v[2], normal);
+    if (!ec_normalize(normal)) memset(normal, 0, 3 * sizeof *normal);
     return EC_OK;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/freed.h"
 #include "base/random.h"
+#include "base/vec3.h"
 #include "rare/follow.h"
 #include "rare/leave.h"
 
@@ -46,13 +47,6 @@ typedef struct finder {
     uint32_t *edges;           /* that rays are aimed past, by ray */
 } finder;
 
-static double square_between(const float *a, const float *b)
-{
-    double sum = 0;
-    for (int k = 0; k < 3; k++) sum += ((double)a[k] - b[k]) * ((double)a[k] - b[k]);
-    return sum;
-}
-
 static void aim(const finder *f, const ec_rare_source *source, const float point[3], float towards[3])
 {
     ec_rare_source_aim(source, &f->follower->p->params, point, towards);
@@ -84,7 +78,7 @@ static bool meets(const finder *f, const ec_rare_source *source, const ec_chain 
 {
     if (source->type == EC_RARE_LAMP) return ray->hit != EC_NO_ID && ec_rare_material_of(f->all, ray->hit) == source->material;
     if (source->type == EC_RARE_FAR || ray->hit == EC_NO_ID) return ray->hit == EC_NO_ID;
-    return (double)ray->reach * ray->reach > square_between(ray->origin, source->middle);
+    return (double)ray->reach * ray->reach > ec_square_between(ray->origin, source->middle);
 }
 
 /* Finds where a ray of the source ends; *is_there: it does not only graze. */
@@ -212,7 +206,7 @@ static void feel_all_rings(finder *f, search *s)
 static bool is_known(const ec_rare_patches *patches, const patch *at)
 {
     for (uint32_t i = 0; i < patches->count; i++)
-        if (patches->list[i].light == at->light && square_between(patches->list[i].point, at->point) < 4 * patches->list[i].area) return true;
+        if (patches->list[i].light == at->light && ec_square_between(patches->list[i].point, at->point) < 4 * patches->list[i].area) return true;
     return false;
 }
 

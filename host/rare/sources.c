@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "base/vec3.h"
 #include "film/film.h"
 
 #define PI 3.14159265358979323846
@@ -145,16 +146,9 @@ void ec_rare_sources_find(const ec_scene *scene, ec_rare_lights *all)
     add_points(scene, all);
 }
 
-static double square_between(const float *a, const float *b)
-{
-    double sum = 0;
-    for (int k = 0; k < 3; k++) sum += ((double)a[k] - b[k]) * ((double)a[k] - b[k]);
-    return sum;
-}
-
 void ec_rare_source_aim(const ec_rare_source *source, const ec_params *params, const float point[3], float towards[3])
 {
-    const double length = sqrt(square_between(source->middle, point));
+    const double length = sqrt(ec_square_between(source->middle, point));
     if (source->is_on_map) ec_rare_turn_from_map(source->direction, params, towards);
     else if (source->type == EC_RARE_FAR) memcpy(towards, source->direction, sizeof source->direction);
     else
@@ -174,7 +168,7 @@ double ec_rare_source_irradiance(const ec_rare_source *s, const float point[3], 
     if (s->type == EC_RARE_FAR) return s->irradiance;
     double cosine = 0;
     for (int k = 0; k < 3; k++) cosine += (double)s->direction[k] * along[k];
-    const double square = fmax(square_between(s->middle, point), 1e-30);
+    const double square = fmax(ec_square_between(s->middle, point), 1e-30);
     if (s->type == EC_RARE_POINT) return s->irradiance * falloff(s, cosine, square) / square;
     const double far = s->irradiance * fmax(s->two_sided ? fabs(cosine) : cosine, 0) / square;
     return fmin(far, PI * s->radiance); /* no more than under a sky of such lamps */

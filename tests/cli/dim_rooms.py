@@ -160,13 +160,15 @@ def lamp_room(path, kind):
     return room.write(path)
 
 
-def point_room(path, kind, spot=False):
+def point_room(path, kind, spot=False, roof=False):
     """A dim lamp of 5 W, and a metre above the ceiling a point light of 4 x 10^5 W/sr, or a spot light that shines down. Through a "hole" of 5 mm it
-    lights 4 cm^2 of the floor, with 10 W; or the room is "sealed"."""
+    lights 4 cm^2 of the floor, with 10 W; or the room is "sealed". roof: the light hangs below one."""
     room, x, z = Room(0.7), 0.5, 0.3
     room.dim_lamp()
     room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
     light = {"type": "spot", "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}} if spot else {"type": "point"}
+    if roof:
+        room.quad(room.white, (-2, 4.5, -2), (4, 0, 0), (0, 0, 4))
     room.light({**light, "intensity": 4e5}, translation=[x + HOLE / 2, 4, z + HOLE / 2], rotation=[-math.sqrt(0.5), 0, 0, math.sqrt(0.5)])
     return room.write(path)
 

@@ -128,6 +128,16 @@ class Bounds(Case):
                 self.assertEqual(self.missing_light(point_room(self.path("sealed.gltf"), "sealed", spot)), 0)
 
     @full
+    def test_point_light_below_a_roof_is_found(self):
+        # rays past edges go on behind the light, and end on the roof
+        self.assertGreater(self.missing_light(point_room(self.path("hole.gltf"), "hole", roof=True)), 0.3)
+        self.assertEqual(self.missing_light(point_room(self.path("sealed.gltf"), "sealed", roof=True)), 0)
+
+    @full
+    def test_hole_in_one_of_many_triangles_that_are_kept_once_is_found(self):
+        self.assertGreater(self.missing_light(sun_room(self.path("hole.gltf"), "hole", rug=100, twice=True), "--instancing", "on"), 0.1)
+
+    @full
     def test_hole_in_a_mesh_that_is_kept_once_is_found(self):
         self.assertGreater(self.missing_light(sun_room(self.path("hole.gltf"), "hole", twice=True), "--instancing", "on"), 0.1)
         self.assertEqual(self.missing_light(sun_room(self.path("sealed.gltf"), "sealed", twice=True), "--instancing", "on"), 0)
