@@ -149,6 +149,7 @@ static void look(tracer *t, uint32_t segment)
         if (t->joined.paths) note_joined(t, slot, entry, segment);
         const uint32_t hit = word_u(t, t->hits, EC_HIT_PRIM, entry);
         if (hit != EC_NO_ID) t->found->visits[ec_rare_material_of(t->lights, hit)]++;
+        else t->found->misses += segment > 0;
     }
 }
 

@@ -29,6 +29,7 @@ typedef struct ec_chains {
     uint32_t *visits;              /* by material: how often a path met it */
     ec_chain *vertices;            /* of the first EC_CHAIN_VERTICES bounces, segments that left a surface whose light is sampled; owned */
     uint32_t vertex_count;
+    uint32_t misses;               /* how often a path that had met something left the scene */
     bool may_join;                 /* light paths may pay; false where the lights' flux is not known */
 } ec_chains;
 

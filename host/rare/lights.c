@@ -65,9 +65,8 @@ static void sort_into_octaves(const ec_pack *pack, float most, const double *col
     }
 }
 
-static void add_octave(const octave *o, ec_rare_lights *all)
+static void light_of(const octave *o, const ec_rare_lights *all, ec_rare_light *light)
 {
-    ec_rare_light *light = &all->lights[all->count++];
     const double length = sqrt(o->direction[0] * o->direction[0] + o->direction[1] * o->direction[1] + o->direction[2] * o->direction[2]);
     *light = (ec_rare_light){.material = UINT32_MAX, .radiance = o->light / o->solid_angle, .solid_angle = o->solid_angle,
                              .power = o->light * PI * all->radius * all->radius};
@@ -75,11 +74,13 @@ static void add_octave(const octave *o, ec_rare_lights *all)
     for (int c = 0; c < 3 && length > GATHERED * o->solid_angle; c++) light->direction[c] = (float)(o->direction[c] / length);
 }
 
-static ec_result find_in_environment(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+/* Adds the brightest octaves of the map that are small, up to half of the lights, as the other half is the lamps'; all but the suns are sky. */
+static ec_result find_on_map(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
 {
     octave octaves[OCTAVES * OCTANTS] = {0};
     const uint32_t width = pack->environment_width;
-    const float most = pack->environment_texels && pack->plain.scene.has_environment ? brightest(pack) : 0;
+    const float most = brightest(pack);
+    double sky[OCTANTS] = {0};
     if (!(most > 0)) return EC_OK;
     double *columns = malloc(2 * sizeof *columns * width);
     if (!columns) return ec_fail(err, "out of memory for an environment map %u texels wide", width);
@@ -90,8 +91,24 @@ static ec_result find_in_environment(const ec_pack *pack, ec_rare_lights *all, e
     }
     sort_into_octaves(pack, most, columns, octaves);
     free(columns);
-    for (int k = 0; k < OCTAVES * OCTANTS && all->count < EC_RARE_LIGHTS / 2; k++) /* the brightest; the other half is the lamps' */
-        if (octaves[k].solid_angle > 0 && octaves[k].solid_angle < SMALL) add_octave(&octaves[k], all);
+    for (int k = 0; k < OCTAVES * OCTANTS; k++) {
+        ec_rare_light light;
+        if (!(octaves[k].solid_angle > 0)) continue;
+        light_of(&octaves[k], all, &light);
+        if (!ec_rare_light_is_sun(&light)) sky[k % OCTANTS] += octaves[k].light / (4 * PI / OCTANTS);
+        if (light.solid_angle < SMALL && all->count < EC_RARE_LIGHTS / 2) all->lights[all->count++] = light;
+    }
+    ec_rare_sky_find(sky, all);
+    return EC_OK;
+}
+
+static ec_result find_in_environment(const ec_pack *pack, ec_rare_lights *all, ec_error *err)
+{
+    double sky[OCTANTS];
+    if (!pack->plain.scene.has_environment) return EC_OK;
+    if (pack->environment_texels) return find_on_map(pack, all, err);
+    for (int k = 0; k < OCTANTS; k++) sky[k] = luminance(pack->environment_mean);
+    ec_rare_sky_find(sky, all);
     return EC_OK;
 }
 
@@ -289,7 +306,7 @@ ec_result ec_rare_lights_find(const ec_pack *pack, ec_rare_lights *all, ec_error
     if (result == EC_OK) result = find_in_environment(pack, all, err);
     if (result == EC_OK) result = find_lamps(pack, all, err);
     if (result == EC_OK) ec_rare_sources_find(&pack->plain.scene, all);
-    if (result == EC_OK && all->source_count) result = ec_rare_edges_find(pack, all, err);
+    if (result == EC_OK && (all->source_count || (all->count && all->sky_count))) result = ec_rare_edges_find(pack, all, err);
     if (result != EC_OK || (!all->count && !all->source_count)) ec_rare_lights_free(all);
     return result;
 }

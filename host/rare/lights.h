@@ -9,6 +9,7 @@
 
 enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96 };
 enum { EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_POINTS = 8, EC_RARE_SOURCES = EC_RARE_SUNS + EC_RARE_AIMS + EC_RARE_POINTS };
+enum { EC_RARE_SKY = 32 }; /* directions that stand for what of an environment is no sun */
 enum { EC_RARE_EDGES = 1 << 13, EC_RARE_NEAR_EDGES = 1 << 9 };
 
 /* A lamp's triangle or a part of one, which stands for `weight` of its group. */
@@ -30,7 +31,7 @@ typedef struct ec_rare_light {
     uint32_t lamp_count;
 } ec_rare_light;
 
-/* A light that a ray can be aimed at: one far away, that is a directional light or a small part of an environment; a lamp, which is taken to shine from
+/* A light that a ray can be aimed at: one far away, that is a directional light, a small part of an environment or a direction of its sky; a lamp, which is taken to shine from
  * its middle; a point or spot light. */
 typedef enum ec_rare_source_type { EC_RARE_FAR, EC_RARE_LAMP, EC_RARE_POINT } ec_rare_source_type;
 typedef struct ec_rare_source {
@@ -42,6 +43,7 @@ typedef struct ec_rare_source {
     uint32_t material;  /* of a lamp */
     double irradiance;  /* luminance, of a surface that faces it; EC_RARE_LAMP and _POINT: at a distance of 1, where both face each other */
     double radiance;    /* of a lamp */
+    double solid_angle; /* that a direction of the sky stands for; of others 0 */
     double cos_inner, cos_outer; /* of a spot light; below -1: a point light */
     double range;       /* of a point or spot light, metres; 0: infinite */
 } ec_rare_source;
@@ -63,6 +65,8 @@ typedef struct ec_rare_lights {
     uint32_t placed_count;
     ec_rare_source sources[EC_RARE_SOURCES]; /* the strongest of each type */
     uint32_t source_count;
+    ec_rare_source sky[EC_RARE_SKY]; /* the environment without its suns: directions all around */
+    uint32_t sky_count;
     float (*edges)[3];               /* points just beside edges of triangles, outside of those; in no order */
     uint32_t edge_count;
 } ec_rare_lights;

@@ -15,8 +15,10 @@
 #define ABOVE 1e-5    /* likewise, above what is lit */
 #define GRAZING 0.05  /* cosine under which light only grazes what it falls on */
 enum { PASSED = 1 << 11 };                       /* rays past edges that are followed to where they land */
-enum { LANDED = 128, FELT = 16, PATCHES = 16 }; /* rays of a source that are looked at where they land; places around which rays feel what is lit;
-                                                 * patches in all */
+/* Rays of a source that are looked at where they land; places around which rays feel what is lit; patches in all. A sky has many sources. */
+enum { LANDED = 128, FELT = 16, PATCHES = 16, SKY_LANDED = 32, SKY_FELT = 4, SKY_PATCHES = 128 };
+enum { SKY_OPENINGS = 3 }; /* that are looked at from all directions */
+#define APART 4       /* openings, in sides of what one of them lights */
 enum { RINGS = 20, AROUND = 8 }; /* the largest first, each half of the one before: down to 6e-7 of the radius */
 /* A patch is small if fewer than SMALL_LIT rays are lit in one of SMALL_RINGS rings: every SMALL_STEP-th one, from number SMALL_STEP on. In the first of
  * these, SMALL_LIT lit rays mean an area of more than SMALL; the others lie within a room that stands in a wide landscape. */
@@ -29,7 +31,8 @@ typedef ec_rare_patch patch;
 /* The search by the light of one source. Its rays of a step are some of the finder's. */
 typedef struct search {
     const ec_rare_source *source;
-    ec_chain *rays;
+    uint32_t first_edge, edge_count, most_landed, most_felt;
+    ec_chain *rays; /* place: number of the edge that they pass */
     uint32_t ray_count;
     patch found[LANDED];
     uint32_t count;            /* found */
@@ -40,11 +43,11 @@ typedef struct search {
 typedef struct finder {
     const ec_rare_lights *all;
     ec_rare_follower *follower;
-    search searches[EC_RARE_SOURCES];
+    search searches[(int)EC_RARE_SKY > (int)EC_RARE_SOURCES ? EC_RARE_SKY : EC_RARE_SOURCES];
     uint32_t count;            /* searches */
     ec_chain *rays;            /* one search after the other */
     uint32_t ray_count;
-    uint32_t *edges;           /* that rays are aimed past, by ray */
+    const uint32_t *chosen;    /* edges in place of all, which the searches' first ones count; NULL: all */
 } finder;
 
 static void aim(const finder *f, const ec_rare_source *source, const float point[3], float towards[3])
@@ -86,26 +89,29 @@ static ec_result land(finder *f, const ec_chain *ray, const ec_rare_source *sour
 {
     ec_rare_landing end;
     EC_TRY(ec_rare_land(f->follower, ray, &end, err));
-    *at = (patch){.light = source->name, .irradiance = end.cosine * ray->beta * ec_rare_source_irradiance(source, end.point, ray->direction)};
+    *at = (patch){.light = source->name, .irradiance = end.cosine * ray->beta * ec_rare_source_irradiance(source, end.point, ray->direction),
+                  .chance = 1, .weight = 1, .edge = ray->place, .is_sky = source->solid_angle > 0};
+    if (at->is_sky) at->chance = end.cosine * source->solid_angle / PI; /* as a matt surface scatters; light sampling changes little */
     memcpy(at->point, end.point, sizeof at->point);
     memcpy(at->normal, end.normal, sizeof at->normal);
     *is_there = end.cosine > GRAZING && at->irradiance > 0;
     return EC_OK;
 }
 
-/* Aims rays past edges at a source. Near sources are many, and their rays pass only some of the edges. */
+/* Aims rays past edges at a source. */
 static void aim_past_edges(finder *f, search *s)
 {
     const ec_rare_source *source = s->source;
-    const uint32_t most = source->type == EC_RARE_FAR ? EC_RARE_EDGES : EC_RARE_NEAR_EDGES;
     begin_rays(f, s);
-    for (uint32_t i = 0; i < f->all->edge_count && s->ray_count < most; i++) {
+    for (uint32_t n = 0; n < f->all->edge_count && s->ray_count < s->edge_count; n++) {
+        const uint32_t i = f->chosen ? f->chosen[n] : (s->first_edge + n) % f->all->edge_count;
         float towards[3];
         aim(f, source, f->all->edges[i], towards);
         const float along[3] = {-towards[0], -towards[1], -towards[2]};
         if (source->type == EC_RARE_POINT && !(ec_rare_source_irradiance(source, f->all->edges[i], along) > 0)) continue; /* beside a spot's cone */
-        f->edges[f->ray_count] = i;
-        ec_rare_ray(f->all->edges[i], towards, 1, BACK * f->all->radius, add_ray(f, s));
+        ec_chain *ray = add_ray(f, s);
+        ec_rare_ray(f->all->edges[i], towards, 1, BACK * f->all->radius, ray);
+        ray->place = i;
     }
 }
 
@@ -113,16 +119,18 @@ static void aim_past_edges(finder *f, search *s)
 static void turn_back(finder *f, search *s)
 {
     const ec_chain *met = s->rays;
-    const uint32_t count = s->ray_count, *edges = f->edges + (met - f->rays);
+    const uint32_t count = s->ray_count;
     begin_rays(f, s);
     for (uint32_t i = 0; i < count && s->ray_count < PASSED; i++) { /* any of them will do: edges are in no order */
         float towards[3];
         if (!meets(f, s->source, &met[i])) continue;
-        const float beta = met[i].beta, *edge = f->all->edges[edges[i]];
+        const uint32_t place = met[i].place;
+        const float beta = met[i].beta, *edge = f->all->edges[place];
         aim(f, s->source, edge, towards);
         ec_chain *ray = add_ray(f, s);
         ec_rare_ray(edge, towards, -1, BACK * f->all->radius, ray);
         ray->beta = beta;
+        ray->place = place;
     }
 }
 
@@ -132,9 +140,9 @@ static ec_result find_landings(finder *f, search *s, ec_error *err)
     uint32_t landed = 0;
     for (uint32_t i = 0; i < s->ray_count; i++)
         if (s->rays[i].hit != EC_NO_ID) s->rays[landed++] = s->rays[i];
-    for (uint32_t k = 0; k < landed && k < LANDED; k++) {
+    for (uint32_t k = 0; k < landed && k < s->most_landed; k++) {
         bool is_there;
-        EC_TRY(land(f, &s->rays[landed > LANDED ? (uint64_t)k * landed / LANDED : k], s->source, &s->found[s->count], &is_there, err));
+        EC_TRY(land(f, &s->rays[landed > s->most_landed ? (uint64_t)k * landed / s->most_landed : k], s->source, &s->found[s->count], &is_there, err));
         s->count += is_there;
     }
     return EC_OK;
@@ -181,7 +189,7 @@ static void feel_few_rings(finder *f, search *s)
     for (uint32_t k = 0; k < s->count * SMALL_RINGS; k++) feel_ring(f, s, &s->found[k / SMALL_RINGS], SMALL_STEP * (int)(1 + k % SMALL_RINGS));
 }
 
-/* Keeps the patches, up to FELT, that have a ring in which so little is lit that they are small. */
+/* Keeps the patches, up to most_felt, that have a ring in which so little is lit that they are small. */
 static void drop_large(const finder *f, search *s)
 {
     uint32_t kept = 0;
@@ -193,7 +201,7 @@ static void drop_large(const finder *f, search *s)
         }
         if (least < SMALL_LIT) s->found[kept++] = s->found[k];
     }
-    s->count = kept < FELT ? kept : FELT;
+    s->count = kept < s->most_felt ? kept : s->most_felt;
     for (uint32_t k = 0; k < s->count; k++) s->found[k] = s->found[(uint64_t)k * kept / s->count];
 }
 
@@ -227,9 +235,10 @@ static ec_result step(finder *f, void (*make)(finder *, search *), ec_error *err
     return follow_all(f, err);
 }
 
-static ec_result find_all(finder *f, ec_rare_patches *patches, ec_error *err)
+/* Adds patches, up to so many in all. */
+static ec_result find_all(finder *f, uint32_t most, ec_rare_patches *patches, ec_error *err)
 {
-    const uint32_t room = patches->count + PATCHES, most = room < EC_RARE_PATCHES ? room : EC_RARE_PATCHES;
+    for (uint32_t i = 0; i < f->count; i++) f->searches[i].count = 0;
     EC_TRY(step(f, aim_past_edges, err));
     EC_TRY(step(f, turn_back, err));
     for (uint32_t i = 0; i < f->count; i++) EC_TRY(find_landings(f, &f->searches[i], err));
@@ -240,26 +249,87 @@ static ec_result find_all(finder *f, ec_rare_patches *patches, ec_error *err)
     return EC_OK;
 }
 
-/* Returns how many rays a step of all searches takes at most. */
-static size_t most_rays(const ec_rare_lights *all)
+/* Adds a search for each source. Near sources and a sky's are many, and their rays pass only some of the edges. */
+static void add_searches(finder *f, const ec_rare_source *sources, uint32_t count)
 {
-    const size_t felt = AROUND * (FELT * RINGS > LANDED * SMALL_RINGS ? FELT * RINGS : LANDED * SMALL_RINGS);
-    const size_t edges = all->edge_count > felt ? all->edge_count : felt;
-    return all->source_count * edges;
+    for (uint32_t i = 0; i < count; i++) {
+        const bool is_sky = sources[i].solid_angle > 0;
+        f->searches[f->count++] = (search){.source = &sources[i], .random = 11, .first_edge = is_sky ? i * EC_RARE_NEAR_EDGES : 0,
+                                           .edge_count = !is_sky && sources[i].type == EC_RARE_FAR ? EC_RARE_EDGES : EC_RARE_NEAR_EDGES,
+                                           .most_landed = is_sky ? SKY_LANDED : LANDED, .most_felt = is_sky ? SKY_FELT : FELT};
+    }
+}
+
+/* Returns how many rays a step of all searches takes at most. */
+static size_t most_rays(const finder *f)
+{
+    size_t sum = 0;
+    for (const search *s = f->searches; s < f->searches + f->count; s++) {
+        const size_t edges = s->edge_count < f->all->edge_count ? s->edge_count : f->all->edge_count;
+        const size_t few = (size_t)AROUND * s->most_landed * SMALL_RINGS, all = (size_t)AROUND * s->most_felt * RINGS, felt = few > all ? few : all;
+        sum += edges > felt ? edges : felt;
+    }
+    return sum;
+}
+
+/* Finds edges beside different openings, and returns how many. */
+static uint32_t find_different(const ec_rare_lights *all, const ec_rare_patches *patches, uint32_t edges[SKY_PATCHES])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < patches->count; i++) {
+        const patch *at = &patches->list[i];
+        uint32_t k = 0;
+        while (k < count && ec_square_between(all->edges[edges[k]], all->edges[at->edge]) > APART * APART * at->area) k++;
+        if (k == count) edges[count++] = at->edge;
+    }
+    return count;
+}
+
+/* Finds openings by directions that each pass some of the edges, and then what comes through some of them from all directions. */
+static ec_result find_sky(finder *f, ec_rare_patches *patches, ec_error *err)
+{
+    EC_FREED patch *list = calloc(SKY_PATCHES, sizeof *list);
+    ec_rare_patches found = {.list = list};
+    uint32_t chosen[SKY_PATCHES];
+    const uint32_t first = patches->count;
+    if (!list) return ec_fail(err, "out of memory for %d patches", SKY_PATCHES);
+    EC_TRY(find_all(f, SKY_PATCHES, &found, err));
+    const uint32_t different = find_different(f->all, &found, chosen), count = different < SKY_OPENINGS ? different : SKY_OPENINGS;
+    if (!count) return EC_OK;
+    for (uint32_t k = 0; k < count; k++) chosen[k] = chosen[k * different / count];
+    f->chosen = chosen;
+    for (uint32_t i = 0; i < f->count; i++) f->searches[i].edge_count = count;
+    EC_TRY(find_all(f, EC_RARE_PATCHES, patches, err));
+    for (uint32_t i = first; i < patches->count; i++) {
+        patches->list[i].joins = i > first;
+        patches->list[i].weight = (double)different / count;
+    }
+    return EC_OK;
+}
+
+static ec_result find(ec_rare_follower *follower, const ec_rare_source *sources, uint32_t count, ec_rare_patches *patches, ec_error *err)
+{
+    const ec_rare_lights *all = follower->lights;
+    if (!count || !all->edge_count) return EC_OK;
+    EC_FREED finder *f = calloc(1, sizeof *f);
+    if (!f) return ec_fail(err, "out of memory for %u lights", count);
+    f->all = all;
+    f->follower = follower;
+    add_searches(f, sources, count);
+    EC_FREED ec_chain *rays = malloc(most_rays(f) * sizeof *rays);
+    if (!rays) return ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
+    f->rays = rays;
+    if (sources == all->sky) return find_sky(f, patches, err);
+    const uint32_t room = patches->count + PATCHES;
+    return find_all(f, room < EC_RARE_PATCHES ? room : EC_RARE_PATCHES, patches, err);
 }
 
 ec_result ec_rare_openings_find(ec_rare_follower *follower, ec_rare_patches *patches, ec_error *err)
 {
-    const ec_rare_lights *all = follower->lights;
-    if (!all->source_count || !all->edge_count) return EC_OK;
-    EC_FREED finder *f = calloc(1, sizeof *f);
-    EC_FREED ec_chain *rays = malloc(most_rays(all) * sizeof *rays);
-    EC_FREED uint32_t *edges = malloc(most_rays(all) * sizeof *edges);
-    if (!f || !rays || !edges) return ec_fail(err, "out of memory for rays past %u edges", all->edge_count);
-    f->all = all;
-    f->follower = follower;
-    f->rays = rays;
-    f->edges = edges;
-    for (; f->count < all->source_count; f->count++) f->searches[f->count] = (search){.source = &all->sources[f->count], .random = 11};
-    return find_all(f, patches, err);
+    return find(follower, follower->lights->sources, follower->lights->source_count, patches, err);
+}
+
+ec_result ec_rare_sky_openings_find(ec_rare_follower *follower, ec_rare_patches *patches, ec_error *err)
+{
+    return find(follower, follower->lights->sky, follower->lights->sky_count, patches, err);
 }

@@ -88,24 +88,25 @@ static void add_patch(const near_patch *found, bool seen, const ec_chains *paths
     }
     if (!count) return;
     const double few = fmin(at->area / (PI * near[found->count[seen] - 1].square), 1); /* share of them in the patch, where it has fewer in it */
-    const double chance = count * fmax(few, (double)found->within[seen] / found->count[seen]) / paths->paths;
+    const double there = at->weight * count * fmax(few, (double)found->within[seen] / found->count[seen]) / paths->paths;
     s->count += count;
-    s->chance += chance;
-    s->luminance += chance * beta / count * at->irradiance / PI;
+    s->chance += there * at->chance;
+    s->luminance += there * beta / count * at->irradiance / PI;
 }
 
-static void add_kind(const sums *s, bool seen, const char *light, ec_rare *rare)
+/* A patch that is seen is an image of its light; a sky's light is spread over all that it falls on. */
+static void add_kind(const sums *s, bool seen, const ec_rare_patch *first, ec_rare *rare)
 {
     const double pixels = (double)rare->width * rare->height;
-    const double spread = seen ? sqrt(fmin(1 / s->chance, pixels)) : gathered(s->tiles, s->count);
+    const double spread = !seen ? gathered(s->tiles, s->count) : first->is_sky ? 1 : sqrt(fmin(1 / s->chance, pixels));
     ec_rare_kind *kind = s->luminance > 0 && s->chance < COMMON ? ec_rare_make_room(rare, s->luminance * spread) : NULL;
     if (!kind) return;
     *kind = (ec_rare_kind){.chance = s->chance, .luminance = s->luminance, .clamped = seen ? 0 : 1, .gathered = spread};
     uint32_t lit = 0;
     for (int i = 0; i < EC_RARE_SHARES; i++)
-        if (!seen || s->tiles[i]) kind->share[i] = 255, lit++;
+        if (!seen || first->is_sky || s->tiles[i]) kind->share[i] = 255, lit++;
     kind->peak = (double)EC_RARE_SHARES / lit;
-    snprintf(kind->light, sizeof kind->light, "a small patch lit by %.*s", EC_RARE_NAME - 24, light);
+    snprintf(kind->light, sizeof kind->light, "%s%.*s", first->is_sky ? "a small opening towards " : "a small patch lit by ", EC_RARE_NAME - 25, first->light);
 }
 
 ec_result ec_rare_patches_judge(const ec_rare_patches *patches, ec_rare_follower *f, const ec_chains *paths, ec_rare *rare, ec_error *err)
@@ -119,7 +120,7 @@ ec_result ec_rare_patches_judge(const ec_rare_patches *patches, ec_rare_follower
             sums s = {0};
             for (end = first; end == first || (end < patches->count && patches->list[end].joins); end++)
                 add_patch(&found[end], seen, paths, &patches->list[end], rare, &s);
-            add_kind(&s, seen, patches->list[first].light, rare);
+            add_kind(&s, seen, &patches->list[first], rare);
         }
     return EC_OK;
 }

@@ -8,11 +8,15 @@
 typedef struct ec_rare_patch {
     float point[3], normal[3]; /* the normal, unit, is on the light's side */
     double irradiance, area;
+    double chance;             /* that a sample there meets the light */
+    double weight;             /* so many like it, it included */
+    uint32_t edge;             /* that the light passes, of the lights' edges, if it comes through an opening */
     const char *light;         /* its name, of the lights */
+    bool is_sky;               /* it is lit by a part of a sky, as the patches are that join it: all together they tell what comes through an opening */
     bool joins;                /* the patch before it: whoever meets one of them meets light of one kind */
 } ec_rare_patch;
 
-enum { EC_RARE_PATCHES = 128 };
+enum { EC_RARE_PATCHES = 192 };
 typedef struct ec_rare_patches {
     uint32_t count;
     ec_rare_patch *list;       /* owned */

@@ -18,6 +18,7 @@
 #define FEW 16              /* fewer chains say nothing of where they go, which may be anywhere */
 #define AROUND 0.35         /* length of the nearest ones' mean offset, over its root mean square: beyond, all lie to one side … */
 #define AROUND_CHANCE 1.0   /* … but for what chance makes of it, this over the root of their number */
+#define OPEN 32             /* paths of which one leaves the scene, or more, meet so much of the sky that small openings do not matter */
 #define COMMON 0.02         /* chance beyond which every picture meets its light */
 
 /* A chain beside a light. */
@@ -299,7 +300,8 @@ static ec_result predict(const ec_rare_lights *lights, ec_rare_follower *f, ec_r
 {
     EC_TRY(ec_rare_spots_find(f, patches, err));
     EC_TRY(ec_rare_openings_find(f, patches, err));
-    EC_TRY(ec_chains_trace(f->p, lights, patches->count > 0, chains, err));
+    EC_TRY(ec_chains_trace(f->p, lights, patches->count > 0 || lights->sky_count > 0, chains, err));
+    if (chains->misses * OPEN < chains->paths) EC_TRY(ec_rare_sky_openings_find(f, patches, err));
     EC_TRY(ec_rare_paths_of(lights, chains, f->p, rare, err));
     if (joined && chains->may_join) EC_TRY(ec_chains_join(f->p, lights, joined, err));
     EC_TRY(ec_rare_blind_find(lights, chains, f->p, rare, err));

@@ -60,11 +60,13 @@ static bool join_sun(const ec_rare_source *sun, ec_rare_lights *all)
     return false;
 }
 
+bool ec_rare_light_is_sun(const ec_rare_light *l) { return !l->lamp_count && l->solid_angle <= NARROW && !ec_rare_light_is_all_around(l); }
+
 static void add_from_map(ec_rare_lights *all)
 {
     for (uint32_t i = 0; i < all->count; i++) {
         const ec_rare_light *l = &all->lights[i];
-        if (l->lamp_count || l->solid_angle > NARROW || ec_rare_light_is_all_around(l)) continue;
+        if (!ec_rare_light_is_sun(l)) continue;
         ec_rare_source sun = {.is_on_map = true, .irradiance = l->radiance * l->solid_angle, .name = "the environment"};
         memcpy(sun.direction, l->direction, sizeof sun.direction);
         if (!join_sun(&sun, all)) add_sun(&sun, all);
@@ -79,6 +81,22 @@ static void drop_weak_suns(ec_rare_lights *all)
     for (uint32_t i = 0; i < all->source_count; i++)
         if (all->sources[i].irradiance >= WEAK * most) all->sources[kept++] = all->sources[i];
     all->source_count = kept;
+}
+
+/* Directions lie evenly, on a spiral of the golden angle. */
+void ec_rare_sky_find(const double radiance[8], ec_rare_lights *all)
+{
+    double most = 0;
+    for (int k = 0; k < 8; k++) most = fmax(most, radiance[k]);
+    for (int i = 0; i < EC_RARE_SKY; i++) {
+        const double y = 1 - (2 * i + 1.0) / EC_RARE_SKY, sine = sqrt(1 - y * y), angle = PI * (3 - sqrt(5)) * i;
+        const double d[3] = {sine * cos(angle), y, sine * sin(angle)}, bright = radiance[(d[0] < 0) + 2 * (d[1] < 0) + 4 * (d[2] < 0)];
+        if (!(bright > WEAK * most)) continue;
+        ec_rare_source *source = &all->sky[all->sky_count++];
+        *source = (ec_rare_source){.is_on_map = true, .solid_angle = 4 * PI / EC_RARE_SKY, .irradiance = bright * 4 * PI / EC_RARE_SKY,
+                                   .name = "the environment"};
+        for (int k = 0; k < 3; k++) source->direction[k] = (float)d[k];
+    }
 }
 
 /* Adds a triangle of each of the first lamps, two where lamps are few; they are in order of power. */

@@ -4,6 +4,12 @@
 
 #include "rare/lights.h"
 
+/* Returns whether it is a part of an environment so small that a ray can be aimed at it. */
+bool ec_rare_light_is_sun(const ec_rare_light *light);
+
+/* Adds directions of a sky. radiance: of each octant of the map's directions, by the signs of x, y and z from the lowest bit on, set if negative. */
+void ec_rare_sky_find(const double radiance[8], ec_rare_lights *all);
+
 /* Adds them, once the environment's parts and lamps are among the lights. */
 void ec_rare_sources_find(const ec_scene *scene, ec_rare_lights *all);
 

@@ -127,6 +127,7 @@ static void add_group(finder *f, const landing *landings, uint32_t count, uint32
         if (at == f->patches->count) {
             *patch = landings[i].patch;
             patch->light = light;
+            patch->chance = patch->weight = 1;
             patch->joins = f->patches->count++ > first;
             continue;
         }
@@ -145,7 +146,7 @@ static double area_of(const landing *landings, uint32_t count, uint32_t group)
 
 static ec_result find_spots(finder *f, const beam *b, ec_error *err)
 {
-    landing landings[RAYS];
+    landing landings[RAYS] = {0};
     uint32_t count;
     double all = 0, area = 0, most = SMALL * PI * f->all->radius * f->all->radius;
     EC_TRY(land(f, b, landings, &count, err));

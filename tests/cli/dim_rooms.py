@@ -7,6 +7,7 @@ import zlib
 from support import data_uri, write_gltf
 
 SUN, HOLE = (0.3, -1.0, 0.1), 0.005  # direction of the sun's light; side of the hole
+SKY = 1e5  # radiance
 SIDES = [(0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0, 1)]
 
 
@@ -67,10 +68,12 @@ class Room:
         self.node(mesh=len(self.json["meshes"]) - 1)
         return len(self.json["meshes"]) - 1
 
-    def ceiling(self, hole=None):
-        """Returns its mesh."""
+    def ceiling(self, hole=None, row=1):
+        """Returns its mesh. row: so many such holes, 5 cm apart."""
         a, b, c, d = hole or (0, 0, 0, 0)
-        sides = [s for s in ((-2, 2, -2, c), (-2, 2, d, 2), (-2, a, c, d), (b, 2, c, d)) if s[0] < s[1] and s[2] < s[3]]
+        between = [(b + 0.05 * i, a + 0.05 * i + 0.05, c, d) for i in range(row - 1)]
+        ends = (-2, 2, -2, c), (-2, 2, d, 2), (-2, a, c, d), (b + 0.05 * (row - 1), 2, c, d)
+        sides = [s for s in (*ends, *between) if s[0] < s[1] and s[2] < s[3]]
         return self.mesh(self.white, [((x0, 3, z0), (x1 - x0, 0, 0), (0, 0, z1 - z0)) for x0, x1, z0, z1 in sides])
 
     def dim_lamp(self):
@@ -147,6 +150,19 @@ def sun_room(path, kind, rug=0, ground=0, pane=False, twice=False):
         room.rug(rug)
     if ground:
         room.quad(room.white, (-ground / 2, -0.01, -ground / 2), (0, 0, ground), (ground, 0, 0))
+    return room.write(path)
+
+
+def sky_room(path, kind, rug=0, side=HOLE, row=1):
+    """A dim lamp of 5 W, for a sky of SKY W/(m^2 sr) outside. kind: "hole": the sky shines through a hole of 5 mm, or another side, with 8 W; "sealed":
+    no hole; "lamp": a lamp of the sky's radiance in place of the hole. rug: as in sun_room. row: so many holes."""
+    room, x, z = Room(0.7), 0.5, 0.3
+    room.dim_lamp()
+    room.ceiling(None if kind == "sealed" else (x, x + side, z, z + side), row)
+    if kind == "lamp":
+        room.quad(room.material(0, SKY), (x, 3, z), (HOLE, 0, 0), (0, 0, HOLE))
+    if rug:
+        room.rug(rug)
     return room.write(path)
 
 

@@ -1,6 +1,7 @@
 /* tier: quick */
 /* Predicted light of small lit patches, from path vertices near them. The nearest twelve on the patch's plane and side count, and none on a wall that
- * meets the plane; vertices that the camera sees count separately from others on a path. */
+ * meets the plane; vertices that the camera sees count separately from others on a path. A sky's patch stands for others, and is met by some of its
+ * vertices' samples. */
 #include "rare/patches.h"
 
 #include <math.h>
@@ -41,8 +42,8 @@ static void surround(const ec_rare_patch *patch, double seen, double on_the_way)
 /* The kind of light of this amount whose nearest vertices have this spacing. */
 static void check_kind(const ec_rare *rare, const ec_rare_patch *patch, double spacing, bool seen)
 {
-    const double farthest = NEAREST * spacing, chance = NEAREST * patch->area / (PI * farthest * farthest) / PATHS;
-    const double beta = (seen ? 0.5 : 1) * (NEAREST + 1), luminance = chance * beta * patch->irradiance / PI;
+    const double farthest = NEAREST * spacing, there = patch->weight * NEAREST * patch->area / (PI * farthest * farthest) / PATHS;
+    const double beta = (seen ? 0.5 : 1) * (NEAREST + 1), luminance = there * beta * patch->irradiance / PI, chance = there * patch->chance;
     uint32_t found = 0;
     for (uint32_t i = 0; i < rare->count; i++) {
         const ec_rare_kind *kind = &rare->kinds[i];
@@ -50,15 +51,16 @@ static void check_kind(const ec_rare *rare, const ec_rare_patch *patch, double s
         found++;
         CHECK_MSG(fabs(kind->luminance / luminance - 1) < 1e-4, "spacing %g: luminance %g, expected %g", spacing, kind->luminance, luminance);
         CHECK_MSG(kind->clamped == (seen ? 0 : 1), "spacing %g: clamped %g", spacing, kind->clamped);
-        CHECK_MSG(kind->share[0] == 255 && kind->share[1] == (seen ? 0 : 255), "spacing %g: shares %u, %u", spacing, kind->share[0], kind->share[1]);
+        CHECK_MSG(kind->share[0] == 255 && kind->share[1] == (seen && !patch->is_sky ? 0 : 255), "spacing %g: shares %u, %u", spacing, kind->share[0], kind->share[1]);
     }
     CHECK_MSG(found == 1, "spacing %g: %u kinds of chance %g", spacing, found, chance);
 }
 
 int main(void)
 {
-    ec_rare_patch patches[2] = {{.point = {1, 2, 3}, .normal = {0, 0, 1}, .irradiance = 50, .area = 1e-3, .light = "sun"},
-                                {.point = {101, 2, 3}, .normal = {0, 0, 1}, .irradiance = 7, .area = 2e-3, .light = "sun"}};
+    ec_rare_patch patches[2] = {{.point = {1, 2, 3}, .normal = {0, 0, 1}, .irradiance = 50, .area = 1e-3, .chance = 1, .weight = 1, .light = "sun"},
+                                {.point = {101, 2, 3}, .normal = {0, 0, 1}, .irradiance = 7, .area = 2e-3, .chance = 0.1, .weight = 3, .light = "sky",
+                                 .is_sky = true}};
     const ec_rare_patches both = {2, patches};
     const ec_rare_lights lights = {.radius = 1, .stored_count = 2};
     ec_prim triangles[] = {[FLOOR] = {.v1 = {1, 0, 0}, .v2 = {0, 1, 0}}, [WALL] = {.v1 = {1, 0, 0}, .v2 = {0, 0, 1}}}, *pages[] = {triangles};
