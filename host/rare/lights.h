@@ -8,8 +8,8 @@
 #include "shared/params.h"
 
 enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96 };
-enum { EC_RARE_SUNS = 4, EC_RARE_AIMS = 8, EC_RARE_POINTS = 8, EC_RARE_SOURCES = EC_RARE_SUNS + EC_RARE_AIMS + EC_RARE_POINTS };
-enum { EC_RARE_SKY = 32 }; /* directions that stand for what of an environment is no sun */
+enum { EC_RARE_SUNS = 4, EC_RARE_AIMS = 24, EC_RARE_POINTS = 24, EC_RARE_SOURCES = EC_RARE_SUNS + EC_RARE_AIMS + EC_RARE_POINTS,
+       EC_RARE_SKY = 32 }; /* directions that stand for what of an environment is no sun */
 enum { EC_RARE_EDGES = 1 << 13, EC_RARE_NEAR_EDGES = 1 << 9 };
 
 /* A lamp's triangle or a part of one, which stands for `weight` of its group. */

@@ -15,8 +15,10 @@
 #define ABOVE 1e-5    /* likewise, above what is lit */
 #define GRAZING 0.05  /* cosine under which light only grazes what it falls on */
 enum { PASSED = 1 << 11 };                       /* rays past edges that are followed to where they land */
-/* Rays of a source that are looked at where they land; places around which rays feel what is lit; patches in all. A sky has many sources. */
-enum { LANDED = 128, FELT = 16, PATCHES = 16, SKY_LANDED = 32, SKY_FELT = 4, SKY_PATCHES = 128 };
+enum { PATCHES = 16, SKY_PATCHES = 128 };       /* in all */
+/* Rays of a source that are looked at where they land; places around which rays feel what is lit. If sources are more than MANY, these are as many in
+ * all as of MANY. */
+enum { LANDED = 128, FELT = 16, SKY_FELT = 4, MANY = 20 };
 enum { SKY_OPENINGS = 3 }; /* that are looked at from all directions */
 #define APART 4       /* openings, in sides of what one of them lights */
 enum { RINGS = 20, AROUND = 8 }; /* the largest first, each half of the one before: down to 6e-7 of the radius */
@@ -39,11 +41,13 @@ typedef struct search {
     uint64_t random;
 } search;
 
+_Static_assert(EC_RARE_SKY <= EC_RARE_SOURCES, "a finder has room for searches by all sources");
+
 /* All searches take each step together, since a launch takes longer than the rays of one of them. */
 typedef struct finder {
     const ec_rare_lights *all;
     ec_rare_follower *follower;
-    search searches[(int)EC_RARE_SKY > (int)EC_RARE_SOURCES ? EC_RARE_SKY : EC_RARE_SOURCES];
+    search searches[EC_RARE_SOURCES];
     uint32_t count;            /* searches */
     ec_chain *rays;            /* one search after the other */
     uint32_t ray_count;
@@ -252,11 +256,12 @@ static ec_result find_all(finder *f, uint32_t most, ec_rare_patches *patches, ec
 /* Adds a search for each source. Near sources and a sky's are many, and their rays pass only some of the edges. */
 static void add_searches(finder *f, const ec_rare_source *sources, uint32_t count)
 {
+    const uint32_t many = count > MANY ? count : MANY;
     for (uint32_t i = 0; i < count; i++) {
         const bool is_sky = sources[i].solid_angle > 0;
         f->searches[f->count++] = (search){.source = &sources[i], .random = 11, .first_edge = is_sky ? i * EC_RARE_NEAR_EDGES : 0,
                                            .edge_count = !is_sky && sources[i].type == EC_RARE_FAR ? EC_RARE_EDGES : EC_RARE_NEAR_EDGES,
-                                           .most_landed = is_sky ? SKY_LANDED : LANDED, .most_felt = is_sky ? SKY_FELT : FELT};
+                                           .most_landed = LANDED * MANY / many, .most_felt = is_sky ? SKY_FELT : FELT * MANY / many};
     }
 }
 

@@ -9,6 +9,7 @@
 #include "film/film.h"
 
 #define PI 3.14159265358979323846
+enum { FEW_LAMPS = 4 };
 #define NARROW 0.02   /* steradians: of a wider light one ray does not tell where it falls */
 #define ONE_SUN 0.995 /* cosine between parts of a map that are one sun */
 #define WEAK 0.01     /* of the strongest sun's irradiance, or of all lamps' or all points' power */
@@ -99,14 +100,14 @@ void ec_rare_sky_find(const double radiance[8], ec_rare_lights *all)
     }
 }
 
-/* Adds a triangle of each of the first lamps, two where lamps are few; they are in order of power. */
+/* Adds a triangle of each of the first lamps, two of FEW_LAMPS; they are in order of power. */
 static void add_lamps(ec_rare_lights *all)
 {
     uint32_t aims = 0, lamps = 0;
     double power = 0;
     for (uint32_t i = 0; i < all->count; i++)
         if (all->lights[i].lamp_count) power += all->lights[i].power, lamps++;
-    const uint32_t each = 2 * lamps <= EC_RARE_AIMS ? 2 : 1;
+    const uint32_t each = lamps <= FEW_LAMPS ? 2 : 1;
     for (uint32_t i = 0; i < all->count && aims < EC_RARE_AIMS; i++) {
         const ec_rare_light *l = &all->lights[i];
         if (l->power < WEAK * power) continue;

@@ -97,9 +97,11 @@ class Room:
         self.node(mesh=len(self.json["meshes"]) - 1)
 
     def light(self, light, **node):
-        self.node(extensions={"KHR_lights_punctual": {"light": 0}}, **node)
-        self.json["extensions"] = {"KHR_lights_punctual": {"lights": [light]}}
-        self.json["extensionsUsed"].append("KHR_lights_punctual")
+        lights = self.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
+        lights.append(light)
+        self.node(extensions={"KHR_lights_punctual": {"light": len(lights) - 1}}, **node)
+        if len(lights) == 1:
+            self.json["extensionsUsed"].append("KHR_lights_punctual")
 
     def sun(self, irradiance):
         length = math.sqrt(sum(c * c for c in SUN))
@@ -166,21 +168,26 @@ def sky_room(path, kind, rug=0, side=HOLE, row=1):
     return room.write(path)
 
 
-def lamp_room(path, kind):
+def lamp_room(path, kind, others=0):
     """A room with a dim lamp of 5 W, and a lamp of 125 kW, 2 mm across, a metre above the ceiling. kind: "hole": it lights a patch of the
-    floor through a hole of 5 mm; "sealed": no hole."""
+    floor through a hole of 5 mm; "sealed": no hole. others: lamps of twice its power far below the room, each of its own material."""
     room, x, z, side = Room(0.7), 0.5, 0.3, 0.002
     room.dim_lamp()
+    for i in range(others):
+        room.quad(room.material(0, 2e10), (i - others / 2, -4, 0), (side, 0, 0), (0, 0, side))
     room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
     room.quad(room.material(0, 1e10), (x - side / 2, 4, z - side / 2), (side, 0, 0), (0, 0, side))
     return room.write(path)
 
 
-def point_room(path, kind, spot=False, roof=False):
+def point_room(path, kind, spot=False, roof=False, others=0):
     """A dim lamp of 5 W, and a metre above the ceiling a point light of 4 x 10^5 W/sr, or a spot light that shines down. Through a "hole" of 5 mm it
-    lights 4 cm^2 of the floor, with 10 W; or the room is "sealed". roof: the light hangs below one."""
+    lights 4 cm^2 of the floor, with 10 W; or the room is "sealed". roof: the light hangs below one. others: lights of twice its
+    intensity far below the room."""
     room, x, z = Room(0.7), 0.5, 0.3
     room.dim_lamp()
+    for i in range(others):
+        room.light({"type": "point", "intensity": 8e5}, translation=[i - others / 2, -4, 0])
     room.ceiling((x, x + HOLE, z, z + HOLE) if kind == "hole" else None)
     light = {"type": "spot", "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}} if spot else {"type": "point"}
     if roof:

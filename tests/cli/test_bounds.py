@@ -157,6 +157,13 @@ class Bounds(Case):
                 self.assertEqual(self.missing_light(point_room(self.path("sealed.gltf"), "sealed", spot)), 0)
 
     @full
+    def test_light_behind_a_small_hole_is_found_among_twenty(self):
+        for make, least in (lamp_room, 0.05), (point_room, 0.3):
+            with self.subTest(make=make.__name__):
+                self.assertGreater(self.missing_light(make(self.path("hole.gltf"), "hole", others=20)), least)
+                self.assertEqual(self.missing_light(make(self.path("sealed.gltf"), "sealed", others=20)), 0)
+
+    @full
     def test_point_light_below_a_roof_is_found(self):
         # rays past edges go on behind the light, and end on the roof
         self.assertGreater(self.missing_light(point_room(self.path("hole.gltf"), "hole", roof=True)), 0.3)
