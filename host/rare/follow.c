@@ -142,3 +142,10 @@ ec_result ec_rare_reach(ec_rare_follower *f, ec_chain *rays, uint32_t count, ec_
     }
     return EC_OK;
 }
+
+bool ec_rare_meets(const ec_rare_follower *f, const ec_rare_source *source, const ec_chain *ray)
+{
+    if (source->type == EC_RARE_LAMP) return ray->hit != EC_NO_ID && ec_rare_material_of(f->lights, ray->hit) == source->material;
+    if (source->type == EC_RARE_FAR || ray->hit == EC_NO_ID) return ray->hit == EC_NO_ID;
+    return (double)ray->reach * ray->reach > ec_square_between(ray->origin, source->middle);
+}

@@ -27,6 +27,9 @@ ec_result ec_rare_follow(ec_rare_follower *follower, ec_chain *rays, uint32_t co
 /* Sets the reach of rays that have been followed, from their origins as these are now. */
 ec_result ec_rare_reach(ec_rare_follower *follower, ec_chain *rays, uint32_t count, ec_error *err);
 
+/* Returns whether a ray that was aimed at a source, and followed, has met it. A point or spot light's ray needs its reach. */
+bool ec_rare_meets(const ec_rare_follower *follower, const ec_rare_source *source, const ec_chain *ray);
+
 /* The place where a ray ends. */
 typedef struct ec_rare_landing {
     float point[3], normal[3]; /* the normal, unit, is on the ray's side */

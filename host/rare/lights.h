@@ -31,8 +31,8 @@ typedef struct ec_rare_light {
     uint32_t lamp_count;
 } ec_rare_light;
 
-/* A light that a ray can be aimed at: one far away, that is a directional light, a small part of an environment or a direction of its sky; a lamp, which is taken to shine from
- * its middle; a point or spot light. */
+/* A light that a ray can be aimed at: one far away, that is a directional light, a small part of an environment or a direction of its sky; a lamp, which
+ * is taken to shine from its middle; a point or spot light. */
 typedef enum ec_rare_source_type { EC_RARE_FAR, EC_RARE_LAMP, EC_RARE_POINT } ec_rare_source_type;
 typedef struct ec_rare_source {
     char name[EC_RARE_NAME];

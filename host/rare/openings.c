@@ -80,14 +80,6 @@ static ec_result follow_all(finder *f, ec_error *err)
     return EC_OK;
 }
 
-/* Returns whether a ray towards the source has met it. */
-static bool meets(const finder *f, const ec_rare_source *source, const ec_chain *ray)
-{
-    if (source->type == EC_RARE_LAMP) return ray->hit != EC_NO_ID && ec_rare_material_of(f->all, ray->hit) == source->material;
-    if (source->type == EC_RARE_FAR || ray->hit == EC_NO_ID) return ray->hit == EC_NO_ID;
-    return (double)ray->reach * ray->reach > ec_square_between(ray->origin, source->middle);
-}
-
 /* Finds where a ray of the source ends; *is_there: it does not only graze. */
 static ec_result land(finder *f, const ec_chain *ray, const ec_rare_source *source, patch *at, bool *is_there, ec_error *err)
 {
@@ -127,7 +119,7 @@ static void turn_back(finder *f, search *s)
     begin_rays(f, s);
     for (uint32_t i = 0; i < count && s->ray_count < PASSED; i++) { /* any of them will do: edges are in no order */
         float towards[3];
-        if (!meets(f, s->source, &met[i])) continue;
+        if (!ec_rare_meets(f->follower, s->source, &met[i])) continue;
         const uint32_t place = met[i].place;
         const float beta = met[i].beta, *edge = f->all->edges[place];
         aim(f, s->source, edge, towards);
@@ -155,7 +147,7 @@ static ec_result find_landings(finder *f, search *s, ec_error *err)
 static int count_lit(const finder *f, const ec_rare_source *source, const ec_chain *ring)
 {
     int lit = 0;
-    for (int k = 0; k < AROUND; k++) lit += meets(f, source, &ring[k]);
+    for (int k = 0; k < AROUND; k++) lit += ec_rare_meets(f->follower, source, &ring[k]);
     return lit;
 }
 

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "rare/blind.h"
 #include "rare/openings.h"
+#include "rare/seldom.h"
 #include "rare/sight.h"
 #include "rare/spots.h"
 
@@ -298,6 +299,10 @@ ec_result ec_rare_paths_of(const ec_rare_lights *all, const ec_chains *chains, e
 static ec_result predict(const ec_rare_lights *lights, ec_rare_follower *f, ec_rare_patches *patches, ec_chains *chains, ec_rare *rare,
                          ec_joined_choice *joined, ec_error *err)
 {
+    if (f->p->integrator == EC_INTEGRATOR_LIGHT) {
+        EC_TRY(ec_chains_trace(f->p, lights, false, chains, err));
+        return ec_rare_seldom_find(f, chains, rare, err);
+    }
     EC_TRY(ec_rare_spots_find(f, patches, err));
     EC_TRY(ec_rare_openings_find(f, patches, err));
     EC_TRY(ec_chains_trace(f->p, lights, patches->count > 0 || lights->sky_count > 0, chains, err));
@@ -316,7 +321,7 @@ ec_result ec_rare_paths_predict(const ec_rare_lights *lights, ec_pipeline *p, ec
     *rare = (ec_rare){0};
     if (joined) *joined = (ec_joined_choice){0};
     if (!lights->count && !lights->source_count) return EC_OK;
-    if (p->integrator != EC_INTEGRATOR_PATH) return EC_OK;
+    if (!ec_traces_paths(p->integrator)) return EC_OK;
     patches.list = calloc(EC_RARE_PATCHES, sizeof *patches.list);
     ec_result result = patches.list ? ec_rare_follower_open(lights, p, &follower, err) : ec_fail(err, "out of memory for %d patches", EC_RARE_PATCHES);
     if (result == EC_OK) result = predict(lights, &follower, &patches, &chains, rare, joined, err);

@@ -100,6 +100,16 @@ void ec_rare_sky_find(const double radiance[8], ec_rare_lights *all)
     }
 }
 
+void ec_rare_source_of_lamp(const ec_rare_light *l, uint32_t number, uint32_t parts, ec_rare_source *source)
+{
+    const ec_rare_lamp *lamp = &l->lamps[number];
+    *source = (ec_rare_source){.type = EC_RARE_LAMP, .two_sided = lamp->two_sided, .material = l->material, .radiance = l->radiance};
+    source->irradiance = l->radiance * lamp->area * lamp->weight * l->lamp_count / parts;
+    memcpy(source->middle, lamp->middle, sizeof source->middle);
+    memcpy(source->direction, lamp->normal, sizeof source->direction);
+    snprintf(source->name, sizeof source->name, "%.*s", EC_CUT(l->name, EC_RARE_NAME - 1));
+}
+
 /* Adds a triangle of each of the first lamps, two of FEW_LAMPS; they are in order of power. */
 static void add_lamps(ec_rare_lights *all)
 {
@@ -112,15 +122,8 @@ static void add_lamps(ec_rare_lights *all)
         const ec_rare_light *l = &all->lights[i];
         if (l->power < WEAK * power) continue;
         const uint32_t parts = l->lamp_count < each ? l->lamp_count : each;
-        for (uint32_t k = 0; k < parts && aims < EC_RARE_AIMS; k++, aims++) {
-            const ec_rare_lamp *lamp = &l->lamps[k * (l->lamp_count / 2)];
-            ec_rare_source *sun = &all->sources[all->source_count++];
-            *sun = (ec_rare_source){.type = EC_RARE_LAMP, .two_sided = lamp->two_sided, .material = l->material, .radiance = l->radiance};
-            sun->irradiance = l->radiance * lamp->area * lamp->weight * l->lamp_count / parts;
-            memcpy(sun->middle, lamp->middle, sizeof sun->middle);
-            memcpy(sun->direction, lamp->normal, sizeof sun->direction);
-            snprintf(sun->name, sizeof sun->name, "%.*s", EC_CUT(l->name, EC_RARE_NAME - 1));
-        }
+        for (uint32_t k = 0; k < parts && aims < EC_RARE_AIMS; k++, aims++)
+            ec_rare_source_of_lamp(l, k * (l->lamp_count / 2), parts, &all->sources[all->source_count++]);
     }
 }
 

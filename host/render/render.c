@@ -95,7 +95,7 @@ static uint32_t largest_batch(const ec_render_state *r)
 
 static ec_result open_sources(ec_render_state *r, const ec_peers *peers, const ec_log *log, ec_error *err)
 {
-    if (r->options->integrator == EC_INTEGRATOR_PATH) /* rasterised pictures and ray trees take the same paths whatever the sample */
+    if (ec_traces_paths(r->options->integrator)) /* rasterised pictures and ray trees take the same paths whatever the sample */
         EC_TRY(ec_rare_lights_find(&r->sources.payload.pack, &r->lights, err));
     return ec_sources_open(&r->sources, r->options->seed, peers, log, &r->source, r->stats, err);
 }

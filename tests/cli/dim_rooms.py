@@ -210,3 +210,21 @@ def near_room(path, kind, distance):
         room.light({"type": "spot", "intensity": 20, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.5}}, translation=[x, distance, z],
                    rotation=[-math.sqrt(0.5), 0, 0, math.sqrt(0.5)])
     return room.write(path)
+
+
+def far_room(path, kind, far):
+    """A wall 1 m away that hides half of another one, `far` metres away, and lights of about the same irradiance for both: a lamp for the far one, and a "lamp"
+    or "point" light for the near one. Neither wall is lit by the other's. Behind the camera is a black wall."""
+    room, side = Room(0.7), 0.01
+    room.json["scenes"][0]["nodes"] = []
+    room.node(camera=0)
+    room.quad(room.white, (-2, -2, -1), (2, 0, 0), (0, 4, 0))
+    room.quad(room.material(0), (-20, 20, 2), (40, 0, 0), (0, -40, 0))
+    if kind == "lamp":
+        room.quad(room.material(0, 0.9 / (math.pi * side * side)), (-0.3, 0.6, -0.5), (0, side, 0), (side, 0, 0))
+    else:
+        room.light({"type": "point", "intensity": 0.29}, translation=[-0.3, 0.6, -0.5])
+    room.quad(room.white, (-2 * far, -2 * far, -far), (4 * far, 0, 0), (0, 4 * far, 0))
+    side = far / 10
+    room.quad(room.material(0, 4.8 * far * far / (math.pi * side * side)), (0.3 * far, 0.6 * far, -0.5 * far), (0, side, 0), (side, 0, 0))
+    return room.write(path)
