@@ -185,11 +185,12 @@ static ec_result lit(void *user, uint32_t number, ec_error *err)
     return ec_joined_gather(&t->joined, &t->look, number, false, err);
 }
 
-/* Returns how many bounces to trace. Where nothing is more than diffuse only the camera's own directions are sharp. */
-static uint32_t bounces_of(const ec_pipeline *p, bool has_vertices)
+/* Returns how many bounces to trace. Where nothing is more than diffuse only the camera's own directions are sharp; one bounce more tells whether paths
+ * leave the scene. */
+static uint32_t bounces_of(const ec_pipeline *p, bool has_sky, bool has_vertices)
 {
     const bool all = (p->effects.called.bits & EC_FEATURE_SPECULAR) || p->params.sample == EC_SAMPLE_BSDF || p->params.sample == EC_SAMPLE_HEMISPHERE;
-    const uint32_t most = all ? EC_CHAIN_BOUNCES : has_vertices ? EC_CHAIN_VERTICES : 1;
+    const uint32_t most = all ? EC_CHAIN_BOUNCES : has_vertices ? EC_CHAIN_VERTICES : has_sky ? 2 : 1;
     return most < p->params.max_depth ? most : p->params.max_depth;
 }
 
@@ -210,7 +211,7 @@ static ec_result trace_some(ec_pipeline *p, const ec_rare_lights *lights, uint32
     ec_result result = ec_joined_open(&t.joined, lights->flux, paths, err);
     if (result == EC_OK && (!chains->chains || (has_vertices && !chains->vertices) || !chains->visits || !t.at || !t.last || !t.wide || !t.queue || !t.hits))
         result = ec_fail(err, "out of memory for %u paths", paths);
-    t.look = (ec_look){.p = p, .paths = paths, .each = t.joined.paths ? 2 : 1, .replicates = 1, .bounces = bounces_of(p, has_vertices), .samples_light = t.joined.paths,
+    t.look = (ec_look){.p = p, .paths = paths, .each = t.joined.paths ? 2 : 1, .replicates = 1, .bounces = bounces_of(p, lights->sky_count > 0, has_vertices), .samples_light = t.joined.paths,
                        .met = met, .shaded = shaded, .lit = lit, .user = &t};
     if (result == EC_OK) result = ec_look_trace(&t.look, err);
     if (result == EC_OK) *choice = ec_joined_choose(&t.joined, paths);

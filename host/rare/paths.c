@@ -305,8 +305,12 @@ static ec_result predict(const ec_rare_lights *lights, ec_rare_follower *f, ec_r
     }
     EC_TRY(ec_rare_spots_find(f, patches, err));
     EC_TRY(ec_rare_openings_find(f, patches, err));
-    EC_TRY(ec_chains_trace(f->p, lights, patches->count > 0 || lights->sky_count > 0, chains, err));
+    EC_TRY(ec_chains_trace(f->p, lights, patches->count > 0, chains, err));
     if (chains->misses * OPEN < chains->paths) EC_TRY(ec_rare_sky_openings_find(f, patches, err));
+    if (patches->count && !chains->vertices) {
+        ec_chains_free(chains);
+        EC_TRY(ec_chains_trace(f->p, lights, true, chains, err));
+    }
     EC_TRY(ec_rare_paths_of(lights, chains, f->p, rare, err));
     if (joined && chains->may_join) EC_TRY(ec_chains_join(f->p, lights, joined, err));
     EC_TRY(ec_rare_blind_find(lights, chains, f->p, rare, err));
