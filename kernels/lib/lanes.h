@@ -259,6 +259,33 @@ EC_INLINED void scatter_f(global float *restrict p, lane_u i, lane_f v, uint bit
 #undef SCATTER_ONE
 }
 
+EC_FN uint or_of_lanes(lane_u v)
+{
+    uint r = 0;
+#define OR_ONE(k) r |= LANE(v, k);
+    EACH_LANE(OR_ONE)
+#undef OR_ONE
+    return r;
+}
+
+/* Stores the lanes of `bits`, packed, at p[0], p[1], …; up to p[LANES - 1] is overwritten. */
+EC_FN void store_packed(uint *p, lane_u v, uint bits)
+{
+#if LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssf512_mask)
+    LANE_STORE(as_lane_u(__builtin_ia32_compresssf512_mask(as_lane_f(v), F(0.0f), (ushort)bits)), p);
+#elif LANES == 8 && PERMUTES_LANES
+    LANE_STORE(as_uint8(pack8(as_int8(v), bits)), p);
+#else
+    uint bit = 1;
+#define PACK_ONE(k)                                                                                \
+    *p = LANE(v, k);                                                                               \
+    p += (bits & bit) != 0u;                                                                       \
+    bit <<= 1;
+    EACH_LANE(PACK_ONE)
+#undef PACK_ONE
+#endif
+}
+
 /* Stores the lanes of `bits`, packed, at p[0], p[1], … */
 EC_FN void store_compact(global float *restrict p, lane_f v, uint bits)
 {

@@ -5,6 +5,7 @@
 #include "../lib/dispersion.h"
 #include "../lib/features.h"
 #include "../lib/film.h"
+#include "../lib/group_hits.h"
 #include "../lib/guide.h"
 #include "../lib/kernel.h"
 #include "../lib/light_path.h"
@@ -70,20 +71,23 @@ EC_FN lane_u left_behind(const surface *s, v3 w, lane_i lifted, lane_u prim)
     DO(global const uint *, emission_table) DO(global const float *, guide_table) DO(global const uint *, light_groups)                               \
     DO(global const uint *, parts) DO(global const float *, camera_keys)
 
-EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
+#define SHADE_GEOMETRY {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion}
+
+/* Shades a packet of the queue; left: entries from its first on. */
+EC_INLINED void shade_packet(uint row, const queue_packet *q, uint left, constant ec_params *params SHADE_PARAMETERS(EC_PARAMETER))
 {
     uint wave = params->wave;
-    geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
+    geometry g = SHADE_GEOMETRY;
     lights light = {light_table, light_shares, {params, environment_texels, environment_table}, light_tree, emission_table};
     const bool by_light = HAS(LIGHT_PATHS) && params->light_paths > 0.0f && params->sample == EC_SAMPLE_MIS;
     bool only_seen = false; /* paths go on through panes alone */
     if (HAS(LIGHT_PATHS)) only_seen = params->sample == EC_SAMPLE_LIGHT_PATHS;
 
     lane_i active = LANE_NUMBERS < left;
-    v3 o = queue_load_v3(paths, wave, EC_PATH_OX, i), d = queue_load_v3(paths, wave, EC_PATH_DX, i);
-    v3 beta = queue_load_v3(paths, wave, EC_PATH_BR, i);
-    lane_f path_pdf = queue_load_f(paths, wave, EC_PATH_PDF, i);
-    lane_u slot = queue_load_u(paths, wave, EC_PATH_SLOT, i), prim = queue_load_u(hits, wave, EC_HIT_PRIM, i);
+    v3 o = packet_load_v3(paths, wave, EC_PATH_OX, q), d = packet_load_v3(paths, wave, EC_PATH_DX, q);
+    v3 beta = packet_load_v3(paths, wave, EC_PATH_BR, q);
+    lane_f path_pdf = packet_load_f(paths, wave, EC_PATH_PDF, q);
+    lane_u slot = packet_load_u(paths, wave, EC_PATH_SLOT, q), prim = packet_load_u(hits, wave, EC_HIT_PRIM, q);
     slot = active ? slot : U(0);
     if (HAS(MOTION) && motion) g.time = gather_f(times, slot);
     g.parts = lamp_parts;
@@ -96,7 +100,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     lane_i found = active & (prim != EC_NO_ID);
     v3 wo = v3_negate(d);
     lane_f k = F(0.0f);
-    if (by_light) k = queue_load_f(paths, wave, EC_PATH_K, i);
+    if (by_light) k = packet_load_f(paths, wave, EC_PATH_K, q);
 
     v3 emitted = v3_zero();
     lane_i emits = !TRUE_MASK;
@@ -113,17 +117,17 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     }
 
     prim = found ? prim : U(0);
-    hit_point h = hit_point_make(&g, prim, queue_load_f(hits, wave, EC_HIT_B1, i),
-                                 queue_load_f(hits, wave, EC_HIT_B2, i));
+    hit_point h = hit_point_make(&g, prim, packet_load_f(hits, wave, EC_HIT_B1, q),
+                                 packet_load_f(hits, wave, EC_HIT_B2, q));
     surface s;
     surface_place(&h, wo, &s);
     surface_frame(&g, &h, found, wo, &s);
     bool nested = MEDIA_NESTED(params);
-    if (nested) s.bodies = found ? queue_load_u(paths, wave, EC_PATH_MEDIUM, i) : U(0);
+    if (nested) s.bodies = found ? packet_load_u(paths, wave, EC_PATH_MEDIUM, q) : U(0);
     surface_material(&g, &h, found, &s);
     quad emission = material_quad(&g, &h, EC_WORD_emission);
     lane_u flags = as_lane_u(emission.d), medium = U(EC_NO_ID);
-    if (HAS_MEDIUM) medium = medium_of(&h, &s, found, queue_load_u(paths, wave, EC_PATH_MEDIUM, i), nested);
+    if (HAS_MEDIUM) medium = medium_of(&h, &s, found, packet_load_u(paths, wave, EC_PATH_MEDIUM, q), nested);
     lane_i strewn = !TRUE_MASK; /* scattered before the surface was met */
     scattering event;
     if (HAS(ABSORPTION)) {
@@ -145,7 +149,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     lane_i met = found & !strewn;
 
     v3 source = o; /* where light was last sampled */
-    if (HAS(PANES) && bounce) source = queue_load_v3(paths, wave, EC_PATH_SX, i);
+    if (HAS(PANES) && bounce) source = packet_load_v3(paths, wave, EC_PATH_SX, q);
     if (HAS(EMISSION)) {
         lane_i m = met & !beside & ((flags & EC_MATERIAL_EMISSIVE) != 0u) &
                    (s.front | ((flags & EC_MATERIAL_DOUBLE_SIDED) != 0u));
@@ -270,7 +274,7 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     v3 wi;
     if (guides) {
         next_way = guide_sample_or(&guided, &s, &b, to_unit(r1), number, u_pass, &wi, &roulette_scale);
-        if (bounce) roulette_scale = min(roulette_scale * queue_load_f(paths, wave, EC_PATH_ROULETTE, i), F(EC_ROULETTE_SCALE_MOST));
+        if (bounce) roulette_scale = min(roulette_scale * packet_load_f(paths, wave, EC_PATH_ROULETTE, q), F(EC_ROULETTE_SCALE_MOST));
     } else {
         next_way = bsdf_sample(&b, params->sample == EC_SAMPLE_HEMISPHERE, to_unit(r1), number, u_pass);
         wi = surface_to_world(&s, next_way.wi); /* unit to 8 u: frame and local direction are */
@@ -322,4 +326,26 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
     queue_push_f(next, wave, EC_PATH_PRIM, at, as_lane_f(left_behind(&s, wi, lifted, prim)), bits);
     if (HAS_MEDIUM)
         queue_push_f(next, wave, EC_PATH_MEDIUM, at, as_lane_f(medium_towards(&h, &s, medium, next_way.wi.z, nested)), bits);
+}
+
+/* Cards' work-items have one hit each. Matt surfaces in a closed room all run the same code. */
+#define GROUPS_HITS (LANES > 1 && (HAS(SPECULAR) || HAS(ENVIRONMENT) || HAS_TEXTURES))
+
+EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
+{
+    queue_packet q = {i, false, U(0)};
+    if (!GROUPS_HITS) {
+        shade_packet(row, &q, left, params SHADE_PARAMETERS(EC_ARGUMENT));
+        return;
+    }
+    if (i % params->part % EC_GROUPED) return;
+    geometry g = SHADE_GEOMETRY;
+    uint order[EC_GROUPED + LANES];
+    left = min(left, EC_GROUPED);
+    q.is_scattered = group_hits(&g, hits, params->wave, i, left, order);
+    for (uint k = 0; k < left; k += LANES) {
+        q.first = i + k;
+        if (q.is_scattered) q.at = LANE_LOAD(order + k);
+        shade_packet(row, &q, left - k, params SHADE_PARAMETERS(EC_ARGUMENT));
+    }
 }
