@@ -213,8 +213,8 @@ def near_room(path, kind, distance):
 
 
 def far_room(path, kind, far):
-    """A wall 1 m away that hides half of another one, `far` metres away, and lights of about the same irradiance for both: a lamp for the far one, and a "lamp"
-    or "point" light for the near one. Neither wall is lit by the other's. Behind the camera is a black wall."""
+    """A wall 1 m away that hides half of another one, `far` metres away, and lights of about the same irradiance for both: a lamp for the far one, and a "lamp",
+    "point" or "spot" light for the near one. Neither wall is lit by the other's. Behind the camera is a black wall."""
     room, side = Room(0.7), 0.01
     room.json["scenes"][0]["nodes"] = []
     room.node(camera=0)
@@ -223,7 +223,8 @@ def far_room(path, kind, far):
     if kind == "lamp":
         room.quad(room.material(0, 0.9 / (math.pi * side * side)), (-0.3, 0.6, -0.5), (0, side, 0), (side, 0, 0))
     else:
-        room.light({"type": "point", "intensity": 0.29}, translation=[-0.3, 0.6, -0.5])
+        cone = {"spot": {"innerConeAngle": 0.9, "outerConeAngle": 1.0}} if kind == "spot" else {}
+        room.light({"type": kind, "intensity": 0.29, **cone}, translation=[-0.3, 0.6, -0.5])
     room.quad(room.white, (-2 * far, -2 * far, -far), (4 * far, 0, 0), (0, 4 * far, 0))
     side = far / 10
     room.quad(room.material(0, 4.8 * far * far / (math.pi * side * side)), (0.3 * far, 0.6 * far, -0.5 * far), (0, side, 0), (side, 0, 0))

@@ -183,6 +183,11 @@ class Bounds(Case):
         self.assertGreater(self.missing_light(nearer, *alone), 0.2)
         self.assertEqual(self.missing_light(nearer, *alone, spp=256), 0)
         self.assertEqual(self.missing_light(CORNELL, *alone), 0)
+        # a fifth of all directions are in the spot light's cone; a point light in its place would have light paths enough
+        spot = far_room(self.path("spot.gltf"), "spot", 10)
+        self.assertGreater(self.missing_light(spot, *alone), 0.2)
+        self.assertEqual(self.missing_light(far_room(self.path("point.gltf"), "point", 10), *alone), 0)
+        self.assertEqual(self.missing_light(spot, *alone, spp=64), 0)
 
     @full
     def test_point_light_below_a_roof_is_found(self):
