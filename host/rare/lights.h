@@ -10,6 +10,7 @@
 enum { EC_RARE_LAMPS = 32, EC_RARE_LAMPS_IN_ALL = 384, EC_RARE_LIGHTS = 96 };
 enum { EC_RARE_SUNS = 4, EC_RARE_AIMS = 24, EC_RARE_POINTS = 24, EC_RARE_SOURCES = EC_RARE_SUNS + EC_RARE_AIMS + EC_RARE_POINTS,
        EC_RARE_SKY = 32 }; /* directions that stand for what of an environment is no sun */
+#define EC_RARE_COMMON 0.02 /* chance beyond which every picture meets its light */
 enum { EC_RARE_EDGES = 1 << 13, EC_RARE_NEAR_EDGES = 1 << 9 };
 
 /* A lamp's triangle or a part of one, which stands for `weight` of its group. */
@@ -46,6 +47,7 @@ typedef struct ec_rare_source {
     double solid_angle; /* that a direction of the sky stands for; of others 0 */
     double cos_inner, cos_outer; /* of a spot light; below -1: a point light */
     double range;       /* of a point or spot light, metres; 0: infinite */
+    double power;       /* of a point or spot light */
 } ec_rare_source;
 
 typedef struct ec_rare_lights {

@@ -9,7 +9,6 @@
 #define NEAREST 12    /* vertices by which their density is told … */
 #define FLAT 0.05     /* … that lie no further from its plane, over their distance */
 #define ALIKE 0.9     /* cosine between its normal and theirs */
-#define COMMON 0.02   /* chance beyond which every picture meets its light, as in paths.c */
 
 static double dot(const float *a, const float *b) { return (double)a[0] * b[0] + (double)a[1] * b[1] + (double)a[2] * b[2]; }
 
@@ -99,7 +98,7 @@ static void add_kind(const sums *s, bool seen, const ec_rare_patch *first, ec_ra
 {
     const double pixels = (double)rare->width * rare->height;
     const double spread = !seen ? gathered(s->tiles, s->count) : first->is_sky ? 1 : sqrt(fmin(1 / s->chance, pixels));
-    ec_rare_kind *kind = s->luminance > 0 && s->chance < COMMON ? ec_rare_make_room(rare, s->luminance * spread) : NULL;
+    ec_rare_kind *kind = s->luminance > 0 && s->chance < EC_RARE_COMMON ? ec_rare_make_room(rare, s->luminance * spread) : NULL;
     if (!kind) return;
     *kind = (ec_rare_kind){.chance = s->chance, .luminance = s->luminance, .clamped = seen ? 0 : 1, .gathered = spread};
     uint32_t lit = 0;

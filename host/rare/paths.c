@@ -20,7 +20,6 @@
 #define AROUND 0.35         /* length of the nearest ones' mean offset, over its root mean square: beyond, all lie to one side … */
 #define AROUND_CHANCE 1.0   /* … but for what chance makes of it, this over the root of their number */
 #define OPEN 32             /* paths of which one leaves the scene, or more, meet so much of the sky that small openings do not matter */
-#define COMMON 0.02         /* chance beyond which every picture meets its light */
 
 /* A chain beside a light. */
 typedef struct beside {
@@ -243,7 +242,7 @@ static double gathered(const sums *s, bool is_direct, double pixels)
 /* Keeps a kind if it is among those that matter most. */
 static void keep_kind(const ec_rare_lights *all, const ec_rare_light *light, const sums *s, double spread, ec_rare *rare)
 {
-    ec_rare_kind *kind = s->luminance > 0 && s->chance <= COMMON ? ec_rare_make_room(rare, s->luminance * spread) : NULL;
+    ec_rare_kind *kind = s->luminance > 0 && s->chance <= EC_RARE_COMMON ? ec_rare_make_room(rare, s->luminance * spread) : NULL;
     uint32_t sum = 0;
     double most = 0;
     if (!kind) return;

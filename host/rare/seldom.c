@@ -12,7 +12,6 @@
 #include "rare/sources.h"
 
 #define PI 3.14159265358979323846
-#define COMMON 0.02   /* chance beyond which every picture meets its light, as in paths.c */
 #define LEAST 0.1     /* of all direct light: what is brought by lights that are chosen more often is taken to be no less */
 enum { POINTS = 512 };
 enum { LIGHTS = EC_RARE_LIGHTS + EC_RARE_SOURCES + 1 };
@@ -56,8 +55,7 @@ static ec_result find_points(finder *f, const ec_chains *camera, ec_error *err)
 
 static double power_of(const ec_rare_source *s, double disk)
 {
-    if (s->type == EC_RARE_FAR) return disk * s->irradiance;
-    return 2 * PI * (1 - 0.5 * (fmax(s->cos_inner, -1) + fmax(s->cos_outer, -1))) * s->irradiance;
+    return s->type == EC_RARE_FAR ? disk * s->irradiance : s->power;
 }
 
 static void add_sharer(finder *f, const ec_rare_light *lamps, const ec_rare_source *source, const char *name, double power)
@@ -126,7 +124,7 @@ static void add_kind(const finder *f, const sharer *s, double light_paths, ec_ra
     double all = 0, others = 0, squares = 0, most = 0, sum = 0;
     for (uint32_t i = 0; i < f->count; i++) all += f->sharers[i].light, others += f->sharers[i].power > s->power ? f->sharers[i].light : 0;
     for (int i = 0; i < EC_RARE_SHARES; i++) squares += s->tiles[i] * s->tiles[i], most = fmax(most, s->tiles[i]);
-    if (!(squares > 0) || !isfinite(squares) || chance > COMMON) return;
+    if (!(squares > 0) || !isfinite(squares) || chance > EC_RARE_COMMON) return;
     const double light = s->light / fmax(others, LEAST * all), gathered = sqrt(squares) * EC_RARE_TILES / s->light;
     ec_rare_kind *kind = ec_rare_make_room(rare, light * gathered);
     if (!kind) return;

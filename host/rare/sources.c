@@ -132,7 +132,8 @@ static void add_point(const ec_light *l, uint32_t number, ec_rare_lights *all)
     ec_rare_source *source = &all->sources[all->source_count++];
     const bool is_spot = l->type == EC_LIGHT_SPOT;
     *source = (ec_rare_source){.type = EC_RARE_POINT, .irradiance = ec_luminance((double[3]){l->intensity[0], l->intensity[1], l->intensity[2]}),
-                               .cos_inner = is_spot ? l->cos_inner : -2, .cos_outer = is_spot ? l->cos_outer : -2, .range = l->range};
+                               .cos_inner = is_spot ? l->cos_inner : -2, .cos_outer = is_spot ? l->cos_outer : -2, .range = l->range,
+                               .power = ec_pack_punctual_power(l, 1)};
     memcpy(source->middle, l->position, sizeof source->middle);
     memcpy(source->direction, l->direction, sizeof source->direction);
     name_source(l, is_spot ? "spot light" : "point light", number, source);

@@ -88,7 +88,7 @@ static ec_result land(finder *f, const beam *b, landing *landings, uint32_t *cou
         const double flux = b->point ? lit * ec_rare_source_irradiance(b->point, at.point, b->rays[k].direction) : b->flux[k];
         l->flux = flux * b->rays[k].beta;
         if (!(at.cosine > GRAZING && l->flux > 0)) continue;
-        l->patch.area = lit / at.cosine + b->least_area[k];
+        l->patch = (ec_rare_patch){.area = lit / at.cosine + b->least_area[k], .chance = 1, .weight = 1};
         memcpy(l->patch.point, at.point, sizeof at.point);
         memcpy(l->patch.normal, at.normal, sizeof at.normal);
         l->patch.irradiance = l->flux / l->patch.area;
@@ -127,7 +127,6 @@ static void add_group(finder *f, const landing *landings, uint32_t count, uint32
         if (at == f->patches->count) {
             *patch = landings[i].patch;
             patch->light = light;
-            patch->chance = patch->weight = 1;
             patch->joins = f->patches->count++ > first;
             continue;
         }
@@ -146,7 +145,7 @@ static double area_of(const landing *landings, uint32_t count, uint32_t group)
 
 static ec_result find_spots(finder *f, const beam *b, ec_error *err)
 {
-    landing landings[RAYS] = {0};
+    landing landings[RAYS];
     uint32_t count;
     double all = 0, area = 0, most = SMALL * PI * f->all->radius * f->all->radius;
     EC_TRY(land(f, b, landings, &count, err));

@@ -6,14 +6,13 @@
 #include "geometry.h"
 #include "queue.h"
 
-#define EC_GROUPED 1024u /* hits that one work-item groups */
-#define EC_GROUPS 32u    /* the last one is of rays that hit nothing; materials have the others by turns */
+#define EC_GROUPS 32u /* the last one is of rays that hit nothing; materials have the others by turns */
 
 /* Sets order to the numbers of the `count` entries from `first` on, group by group and ascending within one, then to `first` up to the end of the last
  * packet. order has room for a packet more. Returns false if all entries are of one group; order is not set then. */
 EC_FN bool group_hits(const geometry *g, global const float *hits, uint wave, uint first, uint count, uint *order)
 {
-    uint groups[EC_GROUPED], n = 0;
+    uint groups[EC_ORDERED], n = 0;
     lane_u all = U(0); /* a bit a group */
     for (uint i = 0; i < count; i += LANES) {
         lane_u prim = queue_load_u(hits, wave, EC_HIT_PRIM, first + i);

@@ -25,6 +25,10 @@ EC_INLINED uint queue_entries(global const uint *counts, uint wave, uint part, u
     return count > before ? count - before : 0u;
 }
 EC_INLINED uint slot_entries(uint count, uint i) { return i < count ? count - i : 0u; }
+/* Neighbouring entries that one work-item puts in order, where it does. */
+#define EC_ORDERED 1024u
+/* Returns how many of the `left` entries from i on a work-item takes that puts them in order: up to EC_ORDERED, or none between their first ones. */
+EC_INLINED uint ordered_entries(uint left, uint part, uint i) { return i % part % EC_ORDERED ? 0u : min(left, EC_ORDERED); }
 /* Reserves room in part `row` for the lanes of `bits`, of which there is at least one; returns the first entry. */
 EC_FN uint queue_reserve(volatile global uint *counts, uint part, uint row, uint bits)
 {

@@ -5,8 +5,6 @@
 
 #include "queue.h"
 
-#define EC_SORTED 1024u /* rays that one work-item puts in order: 16 in each of 64 bins, were they spread evenly */
-
 EC_FN lane_u octant(v3 v) { return (as_lane_u(v.x) >> 31) | (as_lane_u(v.y) >> 31) << 1 | (as_lane_u(v.z) >> 31) << 2; }
 
 /* Returns a ray's bin, of octants of the origin about the scene's centre and of the direction. Neighbouring bins differ in one sign (Gray's code),
@@ -23,7 +21,7 @@ EC_FN lane_u ray_bin(v3 o, v3 d)
  * packet. origin, direction: their fields in the queue. */
 EC_FN void sort_rays(global const float *queue, uint wave, uint origin, uint direction, uint first, uint count, uint *order)
 {
-    uint bins[EC_SORTED], at[64], sum = 0;
+    uint bins[EC_ORDERED], at[64], sum = 0; /* 16 rays in each of 64 bins, were they spread evenly */
     for (uint k = 0; k < 64; k++) at[k] = 0;
     for (uint i = 0; i < count; i += LANES)
         LANE_STORE(ray_bin(queue_load_v3(queue, wave, origin, first + i),
@@ -39,14 +37,13 @@ EC_FN void sort_rays(global const float *queue, uint wave, uint origin, uint dir
     for (uint i = count; i % LANES; i++) order[i] = first;
 }
 
-/* Returns how many of the `left` rays from entry i on the work-item traces: a packet or, with sorts, up to EC_SORTED, whose order it sets, and none
+/* Returns how many of the `left` rays from entry i on the work-item traces: a packet or, with sorts, up to EC_ORDERED, whose order it sets, and none
  * for the work-items in between. */
 EC_FN uint item_rays(uint left, global const float *queue, uint wave, uint part, uint origin, uint direction, uint i, bool sorts, uint *order)
 {
     if (!sorts) return min(left, (uint)LANES);
-    if (i % part % EC_SORTED) return 0;
-    left = min(left, EC_SORTED);
-    sort_rays(queue, wave, origin, direction, i, left, order);
+    left = ordered_entries(left, part, i);
+    if (left) sort_rays(queue, wave, origin, direction, i, left, order);
     return left;
 }
 

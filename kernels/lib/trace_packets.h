@@ -13,7 +13,7 @@
 EC_KERNEL(EC_CAT(ec_intersect_, ACCEL), LANES, INTERSECT_PARAMETERS, QUEUED(rays[step]))
 {
     uint wave = params->wave;
-    uint order[EC_SORTED];
+    uint order[EC_ORDERED];
     uint count = item_rays(left, paths, wave, params->part, EC_PATH_OX, EC_PATH_DX, i, SORTS, order);
     const accel a = ACCEL_ARGUMENTS;
     for (uint k = 0; k < count; k += LANES) {
@@ -50,7 +50,7 @@ EC_KERNEL(EC_CAT(ec_intersect_, ACCEL), LANES, INTERSECT_PARAMETERS, QUEUED(rays
 EC_KERNEL(EC_CAT(ec_connect_, ACCEL), LANES, CONNECT_PARAMETERS, QUEUED(shadows[step]))
 {
     uint wave = params->wave;
-    uint order[EC_SORTED];
+    uint order[EC_ORDERED];
     uint count = item_rays(left, shadows, wave, params->part, EC_SHADOW_OX, EC_SHADOW_DX, i, SORTS, order);
     const accel a = ACCEL_ARGUMENTS;
     for (uint k = 0; k < count; k += LANES) {

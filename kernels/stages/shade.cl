@@ -338,10 +338,10 @@ EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
         shade_packet(row, &q, left, params SHADE_PARAMETERS(EC_ARGUMENT));
         return;
     }
-    if (i % params->part % EC_GROUPED) return;
+    left = ordered_entries(left, params->part, i);
+    if (!left) return;
     geometry g = SHADE_GEOMETRY;
-    uint order[EC_GROUPED + LANES];
-    left = min(left, EC_GROUPED);
+    uint order[EC_ORDERED + LANES];
     q.is_scattered = group_hits(&g, hits, params->wave, i, left, order);
     for (uint k = 0; k < left; k += LANES) {
         q.first = i + k;

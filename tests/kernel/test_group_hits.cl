@@ -1,5 +1,5 @@
 /* Groups hits by their triangles' materials. */
-#include "kernel_test.h"
+#include "order_test.h"
 #include "lib/group_hits.h"
 
 #define WAVE 640u
@@ -22,24 +22,15 @@ kernel void every_hit_is_there_once_by_groups(global test_result *result, global
 {
     global uint *prims = scratch, *hits = scratch + PRIMS * EC_PRIM_WORDS;
     geometry g = {(global const float *)prims};
-    uint order[EC_GROUPED + LANES];
+    uint order[EC_ORDERED + LANES], groups[WAVE];
     const uint firsts[2] = {0, 320}, counts[4] = {33, 47, 48, 320}, materials[3] = {1, 3, 70};
     for (uint m = 0; m < 3; m++) {
         fill(prims, hits, materials[m], true);
+        for (uint i = 0; i < WAVE; i++) groups[i] = group_of(hits, materials[m], i);
         for (uint f = 0; f < 2; f++)
             for (uint c = 0; c < 4; c++) {
-                uint first = firsts[f], count = counts[c], sum = 0, last = 0, group = 0;
-                CHECK(group_hits(&g, (global const float *)hits, WAVE, first, count, order));
-                for (uint i = 0; i < count; i++) {
-                    CHECK(order[i] >= first && order[i] < first + count);
-                    uint next = group_of(hits, materials[m], order[i]);
-                    if (i) CHECK_UINTS(next > group || (next == group && order[i] > last), group, next, last, order[i]); /* so no hit occurs twice */
-                    sum += order[i];
-                    last = order[i];
-                    group = next;
-                }
-                CHECK_EQUAL(sum, count * first + count * (count - 1) / 2);
-                for (uint i = count; i % LANES; i++) CHECK_EQUAL(order[i], first);
+                CHECK(group_hits(&g, (global const float *)hits, WAVE, firsts[f], counts[c], order));
+                check_order(result, order, groups, firsts[f], counts[c]);
             }
     }
 }
@@ -48,7 +39,7 @@ kernel void one_group_keeps_its_order(global test_result *result, global uint *s
 {
     global uint *prims = scratch, *hits = scratch + PRIMS * EC_PRIM_WORDS;
     geometry g = {(global const float *)prims};
-    uint order[EC_GROUPED + LANES];
+    uint order[EC_ORDERED + LANES];
     fill(prims, hits, 1, false);
     CHECK(!group_hits(&g, (global const float *)hits, WAVE, 0, 320, order));
     hits[EC_HIT_PRIM * WAVE + 100] = EC_NO_ID;
