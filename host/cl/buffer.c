@@ -119,9 +119,22 @@ ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t by
     return ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err);
 }
 
-ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err)
+ec_result ec_buffer_read_later(ec_cl *cl, cl_mem buffer, uint64_t bytes, void *to, ec_error *err)
 {
     cl_event event;
+    EC_TRY(ec_cl_check(clEnqueueReadBuffer(cl->queue, buffer, CL_FALSE, 0, bytes, to, 0, NULL, &event), "clEnqueueReadBuffer", NULL, err));
+    return ec_cl_launched(cl, event, "reading a buffer", NULL, err);
+}
+
+ec_result ec_buffer_write_later(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err)
+{
+    cl_event event;
+    EC_TRY(ec_cl_check(clEnqueueWriteBuffer(cl->queue, buffer, CL_FALSE, 0, bytes, from, 0, NULL, &event), "clEnqueueWriteBuffer", NULL, err));
+    return ec_cl_launched(cl, event, "writing a buffer", NULL, err);
+}
+
+ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err)
+{
     if (bytes > cl->sent_bytes) {
         EC_TRY(ec_cl_check(clFinish(cl->queue), "clFinish", cl->info.name, err));
         free(cl->sent);
@@ -130,9 +143,7 @@ ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *f
         if (!cl->sent) return ec_fail(err, "out of memory while counters are sent to the device");
     }
     memcpy(cl->sent, from, bytes);
-    cl_int code = clEnqueueWriteBuffer(cl->queue, buffer, CL_FALSE, 0, bytes, cl->sent, 0, NULL, &event);
-    EC_TRY(ec_cl_check(code, "clEnqueueWriteBuffer", NULL, err));
-    return ec_cl_launched(cl, event, "writing a buffer", NULL, err);
+    return ec_buffer_write_later(cl, buffer, bytes, cl->sent, err);
 }
 
 ec_result ec_buffer_read_rows(ec_cl *cl, cl_mem buffer, uint64_t pitch, uint64_t bytes, uint32_t rows, void *to, ec_error *err)

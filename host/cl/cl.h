@@ -65,7 +65,7 @@ typedef struct ec_paces {
 } ec_paces;
 
 /* A command that may still fail once it runs. */
-#define EC_LAUNCHES 64
+#define EC_LAUNCHES 192
 typedef struct ec_cl_launch {
     cl_event event;
     const char *label;
@@ -145,6 +145,9 @@ ec_result ec_buffer_put(ec_cl *cl, const char *label, uint64_t bytes, uint64_t s
 void ec_buffers_keep_only(ec_cl *cl, const ec_fingerprint *keys, uint32_t count);
 ec_result ec_buffer_read(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, void *to, ec_error *err); /* blocks */
 ec_result ec_buffer_write(ec_cl *cl, cl_mem buffer, uint64_t offset, uint64_t bytes, const void *from, ec_error *err);
+/* Enqueue a read or a write of a buffer's first bytes: `to` and `from` are the device's until the next call that waits. */
+ec_result ec_buffer_read_later(ec_cl *cl, cl_mem buffer, uint64_t bytes, void *to, ec_error *err);
+ec_result ec_buffer_write_later(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err);
 /* Enqueues the write of a copy, of which there is only one: a call that waits must come before the next send. */
 ec_result ec_buffer_send(ec_cl *cl, cl_mem buffer, uint64_t bytes, const void *from, ec_error *err);
 /* Read or write the first bytes of rows that begin `pitch` bytes apart, to or from rows without gaps: one command for all, since each wakes the device. */

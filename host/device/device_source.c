@@ -99,11 +99,11 @@ static ec_result show(ec_device_source *s, const ec_batch_order *order, bool wri
 static ec_result tell(ec_device_source *s, const ec_batch_order *order, bool writes, ec_error *err)
 {
     ec_pipeline *p = &s->pipeline;
-    EC_TRY(show(s, order, writes, err));
+    EC_TRY(ec_buffer_read_later(p->cl, p->buffers[EC_ARG_INVALID], sizeof s->base.invalid, s->base.invalid, err));
+    EC_TRY(show(s, order, writes, err)); /* waits */
     s->base.rays = p->rays;
     s->base.clocked_seconds = p->clocked_seconds;
     s->base.clocked_rays = p->clocked_rays;
-    EC_TRY(ec_pipeline_read_invalid(p, s->base.invalid, err));
     s->base.invalid[EC_STAGE_ACCUMULATE] += s->unfit;
     return EC_OK;
 }

@@ -22,6 +22,7 @@ typedef struct ec_pipeline {
     ec_counters counters;         /* the host's copy */
     ec_render_effects effects;
     uint32_t lanes, wave, triangle_count;
+    uint32_t bounces[2];          /* of the last wave that had a path: of paths from the camera, and from lights; 0: none yet */
     uint32_t held;                /* most entries that a part of a queue holds in the segment under way; 0: not known */
     uint32_t room;                /* paths that the buffers of the wave hold; a wave of the first kernels has fewer (tiers.h) */
     uint32_t first_room;          /* what should have fitted the device; room is smaller if it had no memory for that */
@@ -92,6 +93,10 @@ uint64_t ec_pipeline_total(const uint32_t *parts);
 uint32_t ec_pipeline_fullest(const uint32_t *parts);
 void ec_pipeline_fill_parts(ec_pipeline *pipeline, uint32_t paths);
 void ec_pipeline_swap_queues(ec_pipeline *pipeline, uint32_t bounce);
+/* Returns the size of the counters of so many bounces and of the paths that are left after them. */
+uint64_t ec_counters_bytes(uint32_t bounces);
+/* Zeroes them, but for the rays of the first bounce; returns their size. */
+uint64_t ec_counters_clear(ec_counters *counters, uint32_t bounces);
 
 /* raster.c: triangles are sorted into tiles once a camera */
 void ec_raster_forget(ec_pipeline *pipeline);

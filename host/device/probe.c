@@ -65,8 +65,8 @@ static ec_result make_rays(ec_pipeline *p, const ec_scene *scene, ec_error *err)
 
 static ec_result make_buffers(ec_pipeline *p, const ec_scene *scene, ec_error *err)
 {
-    ec_counters counters = {.rays = {{0}}};
-    for (uint32_t k = 0; k < EC_PARTS; k++) counters.rays[0][k * EC_PART_STRIDE] = EC_PROBE_RAYS / EC_PARTS;
+    ec_counters counters = {0};
+    for (uint32_t k = 0; k < EC_PARTS; k++) counters.at[0].rays[k * EC_PART_STRIDE] = EC_PROBE_RAYS / EC_PARTS;
     p->params = (ec_params){.width = 1, .height = 1, .batch = 1, .wave = EC_PROBE_RAYS, .part = EC_PROBE_RAYS / EC_PARTS};
     for (size_t i = 0; i < 3 * (size_t)scene->vertex_count; i++)
         p->params.scene_max = fmaxf(p->params.scene_max, fabsf(scene->positions[i]));

@@ -198,6 +198,15 @@ uint64_t ec_pipeline_total(const uint32_t *parts)
     return sum;
 }
 
+uint64_t ec_counters_bytes(uint32_t bounces) { return (bounces + 1) * sizeof(ec_bounce_counters); }
+
+uint64_t ec_counters_clear(ec_counters *counters, uint32_t bounces)
+{
+    const uint64_t bytes = ec_counters_bytes(bounces), kept = sizeof counters->at[0].rays;
+    memset((char *)counters + kept, 0, bytes - kept);
+    return bytes;
+}
+
 uint32_t ec_pipeline_fullest(const uint32_t *parts)
 {
     uint32_t most = 0;
@@ -215,6 +224,6 @@ void ec_pipeline_fill_parts(ec_pipeline *p, uint32_t paths)
 {
     for (uint32_t k = 0; k < EC_PARTS; k++) {
         uint32_t before = k * p->params.part, left = paths > before ? paths - before : 0;
-        p->counters.rays[0][k * EC_PART_STRIDE] = left < p->params.part ? left : p->params.part;
+        p->counters.at[0].rays[k * EC_PART_STRIDE] = left < p->params.part ? left : p->params.part;
     }
 }

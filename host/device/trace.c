@@ -67,12 +67,12 @@ ec_result ec_pipeline_trace(ec_pipeline *p, int connect, uint32_t bounce, uint32
     scalars[EC_ARG_SORTS] = w.sorts;
     if (!is_trial) return ec_pipeline_launch_trace(p, connect, w.accel, scalars, err);
     ec_counters *counters = &p->counters;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, ec_counters_bytes(scalars[EC_ARG_STEP]), counters, err));
     double start = ec_now();
     EC_TRY(ec_pipeline_launch_trace(p, connect, w.accel, scalars, err));
     EC_TRY(ec_cl_finish(p->cl, err));
     uint32_t step = scalars[EC_ARG_STEP];
-    uint64_t rays = ec_pipeline_total(connect ? counters->shadows[step] : counters->rays[step]);
+    uint64_t rays = ec_pipeline_total(connect ? counters->at[step].shadows : counters->at[step].rays);
     const double rate = (double)rays / (ec_now() - start);
     struct ec_tuning *tuning = tuning_of(p, k, bounce, w);
     if (tuning->trials++ == 0) return EC_OK;

@@ -1,42 +1,56 @@
 /* The path tracer's bounce loop. A wave's paths go generate → (intersect → shade → connect)* → accumulate; the host looks at
- * the queues only every EC_SEGMENT bounces. */
+ * the queues only at the ends of segments. */
 #include <string.h>
 
 #include "device/pipeline.h"
 
-/* Sends the counters: zeros, but for rays[0], which says how many paths each part holds. */
-static ec_result begin_segment(ec_pipeline *p, ec_error *err)
+/* Sends the counters of so many bounces: zeros, but for the first rays, which say how many paths each part holds. */
+static ec_result begin_segment(ec_pipeline *p, uint32_t bounces, ec_error *err)
 {
-    ec_counters *counters = &p->counters;
-    memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
-    p->held = ec_pipeline_fullest(counters->rays[0]);
-    return ec_buffer_send(p->cl, p->buffers[EC_ARG_COUNTERS], sizeof *counters, counters, err);
+    p->held = ec_pipeline_fullest(p->counters.at[0].rays);
+    return ec_buffer_send(p->cl, p->buffers[EC_ARG_COUNTERS], ec_counters_clear(&p->counters, bounces), &p->counters, err);
 }
 
-/* Reads the counters and adds up rays; rays[0] then says how many paths are left. */
-static ec_result end_segment(ec_pipeline *p, ec_stage_id shade, ec_error *err)
+/* Reads the counters after so many bounces and adds up rays; the first ones then say how many paths are left. *traced: how many of the bounces had a
+ * path. */
+static ec_result end_segment(ec_pipeline *p, ec_stage_id shade, uint32_t bounces, uint32_t *traced, ec_error *err)
 {
     ec_counters *counters = &p->counters;
     p->held = 0;
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    for (uint32_t step = 0; step < EC_SEGMENT; step++) {
-        p->rays += ec_pipeline_total(counters->rays[step]) + ec_pipeline_total(counters->shadows[step]);
-        ec_pipeline_busy(p, EC_INTERSECT, counters->rays[step]);
-        ec_pipeline_busy(p, shade, counters->rays[step]);
-        ec_pipeline_busy(p, EC_CONNECT, counters->shadows[step]);
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, ec_counters_bytes(bounces), counters, err));
+    *traced = 0;
+    for (uint32_t step = 0; step < bounces; step++) {
+        const uint64_t paths = ec_pipeline_total(counters->at[step].rays);
+        *traced += paths > 0;
+        p->rays += paths + ec_pipeline_total(counters->at[step].shadows);
+        ec_pipeline_busy(p, EC_INTERSECT, counters->at[step].rays);
+        ec_pipeline_busy(p, shade, counters->at[step].rays);
+        ec_pipeline_busy(p, EC_CONNECT, counters->at[step].shadows);
     }
-    memcpy(counters->rays[0], counters->rays[EC_SEGMENT], sizeof counters->rays[0]);
+    memcpy(counters->at[0].rays, counters->at[bounces].rays, sizeof counters->at[0].rays);
     return EC_OK;
 }
 
-/* Runs up to EC_SEGMENT bounces, of light paths if `kind` is EC_LIGHT_BOUNCE. */
-static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t first_bounce, ec_error *err)
+/* Returns how many bounces from `first` on come before the next look at the queues. The last wave's paths had `last` bounces, and this wave's hardly have
+ * more. On a processor all of these are launched while the first one runs, since a launch that finds the device idle has to wake it. Cards are looked at
+ * more often: their launches go over what is left (launch.c). */
+static uint32_t segment_length(const ec_pipeline *p, uint32_t first, uint32_t last)
+{
+    enum { UNKNOWN = 16, LATE = 4, OF_CARDS = 8 };
+    uint32_t length = !last ? UNKNOWN : first >= last ? LATE : last - first, most = p->cl->info.type & CL_DEVICE_TYPE_CPU ? EC_SEGMENT : OF_CARDS;
+    if (most > p->params.max_depth - first) most = p->params.max_depth - first;
+    return length < most ? length : most;
+}
+
+/* Runs some bounces from *first on, of light paths if `kind` is EC_LIGHT_BOUNCE, and moves *first behind them. */
+static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t *first, uint32_t *traced, ec_error *err)
 {
     const bool of_light = kind != 0;
     const ec_stage_id shade = of_light ? EC_SHADE_LIGHT : EC_SHADE;
-    EC_TRY(begin_segment(p, err));
+    const uint32_t first_bounce = *first, bounces = segment_length(p, first_bounce, p->bounces[of_light]);
+    EC_TRY(begin_segment(p, bounces, err));
     if (of_light && first_bounce == 0) EC_TRY(ec_pipeline_launch(p, EC_EMIT, scalars, err));
-    for (uint32_t step = 0; step < EC_SEGMENT && first_bounce + step < p->params.max_depth; step++) {
+    for (uint32_t step = 0; step < bounces; step++) {
         const uint32_t bounce = first_bounce + step;
         scalars[EC_ARG_BOUNCE] = bounce | kind;
         scalars[EC_ARG_STEP] = step;
@@ -47,21 +61,27 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, u
         if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, bounce, scalars, err));
         if (of_light) EC_TRY(ec_pipeline_launch(p, EC_SPLAT, scalars, err));
     }
-    return end_segment(p, shade, err);
+    *first += bounces;
+    return end_segment(p, shade, bounces, traced, err);
 }
 
-/* Runs bounces from `first` on, as long as p->counters.rays[0] has paths. */
-static ec_result run_bounces(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t first, ec_error *err)
+/* Runs bounces as long as there are paths. How many light paths begin is known only after their first segment. */
+static ec_result run_bounces(ec_pipeline *p, uint32_t *scalars, uint32_t kind, ec_error *err)
 {
-    for (uint32_t bounce = first; ec_pipeline_total(p->counters.rays[0]) && bounce < p->params.max_depth; bounce += EC_SEGMENT)
-        EC_TRY(run_segment(p, scalars, kind, bounce, err));
+    const bool of_light = kind != 0;
+    uint32_t bounce = 0, all = 0, traced;
+    while ((of_light && !bounce) || (ec_pipeline_total(p->counters.at[0].rays) && bounce < p->params.max_depth)) {
+        EC_TRY(run_segment(p, scalars, kind, &bounce, &traced, err));
+        all += traced;
+    }
+    p->bounces[of_light] = all;
     return EC_OK;
 }
 
 ec_result ec_integrate_paths(ec_pipeline *p, uint32_t *scalars, ec_error *err)
 {
     ec_pipeline_fill_parts(p, scalars[EC_ARG_PATH_COUNT]);
-    return run_bounces(p, scalars, 0, 0, err);
+    return run_bounces(p, scalars, 0, err);
 }
 
 ec_result ec_pipeline_run_light_wave(ec_pipeline *p, uint32_t seed, uint32_t first, uint32_t count, ec_error *err)
@@ -74,8 +94,7 @@ ec_result ec_pipeline_run_light_wave(ec_pipeline *p, uint32_t seed, uint32_t fir
     p->buffers[EC_ARG_PIXEL_LIST] = NULL;
     ec_pipeline_swap_queues(p, 0);
     memset(&p->counters, 0, sizeof p->counters); /* ec_emit counts the paths */
-    ec_result result = run_segment(p, scalars, EC_LIGHT_BOUNCE, 0, err);
-    if (result == EC_OK) result = run_bounces(p, scalars, EC_LIGHT_BOUNCE, EC_SEGMENT, err);
+    const ec_result result = run_bounces(p, scalars, EC_LIGHT_BOUNCE, err);
     p->buffers[EC_ARG_PIXEL_LIST] = list;
     return result;
 }
@@ -83,15 +102,16 @@ ec_result ec_pipeline_run_light_wave(ec_pipeline *p, uint32_t seed, uint32_t fir
 ec_result ec_pipeline_run_edge_rays(ec_pipeline *p, uint32_t seed, uint32_t count, ec_error *err)
 {
     uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_SEED] = seed, [EC_ARG_PATH_COUNT] = count};
+    uint32_t traced;
     cl_mem list = p->buffers[EC_ARG_PIXEL_LIST];
     p->buffers[EC_ARG_PIXEL_LIST] = p->buffers[EC_ARG_EDGE_LIST];
     ec_pipeline_swap_queues(p, 0);
     ec_pipeline_fill_parts(p, count);
     ec_result result = ec_pipeline_launch(p, EC_GENERATE, scalars, err);
-    if (result == EC_OK) result = begin_segment(p, err);
+    if (result == EC_OK) result = begin_segment(p, 1, err);
     if (result == EC_OK) result = ec_pipeline_trace(p, 0, 0, scalars, err);
     if (result == EC_OK) result = ec_pipeline_launch(p, EC_SHADE, scalars, err);
-    if (result == EC_OK) result = end_segment(p, EC_SHADE, err);
+    if (result == EC_OK) result = end_segment(p, EC_SHADE, 1, &traced, err);
     p->buffers[EC_ARG_PIXEL_LIST] = list;
     return result;
 }

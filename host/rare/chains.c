@@ -168,7 +168,7 @@ static ec_result met(void *user, uint32_t number, ec_error *err)
     }
     EC_TRY(read_fields(t, p->buffers[EC_ARG_PATHS], EC_PATH_FIELDS, t->queue, err));
     EC_TRY(read_fields(t, p->buffers[EC_ARG_HITS], EC_HIT_PRIM + 1, t->hits, err));
-    find_paths(t, p->counters.rays[0]);
+    find_paths(t, p->counters.at[0].rays);
     look(t, number);
     return EC_OK;
 }
@@ -254,10 +254,9 @@ static ec_result meet_wave(ec_pipeline *p, ec_chain *rays, uint32_t count, float
     const uint32_t scalars[EC_ARG_SCALAR_COUNT] = {[EC_ARG_BOUNCE] = 1};
     const uint32_t padded = (count + LANES_MOST - 1) / LANES_MOST * LANES_MOST, entries = padded < p->wave ? padded : p->wave;
     ec_counters *counters = &p->counters;
-    memset(counters, 0, sizeof *counters);
     ec_pipeline_fill_parts(p, count);
     ec_pipeline_swap_queues(p, 0);
-    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, ec_counters_clear(counters, 0), counters, err));
     for (uint32_t f = 0; f <= EC_PATH_PRIM; f++)
         for (uint32_t i = 0; i < entries; i++) {
             const uint32_t k = f < EC_PATH_DX ? f : f - EC_PATH_DX;

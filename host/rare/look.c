@@ -36,13 +36,12 @@ ec_result ec_look_luminance(const ec_look *look, float *rgb, float *luminance, e
     return EC_OK;
 }
 
-/* Traces one bounce: rays[0] of the counters says how many paths each part of the queue holds, and at the end how many are left. */
+/* Traces one bounce: the counters of bounce 0 say how many paths each part of the queue holds, and at the end how many are left. */
 static ec_result bounce(ec_look *look, uint32_t *scalars, uint32_t number, ec_error *err)
 {
     ec_pipeline *p = look->p;
     ec_counters *counters = &p->counters;
-    memset((char *)counters + sizeof counters->rays[0], 0, sizeof *counters - sizeof counters->rays[0]);
-    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
+    EC_TRY(ec_buffer_write(p->cl, p->buffers[EC_ARG_COUNTERS], 0, ec_counters_clear(counters, 1), counters, err));
     scalars[EC_ARG_BOUNCE] = number;
     ec_pipeline_swap_queues(p, number);
     EC_TRY(ec_pipeline_launch_trace(p, 0, ec_look_accel(p), scalars, err));
@@ -51,8 +50,8 @@ static ec_result bounce(ec_look *look, uint32_t *scalars, uint32_t number, ec_er
     if (look->shaded) EC_TRY(look->shaded(look->user, number, err));
     if (look->samples_light && p->params.light_count) EC_TRY(ec_pipeline_launch_trace(p, 1, ec_look_accel(p), scalars, err));
     if (look->lit) EC_TRY(look->lit(look->user, number, err));
-    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, sizeof *counters, counters, err));
-    memcpy(counters->rays[0], counters->rays[1], sizeof counters->rays[0]);
+    EC_TRY(ec_buffer_read(p->cl, p->buffers[EC_ARG_COUNTERS], 0, ec_counters_bytes(1), counters, err));
+    memcpy(counters->at[0].rays, counters->at[1].rays, sizeof counters->at[0].rays);
     return EC_OK;
 }
 
@@ -65,7 +64,7 @@ static ec_result trace_wave(ec_look *look, ec_error *err)
     ec_pipeline_swap_queues(p, 0);
     EC_TRY(ec_pipeline_launch(p, EC_GENERATE, scalars, err));
     ec_pipeline_fill_parts(p, look->count);
-    for (uint32_t b = 0; b < look->bounces && ec_pipeline_total(p->counters.rays[0]); b++) EC_TRY(bounce(look, scalars, b, err));
+    for (uint32_t b = 0; b < look->bounces && ec_pipeline_total(p->counters.at[0].rays); b++) EC_TRY(bounce(look, scalars, b, err));
     return EC_OK;
 }
 

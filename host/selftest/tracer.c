@@ -109,7 +109,7 @@ ec_result ec_tracer_trace(ec_tracer *r, uint32_t a, uint32_t count, ec_error *er
     uint32_t zero = 0, wave = EC_TRACER_RAYS;
     char name[64];
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = r->largest};
-    ec_counters counters = {.rays = {{count}}};
+    ec_counters counters = {.at = {{.rays = {count}}}};
     ec_array arrays[ARGUMENTS] = {EC_IN(&params, 1), EC_SCALAR(zero), EC_SCALAR(zero), [4] = EC_SCALAR(zero), EC_SCALAR(zero), EC_IN(&counters, 1),
                                   EC_SCALAR(zero), EC_IN(r->paths, EC_PATH_FIELDS * wave), EC_OUT(r->hits, EC_HIT_PROBE_FIELDS * wave)};
     for (uint32_t k = 0; k < EC_ACCEL_BUFFERS; k++)

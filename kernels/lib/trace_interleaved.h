@@ -158,7 +158,7 @@ EC_INLINED void camera_rays(uint i, uint left, constant ec_params *params INTERS
 }
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-EC_KERNEL(ec_intersect_bvh8, RUN, INTERSECT_PARAMETERS, QUEUED(rays[step]))
+EC_KERNEL(ec_intersect_bvh8, RUN, INTERSECT_PARAMETERS, QUEUED(at[step].rays))
 {
     uint wave = params->wave, next = 0;
     left = min(left, RUN);
@@ -203,7 +203,7 @@ EC_INLINED void walk_light(const walk *w, constant ec_params *params, uint bounc
 }
 
 /* Traces shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-EC_KERNEL(ec_connect_bvh8, RUN, CONNECT_PARAMETERS, QUEUED(shadows[step]))
+EC_KERNEL(ec_connect_bvh8, RUN, CONNECT_PARAMETERS, QUEUED(at[step].shadows))
 {
     uint next = 0;
     left = min(left, RUN);

@@ -10,7 +10,7 @@
 #define SORTS (LANES > 1 && sorts)
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-EC_KERNEL(EC_CAT(ec_intersect_, ACCEL), LANES, INTERSECT_PARAMETERS, QUEUED(rays[step]))
+EC_KERNEL(EC_CAT(ec_intersect_, ACCEL), LANES, INTERSECT_PARAMETERS, QUEUED(at[step].rays))
 {
     uint wave = params->wave;
     uint order[EC_ORDERED];
@@ -47,7 +47,7 @@ EC_KERNEL(EC_CAT(ec_intersect_, ACCEL), LANES, INTERSECT_PARAMETERS, QUEUED(rays
 }
 
 /* Traces shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-EC_KERNEL(EC_CAT(ec_connect_, ACCEL), LANES, CONNECT_PARAMETERS, QUEUED(shadows[step]))
+EC_KERNEL(EC_CAT(ec_connect_, ACCEL), LANES, CONNECT_PARAMETERS, QUEUED(at[step].shadows))
 {
     uint wave = params->wave;
     uint order[EC_ORDERED];

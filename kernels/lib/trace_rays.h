@@ -33,7 +33,7 @@ EC_INLINED void EC_CAT(ACCEL, _settle)(global const uint *coplanar, const hit_fi
 }
 
 /* Closest hit of every path. Reads: path queue. Writes: hits. Next: shade. */
-EC_RUN_KERNEL(EC_CAT(ec_intersect_, ACCEL), INTERSECT_PARAMETERS, QUEUED(rays[step]))
+EC_RUN_KERNEL(EC_CAT(ec_intersect_, ACCEL), INTERSECT_PARAMETERS, QUEUED(at[step].rays))
 {
     uint wave = params->wave;
     global const float *p = paths + i;
@@ -62,7 +62,7 @@ EC_RUN_KERNEL(EC_CAT(ec_intersect_, ACCEL), INTERSECT_PARAMETERS, QUEUED(rays[st
 }
 
 /* Traces shadow rays: light that nothing blocks is added to its slot. Reads: shadow queue. Writes: radiance. */
-EC_RUN_KERNEL(EC_CAT(ec_connect_, ACCEL), CONNECT_PARAMETERS, QUEUED(shadows[step]))
+EC_RUN_KERNEL(EC_CAT(ec_connect_, ACCEL), CONNECT_PARAMETERS, QUEUED(at[step].shadows))
 {
     uint wave = params->wave;
     global const float *p = shadows + i;

@@ -121,15 +121,18 @@ enum ec_stage {
     EC_STAGE_COUNT
 };
 
-#define EC_SEGMENT 8 /* bounces between two looks of the host at the queues */
+#define EC_SEGMENT 32 /* most bounces between two looks of the host at the queues */
 
 /* A queue is cut in parts with a counter each, on a cache line of its own: entries stay in their part from bounce to bounce,
  * so that work-items far apart do not fight for one counter (a fifth of the shading time on two cores). */
 #define EC_PARTS 32
 #define EC_PART_STRIDE 16
+typedef struct ec_bounce_counters {
+    ec_uint rays[EC_PARTS * EC_PART_STRIDE];    /* paths alive */
+    ec_uint shadows[EC_PARTS * EC_PART_STRIDE]; /* shadow rays asked for */
+} ec_bounce_counters;
 typedef struct ec_counters {
-    ec_uint rays[EC_SEGMENT + 1][EC_PARTS * EC_PART_STRIDE]; /* paths alive at each bounce of the segment */
-    ec_uint shadows[EC_SEGMENT][EC_PARTS * EC_PART_STRIDE];  /* shadow rays asked for at each bounce */
+    ec_bounce_counters at[EC_SEGMENT + 1]; /* bounces of the segment, and the first one after it */
 } ec_counters;
 
 #endif

@@ -111,7 +111,7 @@ EC_KERNEL(ec_emit, LANES, EMIT_PARAMETERS, slot_entries(path_count, i))
     queue_store_f(light_slots, wave, EC_LIGHT_SLOT_B1, i, b1);
     queue_store_f(light_slots, wave, EC_LIGHT_SLOT_B2, i, b2);
     if (!bits) return;
-    uint at = queue_reserve(counters->rays[0], params->part, row, bits);
+    uint at = queue_reserve(counters->at[0].rays, params->part, row, bits);
     lane_i is_delta = (type >= EC_KIND_POINT) & (type <= EC_KIND_DIRECTIONAL);
     queue_push_v3(paths, wave, EC_PATH_OX, at, o, bits);
     queue_push_v3(paths, wave, EC_PATH_DX, at, d, bits);

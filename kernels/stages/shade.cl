@@ -263,7 +263,7 @@ EC_INLINED void shade_packet(uint row, const queue_packet *q, uint left, constan
         if (HAS(LAYERS) && light_groups) group = gather_u(light_groups, l.id + 1u);
         /* A lamp that passes light does not shine on itself: seen from just above, its triangle fills the hemisphere below. */
         lane_i m = l.valid & scatters_there & same_side(&s, l.wi, wi_local, lifted) & !(scatters & (l.target == prim));
-        shadow_push(params, shadows, counters->shadows[step], row, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
+        shadow_push(params, shadows, counters->at[step].shadows, row, leave(&s, above, l.wi, wi_local), shadow_end(above, &l), arriving, slot_of_group(slot, group),
                     left_behind(&s, l.wi, lifted, prim), l.target, &way, m, invalid + EC_STAGE_SHADE);
     }
 
@@ -307,7 +307,7 @@ EC_INLINED void shade_packet(uint row, const queue_packet *q, uint left, constan
     if (only_seen) alive = alive & straight;
     uint bits = mask_bits(alive);
     if (!bits) return;
-    uint at = queue_reserve(counters->rays[step + 1], params->part, row, bits);
+    uint at = queue_reserve(counters->at[step + 1].rays, params->part, row, bits);
     v3 origin = leave(&s, above, wi, next_way.wi);
     queue_push_v3(next, wave, EC_PATH_OX, at, origin, bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, wi, bits);
@@ -331,7 +331,7 @@ EC_INLINED void shade_packet(uint row, const queue_packet *q, uint left, constan
 /* Cards' work-items have one hit each. Matt surfaces in a closed room all run the same code. */
 #define GROUPS_HITS (LANES > 1 && (HAS(SPECULAR) || HAS(ENVIRONMENT) || HAS_TEXTURES))
 
-EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(rays[step]))
+EC_KERNEL(ec_shade, LANES, SHADE_PARAMETERS, QUEUED(at[step].rays))
 {
     queue_packet q = {i, false, U(0)};
     if (!GROUPS_HITS) {

@@ -28,7 +28,7 @@ EC_FN lane_i agrees(const surface *s, v3 w, v3 w_local) { return v3_dot(s->ng, w
     DO(global const uint *, environment_table) DO(global const float *, light_tree) DO(global const float *, lamp_parts)                              \
     DO(global const uint *, emission_table) DO(global float *, photons) DO(uint, path_count) DO(global const float *, guide_table)
 
-EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
+EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(at[step].rays))
 {
     uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places, motion};
@@ -167,7 +167,7 @@ EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
                 way.left = medium_transmittance(&g, medium_material(&g, near, nested), sqrt(film.way2));
             }
             scatter_f(light_slots + EC_LIGHT_SLOT_PIXEL * wave, slot, as_lane_f(film.place), mask_bits(m));
-            shadow_push(params, shadows, counters->shadows[step], row, film.o, surface_offset(s.p, s.p_error, s.ng, c), arriving, slot,
+            shadow_push(params, shadows, counters->at[step].shadows, row, film.o, surface_offset(s.p, s.p_error, s.ng, c), arriving, slot,
                         U(EC_NO_ID), prim, &way, m, invalid + EC_STAGE_SHADE);
             continue;
         }
@@ -199,7 +199,7 @@ EC_KERNEL(ec_shade_light, LANES, SHADE_LIGHT_PARAMETERS, QUEUED(rays[step]))
         np = is_delta ? -max(np, F(EC_RATIO_LEAST)) : np;
         np = (is_first & !straight) ? np : ratio;
         v3 origin = surface_offset(s.p, s.p_error, s.ng, c);
-        uint at = queue_reserve(counters->rays[step + 1], params->part, row, bits);
+        uint at = queue_reserve(counters->at[step + 1].rays, params->part, row, bits);
         queue_push_v3(next, wave, EC_PATH_OX, at, origin, bits);
         queue_push_v3(next, wave, EC_PATH_DX, at, c, bits);
         queue_push_v3(next, wave, EC_PATH_BR, at, beta_c, bits);

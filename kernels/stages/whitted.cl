@@ -72,7 +72,7 @@ EC_FN branch branch_make(const surface *s, v3 wi, v3 beta, lane_f depth, lane_u 
     DO(global float *, hits) DO(global float *, next) DO(global float *, branches) DO(global float *, radiance) DO(global float *, aov)               \
     SURFACE_PARAMETERS(DO) DO(global const float *, environment_texels) DO(global const uint *, parts)
 
-EC_KERNEL(ec_whitted, LANES, WHITTED_PARAMETERS, QUEUED(rays[step]))
+EC_KERNEL(ec_whitted, LANES, WHITTED_PARAMETERS, QUEUED(at[step].rays))
 {
     uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
@@ -144,7 +144,7 @@ EC_KERNEL(ec_whitted, LANES, WHITTED_PARAMETERS, QUEUED(rays[step]))
     }
     uint bits = mask_bits(goes);
     if (!bits) return;
-    uint at = queue_reserve(counters->rays[step + 1], params->part, row, bits);
+    uint at = queue_reserve(counters->at[step + 1].rays, params->part, row, bits);
     queue_push_v3(next, wave, EC_PATH_OX, at, go.o, bits);
     queue_push_v3(next, wave, EC_PATH_DX, at, go.d, bits);
     queue_push_v3(next, wave, EC_PATH_BR, at, go.beta, bits);

@@ -9,7 +9,7 @@
     DO(uint, light) DO(uint, step) DO(volatile global ec_counters *, counters) DO(volatile global uint *, invalid) DO(global const float *, paths)    \
     DO(global const float *, hits) DO(global float *, shadows) SURFACE_PARAMETERS(DO) DO(global const float *, light_table)
 
-EC_KERNEL(ec_whitted_light, LANES, WHITTED_LIGHT_PARAMETERS, QUEUED(rays[0]))
+EC_KERNEL(ec_whitted_light, LANES, WHITTED_LIGHT_PARAMETERS, QUEUED(at[0].rays))
 {
     uint wave = params->wave;
     geometry g = {prims, indices, normals, tangents, uvs, colors, materials, {texture_table, texels, srgb}, places};
@@ -40,5 +40,5 @@ EC_KERNEL(ec_whitted_light, LANES, WHITTED_LIGHT_PARAMETERS, QUEUED(rays[0]))
     }
     shadow_way way = shadow_way_make(params, &g, &l, medium, nested, s.p);
     v3 from = surface_offset(s.p, s.p_error, s.ng, l.wi);
-    shadow_push(params, shadows, counters->shadows[step], row, from, shadow_end(s.p, &l), arriving, slot, prim, l.target, &way, lit, invalid + EC_STAGE_SHADE);
+    shadow_push(params, shadows, counters->at[step].shadows, row, from, shadow_end(s.p, &l), arriving, slot, prim, l.target, &way, lit, invalid + EC_STAGE_SHADE);
 }

@@ -17,7 +17,7 @@
     F(ec_params, wave) F(ec_params, part) F(ec_params, max_depth) F(ec_params, sample) F(ec_params, light_count)    \
     F(ec_params, environment_width) F(ec_params, environment_height) F(ec_params, environment_pmf) \
     F(ec_params, scene_radius) F(ec_params, scene_max) F(ec_params, first_roulette) F(ec_params, survival) F(ec_params, cutoff) F(ec_params, light_tree_numbers) F(ec_params, light_choices) F(ec_params, environment_stretch[1]) F(ec_params, far_numbers) F(ec_params, lamp_scale) F(ec_params, screen[3])                                            \
-    S(ec_counters) F(ec_counters, rays) F(ec_counters, rays[1]) F(ec_counters, rays[EC_SEGMENT]) F(ec_counters, shadows)   \
+    S(ec_counters) F(ec_counters, at[1].rays) F(ec_counters, at[EC_SEGMENT].rays) F(ec_counters, at[1].shadows)   \
     S(ec_prim) F(ec_prim, v0) F(ec_prim, material) F(ec_prim, v1) F(ec_prim, light_pdf_a) F(ec_prim, v2) F(ec_prim, flags) \
     S(ec_texture_slot) F(ec_texture_slot, texture) F(ec_texture_slot, uv_set) F(ec_texture_slot, transform) \
     S(ec_material_data) F(ec_material_data, base_color) F(ec_material_data, emission) F(ec_material_data, flags) \

@@ -105,7 +105,7 @@ static inline bool intersect_in_order(const set *s, const tracer *t, const ec_ac
 {
     char name[64];
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
-    ec_counters counters = {.rays = {{count}}};
+    ec_counters counters = {.at = {{.rays = {count}}}};
     snprintf(name, sizeof name, "ec_intersect_%s", ec_accels[t->accel].name);
     for (size_t f = 0; f < EC_HIT_PROBE_FIELDS; f++) memset(hits + f * wave, 0xa5, count * sizeof *hits); /* none is left from an earlier call */
     return KERNEL_CALL(&cl, t->program, name, (count + t->lanes - 1) / t->lanes, WAVE, IN(paths, EC_PATH_FIELDS * (size_t)wave),
@@ -117,7 +117,7 @@ static inline bool connect_in_order(const set *s, const tracer *t, const ec_acce
 {
     char name[64];
     ec_params params = {.wave = wave, .part = wave, .batch = 1, .width = 1, .height = 1, .scene_max = s->scene_max};
-    ec_counters counters = {.shadows = {{count}}};
+    ec_counters counters = {.at = {{.shadows = {count}}}};
     uint32_t invalid[EC_STAGE_COUNT] = {0};
     memset(radiance, 0, 3 * (size_t)wave * sizeof *radiance);
     snprintf(name, sizeof name, "ec_connect_%s", ec_accels[t->accel].name);

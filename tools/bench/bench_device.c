@@ -164,7 +164,7 @@ ec_result bench_device_rays(bench_device *d, bench_kind kind, const bench_rays *
 static ec_result prepare(bench_device *d, bench_kind kind, ec_error *err)
 {
     d->buffers[kind == BENCH_SHADOW ? EC_ARG_SHADOWS : EC_ARG_PATHS] = d->queues[kind];
-    ec_counters counters = {.rays = {{d->counts[kind]}}, .shadows = {{d->counts[kind]}}};
+    ec_counters counters = {.at = {{.rays = {d->counts[kind]}, .shadows = {d->counts[kind]}}}};
     EC_TRY(ec_buffer_write(&d->cl, d->buffers[EC_ARG_COUNTERS], 0, sizeof counters, &counters, err));
     if (kind == BENCH_SHADOW) EC_TRY(ec_buffer_zero(&d->cl, d->buffers[EC_ARG_RADIANCE], 0, (uint64_t)d->stride * 12, err));
     return ec_cl_finish(&d->cl, err);
