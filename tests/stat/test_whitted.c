@@ -207,6 +207,19 @@ static void far_lights_are_not_absorbed(void)
     free(w);
 }
 
+/* The host empties the shadow queues' counters after every EC_SEGMENT lights. Light k has the intensity k + 1. */
+static void each_of_many_lights_shines(uint32_t count)
+{
+    gltf_writer *w = floor_of(1, MATT);
+    for (uint32_t k = 0; k < count; k++) {
+        char light[64];
+        snprintf(light, sizeof light, "{\"type\":\"point\",\"intensity\":%u}", k + 1);
+        gltf_light(w, (double[3]){0, 2, 0}, (double[3]){0, -1, 0}, light);
+    }
+    check("many lights", gltf_write(w, "whitted-lights"), NULL, 10, 0, 0.6 / PI * count * (count + 1) / 2 / 4);
+    free(w);
+}
+
 static void the_environment_is_ambient_light(void)
 {
     gltf_writer *w = floor_of(1, MATT);
@@ -254,6 +267,7 @@ int main(void)
     if (test_tier("quick")) {
         mirrors_reflect_by_fresnel();
         lamps_shine_from_their_centres();
+        each_of_many_lights_shines(2 * EC_SEGMENT + 3);
     }
     if (!test_tier("full")) TEST_END();
     slabs_share_light_out();
@@ -262,6 +276,7 @@ int main(void)
     bodies_shine_as_points();
     highlights_are_blinns();
     far_lights_are_not_absorbed();
+    each_of_many_lights_shines(EC_SEGMENT);
     the_environment_is_ambient_light();
     pictures_have_the_same_bits();
     TEST_END();
