@@ -133,9 +133,11 @@ static uint32_t ordered(uint32_t b)
     return b % EC_FILM_FIRST == 0 && b + EC_FILM_FIRST <= MOST ? EC_FILM_FIRST : 1;
 }
 
+enum { LEAST = 3, TRIES = 20 }; /* blocks that a film is made of; teams that may choose */
+
 /* Checks that a film of a team's blocks has the bits of one made batch by batch, though one member fails in the middle. is_told: the order
  * gives the blocks, and covers the rows from the second row of tiles on; otherwise the team chooses. */
-static int check_blocks(ec_team_candidate *candidates, bool is_told)
+static int check_blocks(ec_team_candidate *candidates, bool is_told, uint32_t *made)
 {
     static float batch[FIELDS * PIXELS], features[EC_AOV_FIELDS * PIXELS];
     const uint32_t rows = is_told ? HEIGHT - EC_TILE_ROWS : HEIGHT, from = PIXELS - WIDTH * rows;
@@ -171,7 +173,8 @@ static int check_blocks(ec_team_candidate *candidates, bool is_told)
     ec_film_destroy(&film);
     ec_film_destroy(&alone);
     printf("%u blocks, %s\n", blocks, same ? "the same bits" : "other bits");
-    return !same || blocks < 3;
+    *made = blocks;
+    return !same;
 }
 
 static void count_warning(void *user, ec_severity severity, const char *text)
@@ -231,10 +234,16 @@ int main(int argc, char **argv)
     ec_team_free(team);
     printf("%d batches of %d sources, %d wrong, %d warnings, %s\n", BATCHES - 3, MEMBERS, wrong, warnings,
            shares == due ? "all samples once" : "not all samples once");
-    for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].taken = 0, fakes[i].is_quick = true;
-    wrong += check_blocks(candidates, false);
+    uint32_t blocks = 0;
+    for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].is_quick = true;
+    for (uint32_t k = 0; k < TRIES && blocks < LEAST; k++) { /* a team goes by how quick its members are, which other programs disturb */
+        for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].taken = 0;
+        wrong += check_blocks(candidates, false, &blocks);
+    }
+    wrong += blocks < LEAST;
     fakes[1].taken = 0;
-    wrong += check_blocks(candidates, true);
+    wrong += check_blocks(candidates, true, &blocks);
+    wrong += blocks < LEAST;
     for (uint32_t i = 0; i < MEMBERS; i++) fakes[i].pause = 20000, fakes[i].is_quick = false;
     const int unmarked = check_marked(candidates);
     if (unmarked) printf("not marked\n");
