@@ -64,7 +64,7 @@ typedef struct ec_paces {
     double longest;           /* seconds of a piece */
 } ec_paces;
 
-/* A command that may still fail once it runs. */
+/* A command that may still fail once it runs. There is room for those of a segment of bounces (device/wave.c): when the room is used up, the host waits. */
 #define EC_LAUNCHES 192
 typedef struct ec_cl_launch {
     cl_event event;

@@ -192,7 +192,7 @@ static ec_result take_batch(ec_batch_source *source, const ec_batch_order *order
         uint32_t count = p->wave / p->params.batch;
         if (!s->has_begun && p->wave > FIRST_PATHS) count = (count + FIRST_SHARE - 1) / FIRST_SHARE;
         if (count > order->count - reached) count = order->count - reached;
-        EC_TRY(ec_lamp_edges_prepare(p, order->list, before + reached, &count, err));
+        if (order->light != EC_LIGHT_ALONE) EC_TRY(ec_lamp_edges_prepare(p, order->list, before + reached, &count, err));
         EC_TRY(run_wave(s, order, before + reached, count, seed, err));
         if (order->matte) EC_TRY(ec_mattes_read(&s->mattes, p, order->list != NULL, reached, count, err));
         reached += count;

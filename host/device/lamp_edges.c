@@ -154,31 +154,28 @@ ec_result ec_lamp_edges_find(ec_pipeline *p, ec_error *err)
     return result == EC_OK ? send_params(p, err) : result;
 }
 
-/* A pixel of a wave: an entry of its list or, without one, the next number and 0. */
-typedef struct pixel {
-    uint32_t entry[EC_LIST_WORDS];
-    bool is_marked;
-} pixel;
-
-/* Returns pixel i of a wave from `first` on. *place: of the pixel before among the marks; numbers ascend, so that nothing has
- * to be divided. */
-static pixel pixel_of(const ec_pipeline *p, const uint32_t *list, uint32_t first, uint32_t i, uint32_t *place)
+static bool is_marked(const ec_pipeline *p, uint32_t number)
 {
-    const uint32_t pixels = p->params.width * p->params.height;
-    pixel one = {.entry = {first + i}};
-    if (list) memcpy(one.entry, list + EC_LIST_WORDS * (size_t)(first + i), sizeof one.entry);
-    *place = list || i == 0 ? one.entry[0] % pixels : *place + 1 < pixels ? *place + 1 : 0;
-    one.is_marked = p->edges.marks[*place / 32] >> *place % 32 & 1;
-    return one;
+    const uint32_t at = number % (p->params.width * p->params.height);
+    return p->edges.marks[at / 32] >> at % 32 & 1;
+}
+
+/* Returns the list's entry for pixel i after `first` or, without a list, `own` with the pixel's number and 0. */
+static const uint32_t *entry_of(const uint32_t *list, uint32_t first, uint32_t i, uint32_t own[EC_LIST_WORDS])
+{
+    if (list) return list + EC_LIST_WORDS * (size_t)(first + i);
+    own[0] = first + i;
+    own[1] = 0;
+    return own;
 }
 
 /* Returns how many of the next `most` pixels a wave has room for, with their rays; *marked: how many of these have rays. */
 static uint32_t fit(const ec_pipeline *p, const uint32_t *list, uint32_t first, uint32_t most, uint32_t *marked)
 {
     const uint32_t room = p->wave / p->params.batch;
-    uint32_t place, count = 0;
+    uint32_t own[EC_LIST_WORDS], count = 0;
     for (*marked = 0; count < most; count++) {
-        const uint32_t is = pixel_of(p, list, first, count, &place).is_marked;
+        const uint32_t is = is_marked(p, entry_of(list, first, count, own)[0]);
         if (count + 1 + EC_EDGE_RAYS * (*marked + is) > room) break;
         *marked += is;
     }
@@ -189,11 +186,10 @@ static uint32_t fit(const ec_pipeline *p, const uint32_t *list, uint32_t first, 
 static void fill(ec_pipeline *p, const uint32_t *list, uint32_t first, uint32_t count)
 {
     const ec_params *params = &p->params;
-    uint32_t *at = p->edges.list, *rays = at + EC_LIST_WORDS * (size_t)count, *where = rays + EC_LIST_WORDS * (size_t)p->edges.positions, place;
+    uint32_t *at = p->edges.list, *rays = at + EC_LIST_WORDS * (size_t)count, *where = rays + EC_LIST_WORDS * (size_t)p->edges.positions, own[EC_LIST_WORDS];
     for (uint32_t i = 0; i < count; i++, at += EC_LIST_WORDS) {
-        const pixel one = pixel_of(p, list, first, i, &place);
-        memcpy(at, one.entry, sizeof one.entry);
-        if (!one.is_marked) continue;
+        memcpy(at, entry_of(list, first, i, own), sizeof own);
+        if (!is_marked(p, at[0])) continue;
         for (uint32_t k = 0; k < EC_EDGE_RAYS; k++, rays += EC_LIST_WORDS) {
             rays[0] = at[0] + params->edge_numbers;
             rays[1] = (at[1] + params->first_sample) * EC_EDGE_RAYS + k * params->batch - params->first_sample; /* kernels add first_sample again */

@@ -37,21 +37,20 @@ static ec_result end_segment(ec_pipeline *p, ec_stage_id shade, uint32_t bounces
 static uint32_t segment_length(const ec_pipeline *p, uint32_t first, uint32_t last)
 {
     enum { UNKNOWN = 16, LATE = 4, OF_CARDS = 8 };
-    uint32_t length = !last ? UNKNOWN : first >= last ? LATE : last - first, most = p->cl->info.type & CL_DEVICE_TYPE_CPU ? EC_SEGMENT : OF_CARDS;
-    if (most > p->params.max_depth - first) most = p->params.max_depth - first;
-    return length < most ? length : most;
+    const uint32_t length = !last ? UNKNOWN : first >= last ? LATE : last - first, left = p->params.max_depth - first;
+    const uint32_t most = p->cl->info.type & CL_DEVICE_TYPE_CPU ? EC_SEGMENT : OF_CARDS, least = length < most ? length : most;
+    return least < left ? least : left;
 }
 
-/* Runs some bounces from *first on, of light paths if `kind` is EC_LIGHT_BOUNCE, and moves *first behind them. */
-static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t *first, uint32_t *traced, ec_error *err)
+/* Runs so many bounces from `first` on, of light paths if `kind` is EC_LIGHT_BOUNCE. *traced: as in end_segment. */
+static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, uint32_t first, uint32_t bounces, uint32_t *traced, ec_error *err)
 {
     const bool of_light = kind != 0;
     const ec_stage_id shade = of_light ? EC_SHADE_LIGHT : EC_SHADE;
-    const uint32_t first_bounce = *first, bounces = segment_length(p, first_bounce, p->bounces[of_light]);
     EC_TRY(begin_segment(p, bounces, err));
-    if (of_light && first_bounce == 0) EC_TRY(ec_pipeline_launch(p, EC_EMIT, scalars, err));
+    if (of_light && first == 0) EC_TRY(ec_pipeline_launch(p, EC_EMIT, scalars, err));
     for (uint32_t step = 0; step < bounces; step++) {
-        const uint32_t bounce = first_bounce + step;
+        const uint32_t bounce = first + step;
         scalars[EC_ARG_BOUNCE] = bounce | kind;
         scalars[EC_ARG_STEP] = step;
         ec_pipeline_swap_queues(p, bounce);
@@ -61,7 +60,6 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, u
         if (p->params.light_count) EC_TRY(ec_pipeline_trace(p, 1, bounce, scalars, err));
         if (of_light) EC_TRY(ec_pipeline_launch(p, EC_SPLAT, scalars, err));
     }
-    *first += bounces;
     return end_segment(p, shade, bounces, traced, err);
 }
 
@@ -69,9 +67,10 @@ static ec_result run_segment(ec_pipeline *p, uint32_t *scalars, uint32_t kind, u
 static ec_result run_bounces(ec_pipeline *p, uint32_t *scalars, uint32_t kind, ec_error *err)
 {
     const bool of_light = kind != 0;
-    uint32_t bounce = 0, all = 0, traced;
-    while ((of_light && !bounce) || (ec_pipeline_total(p->counters.at[0].rays) && bounce < p->params.max_depth)) {
-        EC_TRY(run_segment(p, scalars, kind, &bounce, &traced, err));
+    uint32_t all = 0, traced, bounces;
+    for (uint32_t first = 0; (of_light && !first) || (ec_pipeline_total(p->counters.at[0].rays) && first < p->params.max_depth); first += bounces) {
+        bounces = segment_length(p, first, p->bounces[of_light]);
+        EC_TRY(run_segment(p, scalars, kind, first, bounces, &traced, err));
         all += traced;
     }
     p->bounces[of_light] = all;

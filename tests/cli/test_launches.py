@@ -49,49 +49,23 @@ class Launches(Case):
     def test_late_bounces_of_packets(self):
         self.assert_late_bounces("8")
 
-    def test_the_host_waits_once_in_eight_bounces(self):
-        """Queues are counted on the device: for each wait of the host there are three launches a bounce, and a few before and after."""
+    def count_calls(self, *options, **environment):
+        """Returns how many times a render of the Cornell box makes each OpenCL call, by name."""
         if "ECLAT_FAULT_SHIM" not in os.environ:
             self.skipTest("no ECLAT_FAULT_SHIM")
-        counts = {"LD_PRELOAD": os.environ["ECLAT_FAULT_SHIM"], "FAULT_CALL": "none", "FAULT_COUNTS": self.path("counts"), "ECLAT_DEVICE_TYPE": "gpu"}
-        self.render("a.exr", "--size", "48x48", "--spp", "16", **counts)
+        self.render("a.exr", *options, LD_PRELOAD=os.environ["ECLAT_FAULT_SHIM"], FAULT_CALL="none", FAULT_COUNTS=self.path("counts"), **environment)
         with open(self.path("counts"), encoding="utf-8") as file:
-            calls = {name: int(count) for name, count in (line.split() for line in file)}
+            return {name: int(count) for name, count in (line.split() for line in file)}
+
+    def test_the_host_waits_once_in_eight_bounces(self):
+        """Queues are counted on the device: for each wait of the host there are three launches a bounce, and a few before and after."""
+        calls = self.count_calls("--size", "48x48", "--spp", "16", ECLAT_DEVICE_TYPE="gpu")
         self.assertGreater(calls["clEnqueueNDRangeKernel"], 12 * calls["clEnqueueReadBuffer"], calls)
 
-    def test_the_report_tells(self):
-        run = self.assert_ok(eclat("render", CORNELL, "--size", "24x24", "--spp", "8", "-o", self.path("a.exr"), env=SHORT))
-        self.assertRegex(run.stdout + run.stderr, r"(?m)^launches \d+ of kernels, in \d+ pieces, the longest of [\d.]+ .?s$")
-
-    def test_a_limit_that_is_none_is_one_clear_line(self):
-        line = self.assert_one_error(eclat("render", CORNELL, "-q", "-o", self.path("a.exr"), env={"ECLAT_LAUNCH_SECONDS": "soon"}), 1)
-        self.assertIn("ECLAT_LAUNCH_SECONDS=soon: must be the maximum seconds for a launch, or 0 for no limit", line)
-
-    @full
-    def test_pieces_of_single_rays(self):
-        self.assert_cut("--size", "48x48", "--spp", "16", "--lanes", "1")
-
-    def assert_every_integrator(self, scene):
-        """A piece has 64 work-items of each of the 32 parts of a queue. Late bounces have too few rays to cut."""
-        few = "--max-depth", "4"
-        for more in (["--integrator", "whitted", *few], ["--integrator", "raster"], ["--light-paths", "1", *few], ["--guiding", *few], ["--denoise=atrous", *few]):
-            with self.subTest(more=more):
-                self.assert_cut("--size", "128x128", "--spp", "16", *more, scene=scene, ECLAT_DEVICE_TYPE="gpu")
-
-    @full
-    def test_every_integrator(self):
-        self.assert_every_integrator(RING)
-
-    @long
-    def test_every_integrator_with_many_effects(self):
-        self.assert_every_integrator(os.path.join(SOURCE, "scenes", "lamps", "lamps.gltf"))
-
-    @long
-    def test_lanes_and_structures(self):
-        for more in (["--accel", "bvh2"], ["--accel", "bvh8"], ["--accel", "grid"], ["--accel", "kdtree"]):
-            with self.subTest(more=more):
-                self.assert_cut("--size", "256x256", "--spp", "4", "--max-depth", "4", *more)
-
-
-if __name__ == "__main__":
-    unittest.main()
+    def test_a_processor_is_looked_at_where_the_last_wave_ended(self):
+        """Some paths of each wave have all 20 bounces: 60 launches, and one read of the queues and one of the dropped samples."""
+        options = "--size", "16x16", "--wave", "4096", "--accel", "bvh8", "--rr", "1", "--max-depth", "20", "--spp"
+        few, many = self.count_calls(*options, "64"), self.count_calls(*options, "192")
+        more = {name: many[name] - few[name] for name in ("clEnqueueNDRangeKernel", "clEnqueueReadBuffer")}
+        self.assertGreater(more["clEnqueueReadBuffer"], 0)
+        self.assertGreater(more["clEnqueueNDRangeKernel"], 28 * more["clEnqueueReadBuffer"], more)
